@@ -52,7 +52,7 @@ Exactly times(const Exactly (&rows)[3], const Exactly& v) {
     return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
 }
 
-/// The same form about another origin.
+/// Returns the same form about another origin.
 Form about(const Vec3d& origin, Form form) {
     const Exactly at = convert<Dyadic>(origin), before = form.linear;
     form.linear = before + times(form.rows, at);
@@ -60,7 +60,7 @@ Form about(const Vec3d& origin, Form form) {
     return form;
 }
 
-/// Sylvester's criterion for the matrix of 4 x 4.
+/// Returns true if the 4 x 4 matrix is positive definite, by Sylvester's criterion.
 bool is_positive(const Form& form) {
     const auto& [a, b, c] = form.rows;
     if (a.x.sign() <= 0 || (a.x * b.y - a.y * a.y).sign() <= 0) return false;
@@ -77,7 +77,7 @@ Vec3d nearly(const Exactly& v) {
     return {nearly(v.x), nearly(v.y), nearly(v.z)};
 }
 
-/// The power of two that brings the largest component to [1, 2).
+/// Returns the power of two that brings the largest component to [1, 2).
 Dyadic to_one(std::initializer_list<double> components) {
     double largest = 0.0;
     for (const double component : components)
@@ -103,7 +103,7 @@ Form form_of(const QuadricOf<double>& q, bool reversed) {
     return about(-q.center, (reversed ? -factor : factor) * form);
 }
 
-/// -a(p) b(p)
+/// Returns -a(p) b(p).
 Form less_product(const LinearForm& a, const LinearForm& b) {
     const Dyadic half(-0.5);
     Form form;
@@ -114,14 +114,15 @@ Form less_product(const LinearForm& a, const LinearForm& b) {
     return form;
 }
 
-/// False of most forms that no ellipsoid has: cylinders and cones cost no exact arithmetic then.
+/// Returns false for most forms that are not an ellipsoid's, so that cylinders and cones need no
+/// exact arithmetic.
 bool may_be_definite(const QuadricOf<double>& q) {
     const Vec3d a(q.xx, q.xy, q.xz), b(q.xy, q.yy, q.yz), c(q.xz, q.yz, q.zz);
     const double mean = (q.xx + q.yy + q.zz) / 3.0;
     return core::dot(a, core::cross(b, c)) / mean / mean / mean > 1e-12;
 }
 
-/// Bounds of where a form is at most 0.
+/// Bounds of the points at which all added forms are at most 0.
 class Extent {
   public:
     Bounds bounds = everywhere();
@@ -178,7 +179,7 @@ QuadricOf<double> within(QuadricOf<double> quadric, const Bounds& bounds) {
 }
 
 Bounds bounds_of_common(std::span<const HalfSpace> half_spaces) {
-    // More of them cost more than bounds are worth.
+    // More forms would cost more than bounds are worth.
     constexpr std::size_t most_quadrics = 4, most_planes = 12;
     const bool is_single = half_spaces.size() == 1;
     std::vector<Form> quadrics;

@@ -7,7 +7,7 @@
 
 namespace raylane::core {
 
-/// One side of a plane, or of all of a quadric's surface: its own box does not count.
+/// One side of a plane, or of a quadric's complete surface: the quadric's box does not count.
 struct HalfSpace {
     PartShape shape;
     bool reversed = false; ///< the outside

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-/// Bounds that solids are found in.
+/// Computes bounds of solids.
 namespace raylane::core {
 
 inline Bounds everywhere() {
@@ -32,11 +32,11 @@ inline bool contains(const Bounds& outer, const Bounds& inner) {
     return outer.contains(inner.lower) && outer.contains(inner.upper);
 }
 
-/// How often a box is halved along each axis.
+/// Number of times that a box is halved along each axis.
 inline constexpr std::size_t most_halvings = 3;
 
-/// Bounds of all points in a box where something may be; where that is, is found out by halves.
-/// Calls may_be(place of a cell, halvings that are left), of a cell after the one that it is in.
+/// Bounds of all points of a box at which a predicate may hold, found by halving the box. Calls
+/// may_be(position of a cell, remaining halvings) for a cell after the cell that contains it.
 template <class MayBe>
 class Hull {
   public:
@@ -64,7 +64,7 @@ class Hull {
     Bounds hull_;
 };
 
-/// The same again and again, while it shrinks.
+/// Repeats this while the bounds shrink.
 template <class MayBe>
 Bounds hull_in(Bounds box, const MayBe& may_be) {
     for (int turn = 0; turn < 4 && !is_empty(box); ++turn) {

@@ -10,7 +10,8 @@ namespace raylane::core {
 
 namespace {
 
-/// How far a surface is behind its vertex at the lens' edge; NaN if it does not reach it.
+/// Returns the sagitta: how far a surface is behind its vertex at the distance `at` from the axis;
+/// NaN if the surface does not reach so far.
 double sag(double radius, double conic, double at) {
     if (radius == 0.0) return 0.0;
     const double curvature = 1.0 / radius;
@@ -18,7 +19,7 @@ double sag(double radius, double conic, double at) {
            (1.0 + std::sqrt(1.0 - (1.0 + conic) * curvature * curvature * at * at));
 }
 
-/// What is behind a round surface: where its centre is.
+/// Returns the solid on that side of a curved surface on which its centre of curvature is.
 PartShape behind(double vertex, double radius, double conic) {
     if (conic == 0.0) return SphereOf<double>{{0.0, 0.0, vertex + radius}, std::abs(radius)};
     // x^2 + y^2 + (1 + k) z^2 - 2 R z = 0
@@ -32,7 +33,7 @@ PartShape behind(double vertex, double radius, double conic) {
     return form;
 }
 
-/// On the side of z that `outward`, of 1 or -1 along the axis, points away from.
+/// Returns the half-space on the side of z opposite to `outward`, which is 1 or -1 along the axis.
 Solid half_space(double z, double outward) {
     return of_shape(PlaneOf<double>{{0.0, 0.0, z}, {0.0, 0.0, outward}});
 }
@@ -52,21 +53,24 @@ struct Sides {
     double vertex(int side) const { return side == 0 ? 0.0 : lens.thickness; }
     bool is_flat(int side) const { return lens.radii[side] == 0.0; }
     bool bulges(int side) const { return is_flat(side) || (lens.radii[side] > 0.0) == (side == 0); }
-    /// Of an ellipsoid, or between both sheets of a hyperboloid; of a paraboloid not finite.
+    /// Returns the middle of an ellipsoid, or the point midway between the sheets of a hyperboloid;
+    /// not finite for a paraboloid.
     double middle(int side) const {
         return vertex(side) + lens.radii[side] / (1.0 + lens.conics[side]);
     }
 
-    /// All that is behind a bulge, or before a hollow, as far as the lens goes.
+    /// Returns the solid behind a bulging surface, or in front of a hollow one, as far as the lens
+    /// reaches.
     Solid body(int side) const {
-        const double into = side == 0 ? 1.0 : -1.0; // of the lens, along z
+        const double into = side == 0 ? 1.0 : -1.0; // direction into the lens, along z
         if (is_flat(side)) return half_space(vertex(side), -into);
         Solid round = of_shape(behind(vertex(side), lens.radii[side], lens.conics[side]));
         const double conic = lens.conics[side];
         const double across = 2.0 * into * lens.radii[side] / (1.0 + conic);
         const double depth = side == 0 ? std::max(lens.thickness, edges[1])
                                        : lens.thickness - std::min(0.0, edges[0]);
-        // Neither the far side of an ellipsoid nor the other sheet of a hyperboloid is of the lens.
+        // The far side of an ellipsoid and the other sheet of a hyperboloid are not parts of the
+        // lens.
         if (bulges(side)) {
             const double rim = std::abs(edges[side] - vertex(side));
             const bool is_ball = lens.radii[0] == -lens.radii[1] &&
@@ -80,7 +84,7 @@ struct Sides {
     }
 };
 
-/// From the axis z to another.
+/// Returns a rotation from the axis z to another axis.
 Transform turned_to(const Vec3d& axis) {
     if (axis.x == 0.0 && axis.y == 0.0)
         return axis.z > 0.0 ? Transform() : Transform::rotation({180.0, 0.0, 0.0});
@@ -115,7 +119,7 @@ Solid solid_of(const Lens& lens) {
                                         "the lens' radius, got " +
                                             checks::text_of(lens.thickness));
 
-    // Its ends are outside of the lens, and before a conic's other sheet.
+    // The cylinder's ends are outside of the lens, and in front of a conic's other sheet.
     double beyond = 0.5 * lens.thickness;
     for (int side = 0; side < 2; ++side)
         if (lens.conics[side] < -1.0)
@@ -128,7 +132,8 @@ Solid solid_of(const Lens& lens) {
         const bool bulges = surfaces.bulges(side);
         (bulges ? inside : whole).parts.push_back(surfaces.body(side));
         if (bulges || !(lens.conics[side] > -1.0)) continue;
-        // An ellipsoid ends behind its middle.
+        // The cylinder must not extend beyond the middle of a hollow ellipsoid, which narrows
+        // there.
         const double middle = surfaces.middle(side);
         ends[side] = side == 0 ? std::max(ends[0], middle) : std::min(ends[1], middle);
     }

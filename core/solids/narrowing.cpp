@@ -9,13 +9,14 @@ namespace raylane::core {
 
 namespace {
 
-/// An expression has at most so many terms for each part of its group: all of those of a solid of
-/// hundreds of parts.
+/// Returns the maximum number of terms of an expression for each part of its group. A solid of
+/// hundreds of parts can have all its terms.
 std::size_t terms_for_each(std::size_t parts) {
     return std::max<std::size_t>(64, (std::size_t{1} << 19) / parts);
 }
 
-/// So many terms may be looked at for the bounds of each part. Then they stay as they are.
+/// Returns the maximum number of terms to evaluate for the bounds of each part. Beyond it, the
+/// bounds stay as they are.
 std::size_t most_steps(std::size_t parts) {
     return std::min<std::size_t>(std::size_t{1} << 13, (std::size_t{1} << 23) / parts);
 }
@@ -42,7 +43,7 @@ bool SolidNarrowing::needs_inside(Index part) const {
             return is_solid<Shape>;
         });
     for (Index above = node.parent; above != Solids::none; above = nodes_[above].parent)
-        needs = needs || nodes_[above].many; // whose parts are found by it
+        needs = needs || nodes_[above].many; // the hierarchy finds its parts by their inside
     return needs;
 }
 
@@ -70,7 +71,7 @@ Value SolidNarrowing::reduce_term(const std::vector<Term>& from, std::size_t at,
     const Value decides = node.op == Solids::Op::all ? Value::no : Value::yes;
     bool is_decided = !term.is_cut && !node.many;
     for (std::size_t child = at + 1; child < term.end; child = from[child].end) {
-        if (node.many) { // of whose parts the others are not looked at
+        if (node.many) { // evaluates only the group's parts
             const auto is_kept = [&](const Term& of) { return is_of_group(of.node); };
             if (std::any_of(&from[child], &from[0] + from[child].end, is_kept))
                 reduce_term(from, child, box, to);
@@ -91,7 +92,7 @@ Value SolidNarrowing::reduce_term(const std::vector<Term>& from, std::size_t at,
         return !decides;
     }
     to[begin].end = to.size();
-    if (to.size() == begin + 1 && begin >= most_terms_) to.pop_back(); // all of it is cut
+    if (to.size() == begin + 1 && begin >= most_terms_) to.pop_back(); // all its terms are cut
     return Value::unknown;
 }
 

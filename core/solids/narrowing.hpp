@@ -65,10 +65,10 @@ class SolidNarrowing {
     std::vector<Bounds>& bounds_;
     Index solid_ = 0;
     std::vector<Index> parts_;         // by place
-    std::vector<std::size_t> number_;  // in parts_, by node of the solid
+    std::vector<std::size_t> number_;  // index in parts_, by node of the solid
     std::size_t first_ = 0, last_ = 0; // of the group
     std::size_t most_terms_ = 0, steps_ = 0;
-    std::array<Expression, most_halvings + 2> reduced_; // by the halvings of a hull that are left
+    std::array<Expression, most_halvings + 2> reduced_; // by remaining halvings of a hull
 };
 
 } // namespace raylane::core

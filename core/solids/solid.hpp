@@ -24,22 +24,24 @@ struct VariantOf<std::tuple<Shape...>> {
 /// A shape of any kind, in doubles.
 using PartShape = detail::VariantOf<Shapes>::type;
 
-/// What solids are made of others by. What `clip` leaves has no faces where it was cut.
+/// How a solid is made of others. A solid made by clip has no faces where it was cut.
 enum class Made : std::uint8_t { of_shape, by_union, by_intersection, by_difference, by_clip };
 
 inline constexpr MaterialIndex no_material = std::numeric_limits<MaterialIndex>::max();
 
-/// A solid that is made of others, as it is described. Its parts are solids, or half-spaces: what
-/// is behind a plane, and where a quadric's form is less than 0, wherever that is.
+/// The description of a solid that is made of others. Its parts are solids or half-spaces. The
+/// half-space of a plane is behind it; that of a quadric is where its form is less than 0,
+/// regardless of its box.
 struct Solid {
     Made made = Made::of_shape;
-    PartShape shape{};          ///< of_shape
-    std::vector<Solid> parts{}; ///< else; by_difference: the first, less all others; by_clip: what
-                                ///< of the first is inside of all others
+    PartShape shape{}; ///< of_shape
+    /// Otherwise. by_difference: the first part minus the others; by_clip: the part of the first
+    /// that is inside of all others.
+    std::vector<Solid> parts{};
     MaterialIndex material = no_material; ///< none: that of the whole
-    bool endless_as_part = false; ///< an open cylinder or cone that was stretched: as a part of
-                                  ///< another it is what its own first part is
-    bool cuts_nothing = false;    ///< of what clips: it only says where the others are
+    bool endless_as_part = false;         ///< a stretched open cylinder or cone: as a part of
+                                          ///< another solid, it stands for its first part
+    bool cuts_nothing = false;            ///< for a clipping solid: it only bounds the others
 };
 
 inline Solid of_shape(const PartShape& shape) {

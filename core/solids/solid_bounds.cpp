@@ -9,12 +9,13 @@
 #include <cmath>
 #include <vector>
 
-/// Where a solid and its parts may be, and where it matters.
+/// Computes the bounds of a solid and its parts, and of the points at which a part matters.
 namespace raylane::core {
 
 namespace {
 
-/// What is in front of, or behind, a plane at right angles to an axis has bounds on one side.
+/// Returns the bounds of the half-space behind (or, if reversed, in front of) a plane. They are
+/// finite on one side if the plane is perpendicular to an axis.
 Bounds bounds_of_half_space(const PlaneOf<double>& plane, bool reversed) {
     Bounds bounds = everywhere();
     for (int axis = 0; axis < 3; ++axis) {
@@ -30,7 +31,8 @@ Bounds bounds_of_half_space(const PlaneOf<double>& plane, bool reversed) {
 
 } // namespace
 
-/// The halves of sums and differences of floats, off by less than an ulp of the larger one.
+/// The half sums and half differences of floats have an error of less than an ulp of the larger
+/// one.
 Somewhere somewhere_in(const Bounds& bounds) {
     Somewhere point;
     for (int axis = 0; axis < 3; ++axis) {
@@ -43,7 +45,7 @@ Somewhere somewhere_in(const Bounds& bounds) {
     return point;
 }
 
-/// Wherever it has a surface.
+/// Returns the bounds of a part's surface.
 Bounds SolidCollector::bounds_of_shape(Index part) const {
     return std::visit(
         []<class Shape>(const Shape& shape) {
@@ -55,7 +57,7 @@ Bounds SolidCollector::bounds_of_shape(Index part) const {
         shapes_[part]);
 }
 
-/// Of what is inside of a part, or of what is not.
+/// Returns the bounds of the inside of a part, or of its outside.
 Bounds SolidCollector::bounds_of_part(Index index, bool outside) const {
     const bool reversed = solids_.nodes_[index].reversed != outside;
     return std::visit(
@@ -70,8 +72,8 @@ Bounds SolidCollector::bounds_of_part(Index index, bool outside) const {
         shapes_[index]);
 }
 
-/// Returns bounds of the points inside of all planes and quadrics that a node has itself, or
-/// outside of all of them if the node is a union.
+/// Returns bounds of the points inside of all planes and quadrics that are direct children of a
+/// node, or outside of all of them if the node is a union.
 Bounds SolidCollector::bounds_between_parts(Index index) const {
     const bool outside = solids_.nodes_[index].op == Solids::Op::any;
     std::vector<HalfSpace> half_spaces;
@@ -84,7 +86,7 @@ Bounds SolidCollector::bounds_between_parts(Index index) const {
     return bounds_of_common(half_spaces);
 }
 
-/// Of nodes from one on.
+/// Computes the hulls of all nodes from `first` on.
 void SolidCollector::find_hulls(Index first) {
     hulls_.resize(solids_.nodes_.size());
     for (auto index = static_cast<Index>(solids_.nodes_.size()); index-- > first;) {
@@ -109,8 +111,8 @@ void SolidCollector::find_hulls(Index first) {
     }
 }
 
-/// Bounds of where it may matter that one is inside of a part, and of where it has a surface:
-/// inside of all with which it is intersected, outside of what it is united with.
+/// Returns bounds of the points at which the inside or the surface of a part may matter: inside of
+/// all nodes with which it is intersected, outside of all nodes with which it is united.
 Bounds SolidCollector::allowed(Index part) const {
     Bounds bounds = everywhere();
     for (Index above = solids_.nodes_[part].parent; above != Solids::none;
@@ -123,7 +125,7 @@ Bounds SolidCollector::allowed(Index part) const {
     return bounds;
 }
 
-/// True if all quadrics of a solid have bounds.
+/// Returns true if all quadrics of a solid have bounds.
 bool SolidCollector::has_bounds(Index solid) const {
     for (Index part = solid; part < solids_.nodes_[solid].end; ++part) {
         const Node& node = solids_.nodes_[part];

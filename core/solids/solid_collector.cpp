@@ -12,7 +12,7 @@
 
 namespace raylane::core {
 
-/// Open cylinders and cones have none by themselves.
+/// Converts open cylinders and cones to half-spaces, as they have no inside by themselves.
 PartShape SolidCollector::as_half_space(const PartShape& shape) {
     return std::visit(
         []<class Shape>(const Shape& of) -> PartShape {
@@ -42,7 +42,7 @@ void SolidCollector::find_bounds(Index solid, SolidNarrowing& narrowing) {
     whole = hulls_[solid].inside;
     if (is_finite(whole) && !nodes[solid].many) narrowing.narrow_whole(solid);
     const Bounds of_solid = whole;
-    // Unbounded parts are in no hierarchy.
+    // The hierarchy has no unbounded parts.
     if (!is_finite(of_solid))
         for (Index index = solid; index < nodes[solid].end; ++index)
             if (nodes[index].many && !nodes[index].counts)
@@ -62,8 +62,8 @@ void SolidCollector::find_bounds(Index solid, SolidNarrowing& narrowing) {
     narrowing.narrow_parts(solid, std::move(finite));
 }
 
-/// Puts a part into the list of its kind, or of one that is the same half-space and can have
-/// bounds.
+/// Adds a part to the list of its kind. A bounded plane becomes a quadric with the same half-space,
+/// as planes cannot have bounds.
 void SolidCollector::put(Index part, ShapeLists& lists) {
     Node& node = solids_.nodes_[part];
     Bounds& bounds = solids_.bounds_[part];
@@ -78,12 +78,12 @@ void SolidCollector::put(Index part, ShapeLists& lists) {
     };
     std::visit(
         [&]<class Shape>(const Shape& shape) {
-            // All crossings of those that count are to be found, wherever they are.
+            // Counting needs all crossings of these parts, wherever they are.
             if constexpr (is_solid<Shape>)
                 if (node.parent != Solids::none && solids_.nodes_[node.parent].counts)
                     bounds = core::bounds_of(shape);
             if constexpr (kind_of<Shape> == Kind::quadric) {
-                assert(is_finite(bounds)); // as add() has seen to
+                assert(is_finite(bounds)); // ensured by add()
                 with_bounds(shape);
             } else if constexpr (kind_of<Shape> == Kind::plane) {
                 node.flat = true;
@@ -104,7 +104,7 @@ void SolidCollector::put(Index part, ShapeLists& lists) {
         PartShape(shapes_[part]));
 }
 
-/// True if all that is inside of a node is in the bounds of a part that rays cross.
+/// Returns true if the inside of a node is within the bounds of a part that rays cross.
 bool SolidCollector::is_covered(Index index) const {
     const Node& node = solids_.nodes_[index];
     if (node.op == Solids::Op::part)
@@ -121,7 +121,8 @@ bool SolidCollector::is_covered(Index index) const {
     return covered;
 }
 
-/// Has its first part found wherever something is inside of it.
+/// Extends the bounds of a node's first traced part, so that the hierarchy finds the part wherever
+/// the node has an inside.
 void SolidCollector::cover(Index index, const Bounds& bounds) {
     if (is_covered(index)) return;
     for (Index part = index; part < solids_.nodes_[index].end; ++part)
@@ -170,7 +171,7 @@ void SolidCollector::list(ShapeLists& lists) {
             ++children;
             return true;
         });
-        // What no ray crosses is in no hierarchy.
+        // The hierarchy has no parts that rays do not cross.
         const bool is_traced =
             std::all_of(nodes.begin() + index, nodes.begin() + node.end, [](const Node& part) {
                 return part.op != Solids::Op::part || part.traced;

@@ -16,9 +16,9 @@ class SolidCollector {
   public:
     bool any() const { return !solids_.nodes_.empty(); }
 
-    /// Adds a solid, all of whose shapes are valid. Calls add_part(material) for each that is to be
-    /// a shape of the scene, which returns its id. Throws InvalidValue, and is as before, for what
-    /// has no bounds and would need some.
+    /// Adds a solid, whose shapes must all be valid. Calls add_part(material) for each shape that
+    /// becomes one of the scene; it returns the shape's id. Throws InvalidValue, and changes
+    /// nothing, if the solid needs bounds and has none.
     template <class AddPart>
     void add(const Solid& solid, MaterialIndex material, const AddPart& add_part);
 
@@ -27,11 +27,11 @@ class SolidCollector {
             if (medium != no_material) medium = new_index[medium];
     }
 
-    /// Finds out which parts of shapes may be seen, and puts those that may into the lists.
+    /// Determines which parts may be visible, and adds these to the lists.
     void list(ShapeLists& lists);
-    /// As far as they are known before the tables are filled.
+    /// Returns the solids, as far as they are known before the tables are filled.
     const Solids& solids() const { return solids_; }
-    /// Once the tables are filled. What is not traced is put into them, too.
+    /// Returns the solids. Call it once the tables are filled; adds untraced parts to them, too.
     Solids finish(Tables& tables);
 
   private:
@@ -56,13 +56,13 @@ class SolidCollector {
     void cover(Index index, const Bounds& bounds);
 
     Solids solids_;
-    /// Bounds of what is in a node, and of what is not.
+    /// Bounds of the inside and the outside of a node.
     struct Hulls {
         Bounds inside, outside;
     };
     std::vector<PartShape> shapes_;              // by node
-    std::vector<Hulls> hulls_;                   // the same
-    MaterialIndex first_material_ = no_material; // of the solid that is being added
+    std::vector<Hulls> hulls_;                   // by node
+    MaterialIndex first_material_ = no_material; // first material of the solid being added
 };
 
 template <class AddPart>
@@ -103,7 +103,7 @@ void SolidCollector::add_node(const Solid& solid, MaterialIndex material, bool r
         }
         return;
     }
-    // The outside of an intersection is the union of what is outside of its parts.
+    // The outside of an intersection is the union of the outsides of its parts.
     const Solids::Op op =
         (solid.made != Made::by_union) != reversed ? Solids::Op::all : Solids::Op::any;
     const bool is_of_parent = parent != Solids::none && solids_.nodes_[parent].op == op;

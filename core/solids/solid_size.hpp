@@ -7,7 +7,7 @@
 
 namespace raylane::core {
 
-/// Shapes that a solid is made of, those that only clip it included.
+/// Returns the number of shapes of a solid, including those that only clip it.
 inline std::size_t count_parts(const Solid& solid) {
     std::size_t count = solid.made == Made::of_shape ? 1 : 0;
     for (const Solid& part : solid.parts)
@@ -15,7 +15,7 @@ inline std::size_t count_parts(const Solid& solid) {
     return count;
 }
 
-/// Levels of solids within it: 1 of a shape.
+/// Returns the number of levels of solids; 1 for a shape.
 inline int depth_of(const Solid& solid) {
     int depth = 0;
     for (const Solid& part : solid.parts)

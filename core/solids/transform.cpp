@@ -13,7 +13,7 @@ namespace {
 
 using Exactly = Vec3<Dyadic>;
 
-/// The double that is nearest, ties to even; below what shapes in double are made of the float.
+/// Returns the nearest double, ties to even; below `least_double`, the nearest float.
 double rounded(const Dyadic& value) {
     double nearest = value.approximately().to_double();
     if (value.sign() == 0) return 0.0;
@@ -53,7 +53,8 @@ struct Transform::Form {
         return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
     }
 
-    /// Times a power of two, so that no coefficient is large.
+    /// Returns the quadric about a centre, scaled by a power of two so that no coefficient is
+    /// large.
     QuadricOf<double> at(const Vec3d& center) const {
         std::int64_t most = std::numeric_limits<std::int64_t>::min();
         const auto see = [&](const Dyadic& a) {
@@ -90,7 +91,8 @@ struct Transform::Form {
         return q;
     }
 
-    /// Of the body of a frustum about an axis from 0: |across|^2 = width^2, times |axis|^4.
+    /// Returns the form of the body of a frustum about an axis from 0: |across|^2 = width^2, times
+    /// axis|^4.
     static Form around(const Vec3d& axis, double base_radius, double top_radius) {
         const Exactly a = exactly(axis);
         const Dyadic length = squared_length(a), slope = Dyadic(top_radius) - Dyadic(base_radius);
@@ -166,8 +168,8 @@ Transform Transform::matrix(const double (&rows)[3][4]) {
     }
     if (result.determinant().sign() == 0)
         throw InvalidValue("transform", "must not be singular, got one of determinant 0");
-    // Lengths keep their ratios if its columns are at right angles, and as long as one another: of
-    // numbers that are rounded that is so only where each has one.
+    // A matrix scales all lengths equally if its columns are perpendicular and of equal length.
+    // With rounded numbers, this counts only if each row has a single number that is not 0.
     result.even_.reset();
     double size = 0.0;
     bool even = true;
@@ -259,7 +261,7 @@ Solid Transform::moved(const DiscOf<double>& s) const {
                                    rounded(Dyadic(s.radius) * *even_)});
 }
 
-/// The front stays the front.
+/// Keeps the front.
 Solid Transform::moved(const TriangleOf<double>& s) const {
     TriangleOf<double> result{rounded(point(s.a)), rounded(point(s.b)), rounded(point(s.c))};
     if (determinant().sign() < 0) std::swap(result.b, result.c);
@@ -289,7 +291,7 @@ Solid Transform::moved(const EllipsoidOf<double>& s) const {
                                         rounded(times(exactly(s.axis_w)))});
 }
 
-/// With p = M q for the centre's q: F(q) det^2 = F(adj(M) p / det) det^2.
+/// Let p = M q for q relative to the centre: F(q) det^2 = F(adj(M) p / det) det^2.
 QuadricOf<double> Transform::moved(const Form& form, const Vec3d& center) const {
     const Dyadic det = determinant();
     Form result;
@@ -311,7 +313,7 @@ Solid Transform::moved(const QuadricOf<double>& s) const {
     return of_shape(moved(form, s.center));
 }
 
-/// A quadric between two planes.
+/// Returns a quadric between two planes.
 Solid Transform::between_ends(const Form& form, const Vec3d& base, const Vec3d& axis, double radius,
                               Ends ends) const {
     const Row along = normal(exactly(axis));
@@ -320,7 +322,7 @@ Solid Transform::between_ends(const Form& form, const Vec3d& base, const Vec3d& 
     result.parts.push_back(of_shape(PlaneOf<double>{rounded(point(base)), rounded(Row(-along))}));
     result.parts.push_back(of_shape(PlaneOf<double>{
         rounded(Row(times(exactly(base) + exactly(axis)) + translation_)), rounded(along)}));
-    // A box around it, which cuts nothing, says where it is.
+    // A box around the solid, which cuts nothing, gives its position.
     const Vec3d least = std::abs(axis.x) < std::abs(axis.y) && std::abs(axis.x) < std::abs(axis.z)
                             ? Vec3d(1.0, 0.0, 0.0)
                         : std::abs(axis.y) < std::abs(axis.z) ? Vec3d(0.0, 1.0, 0.0)

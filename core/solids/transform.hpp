@@ -8,32 +8,32 @@
 
 namespace raylane::core {
 
-/// An affine map x -> M x + t in exact numbers. What is made of several is multiplied out exactly;
-/// only the numbers of a shape that is moved are rounded, each once.
+/// An affine map x -> M x + t in exact numbers. Products of maps are exact. Only the numbers of a
+/// transformed shape are rounded, each once.
 class Transform {
   public:
-    Transform(); ///< nothing moves
+    Transform(); ///< identity
     static Transform translation(const Vec3d& by);
-    /// About the axes x, y and z, one after the other, in degrees. The matrix has the sines and
-    /// cosines as doubles: of multiples of 90 degrees exactly.
+    /// Rotates about the axes x, y and z, one after the other, in degrees. The matrix has the sines
+    /// and cosines as doubles, which are exact for multiples of 90 degrees.
     static Transform rotation(const Vec3d& degrees);
-    /// From the axes x, y and z to others of length 1 at right angles to each other.
+    /// Rotates the axes x, y and z to other perpendicular axes of length 1.
     static Transform turn(const Vec3d& x, const Vec3d& y, const Vec3d& z);
-    /// No factor is 0.
+    /// Scales along the axes. No factor may be 0.
     static Transform scaling(const Vec3d& by);
-    /// Rows of M with t behind; M must not be singular.
+    /// Takes the rows of M, each followed by its element of t; M must not be singular.
     static Transform matrix(const double (&rows)[3][4]);
 
-    /// First `first`, then this one.
+    /// Returns the product of two maps: `first`, then this one.
     Transform after(const Transform& first) const;
 
-    /// A solid, or any shape, moved. What round shapes become by a map that stretches them is an
-    /// ellipsoid, or a quadric between planes; an open one of these is clipped by them, but as a
-    /// part of another solid endless like any. Throws InvalidValue for a disc that is stretched,
-    /// which is no disc.
+    /// Transforms a solid, or any shape. A map that stretches a round shape turns it into an
+    /// ellipsoid, or into a quadric between planes. If the shape is open, the planes clip the
+    /// quadric; as a part of another solid, the quadric is endless like any other. Throws
+    /// InvalidValue for a stretched disc.
     Solid operator()(const Solid& solid) const;
 
-    struct Form; ///< of a quadric
+    struct Form; ///< form of a quadric
 
   private:
     using Row = Vec3<Dyadic>;
@@ -41,7 +41,7 @@ class Transform {
     Dyadic determinant() const;
     Row times(const Row& v) const;           ///< M v
     Row point(const Vec3d& p) const;         ///< M p + t
-    Row normal(const Row& n) const;          ///< its direction stays outward
+    Row normal(const Row& n) const;          ///< keeps it pointing outward
     Row cofactors_times(const Row& v) const; ///< det(M) M^-T v
     Row adjugate_times(const Row& v) const;  ///< det(M) M^-1 v
 
@@ -64,11 +64,11 @@ class Transform {
 
     std::array<Row, 3> rows_;
     Row translation_{};
-    std::optional<Dyadic> even_; ///< the factor of all lengths, if there is one
+    std::optional<Dyadic> even_; ///< the common factor of all lengths, if any
 };
 
-/// The infinite half-space on the inside of an open cylinder or cone: its form's coefficients,
-/// rounded once. Of a cone both nappes.
+/// Returns the infinite half-space on the inside of an open cylinder or cone: the coefficients of
+/// its form, rounded once. A cone's has both nappes.
 QuadricOf<double> half_space_of(const CylinderOf<double, Ends::open>& cylinder);
 QuadricOf<double> half_space_of(const ConeOf<double, Ends::open>& cone);
 
