@@ -86,8 +86,7 @@ class Packer {
     void collect_radii() {
         std::map<std::uint32_t, std::size_t> by_pattern;
         std::vector<Counts> found(std::min<std::size_t>(tasks_, 64));
-        for (std::size_t first = 0; first < tasks_;
-             first += found.size()) { // bounds the memory in use
+        for (std::size_t first = 0; first < tasks_; first += found.size()) { // limits memory
             const std::size_t some = std::min(found.size(), tasks_ - first);
             std::fill(found.begin(), found.end(), Counts());
             workers_.each(some, [&](std::size_t i) {

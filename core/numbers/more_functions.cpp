@@ -17,8 +17,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double large = 709.0;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr int most_squared =
-    1024; // largest exponent for repeated squaring, whose relative error is 2^-90
+constexpr int most_squared = 1024; // for repeated squaring, with an error of 2^-90
 
 /// x^n for finite x != 0 and |n| <= most_squared.
 double whole_power(double x, int n) {

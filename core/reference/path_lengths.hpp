@@ -57,8 +57,7 @@ class PathLengths {
     std::vector<Hit<double>> closed_; // hits of solids that are not cut open, if some are cut open
     std::vector<SharpHit> sharp_;
     std::vector<std::pair<ShapeId, std::size_t>> by_solid_; // with the index of the hit
-    std::vector<OfMaterial>
-        materials_; // the first count_ belong to the ray; the others are reused memory
+    std::vector<OfMaterial> materials_; // of the ray: the first count_; the rest is spare
     std::size_t count_ = 0;
     std::vector<std::uint32_t> place_of_; // by material: its index in materials_, if present
 };

@@ -69,9 +69,9 @@ class CameraRays {
         const SamplePoint point =
             sample_point(pattern_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                          static_cast<std::uint32_t>(sample));
-        return filtered({(Real(sample % grid_) + Real(point.x)) / Real(grid_),
-                         (Real(sample / grid_) + Real(point.y)) /
-                             Real(grid_)}); // NOLINT: integer division gives the row
+        return filtered(
+            {(Real(sample % grid_) + Real(point.x)) / Real(grid_),
+             (Real(sample / grid_) + Real(point.y)) / Real(grid_)}); // NOLINT: whole rows
     }
     /// Maps an evenly distributed position in [0, 1)^2 to the distribution of the filter.
     InPixel filtered(const InPixel& even) const {

@@ -134,8 +134,7 @@ class SceneBuilder {
     /// If set, build() moves each point light that is on a surface off it, to the side that the
     /// camera sees, and calls this with the light's index. By default build() refuses such lights.
     std::function<void(std::size_t)> on_light_moved;
-    std::size_t pack_from =
-        packed_from;            ///< number of spheres from which they are packed to save memory
+    std::size_t pack_from = packed_from; ///< spheres from which they are packed
     Workers* workers = nullptr; ///< threads for the hierarchy; default: the caller's thread
 
     /// Adds a material and returns the index by which shapes refer to it.

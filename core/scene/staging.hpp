@@ -12,11 +12,9 @@ class Scene;
 
 /// Which parts of the view are computed from the visible shapes.
 struct Staging {
-    std::optional<Framing>
-        framing;         ///< how the camera finds its position; none: the scene gives the position
-    bool lights = false; ///< adds a sky and a lamp that move with the camera
-    float depth_cue =
-        0.0F; ///< fog fraction, in the background's colour, at the farthest point, in [0, 1)
+    std::optional<Framing> framing; ///< how the camera finds its position; none: it is given
+    bool lights = false;            ///< adds a sky and a lamp that move with the camera
+    float depth_cue = 0.0F;         ///< fog of the background's color at the far end, in [0, 1)
     /// The camera will go around the shapes, and must see all of them from everywhere.
     bool turning = false;
 

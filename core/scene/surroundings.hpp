@@ -49,7 +49,8 @@ struct Camera {
     float field_of_view =
         45.0F; ///< perspective: degrees from the image's lower to its upper edge, in (0, 180)
     float height = 2.0F; ///< orthographic: height of the image, > 0, in units of length
-    /// Radius, in units of length, of a thin lens around `from`. 0: a pinhole; everything is sharp.
+    /// Radius, in units of length, of a thin lens around `from`, through which all rays of a
+    /// pixel's point go. 0: a pinhole; everything is sharp.
     float lens_radius = 0.0F;
     /// Distance from the lens to the plane in focus, along the line of sight, in units of length.
     /// 0: the plane through `at`.
