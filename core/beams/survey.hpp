@@ -20,7 +20,7 @@ class Survey {
     /// Stages of a pixel: 1 sample, at its middle, then 4, 8, ... 64. A limit may require further
     /// stages.
     static constexpr std::size_t stages = 6;
-    static constexpr std::size_t measured_stages = 5; ///< the last is the reference for errors
+    static constexpr std::size_t measured_stages = 5; ///< all but the last, the reference
     static constexpr int samples_at(std::size_t stage) { return stage == 0 ? 1 : 2 << stage; }
     /// The stage of a pixel with `count` samples, not counting its middle.
     static std::size_t stage_of(int count) {

@@ -9,8 +9,8 @@ namespace raylane::core {
 
 namespace {
 
-/// Maximum number of items that one thread builds as one task. It is much smaller than a scene that
-/// takes long to build, and much larger than the cost of a task is worth.
+/// Maximum number of items that one thread builds as one task: much smaller than a scene that takes
+/// long to build, and large enough that the cost of starting a task does not matter.
 constexpr std::size_t most_in_a_part = std::size_t{1} << 14;
 
 /// Drops duplicates where they are certain to be together: in a small range, or if all centres

@@ -18,8 +18,8 @@ namespace raylane::core {
 /// triangles. Parts of solids are never duplicates either.
 class Duplicates {
   public:
-    /// `material_of`: by id. `polygons`: ids of polygons with more than one triangle, ascending.
-    /// `solids`: null if the scene has no solids.
+    /// `material_of`: by id. `polygons`: those of more than one triangle, ascending. `solids`: null
+    /// if the scene has no solids.
     Duplicates(const ShapeLists& lists, const MaterialIndices& material_of,
                std::span<const IdRange> polygons, const Solids* solids = nullptr)
         : lists_(lists), material_of_(material_of), polygons_(polygons), solids_(solids) {}

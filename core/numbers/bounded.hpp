@@ -172,7 +172,7 @@ Bounded<T> sqrt(const Bounded<T>& a) {
     if (!(static_cast<double>(a.value) > 0.0)) return {T(0.0), most};
     const Rounded<T> root = rounding::root(a.value);
     double error = root.error;
-    // sqrt(x) - sqrt(y)| = |x - y| / (sqrt(x) + sqrt(y)), which is at most a.error / sqrt(a.value)
+    // |sqrt(x) - sqrt(y)| = |x - y| / (sqrt(x) + sqrt(y)), which is at most a.error / sqrt(a.value)
     // and at most sqrt(a.error).
     if (a.error != 0.0)
         error += std::min(a.error / static_cast<double>(root.value), most) + bounded::underflow;

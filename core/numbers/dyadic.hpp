@@ -55,7 +55,7 @@ class Dyadic {
     static int compare_magnitudes(const Dyadic& a, const Dyadic& b);
     void trim();
 
-    // value| = sum of digits_[i] 2^(64 (exponent_ + i)); the digits at both ends are not 0, and 0
+    // |value| = sum of digits_[i] 2^(64 (exponent_ + i)); the digits at both ends are not 0, and 0
     // has no digits.
     InlineVector<Digit, 20> digits_; // enough for most numbers
     std::int64_t exponent_ = 0;

@@ -10,9 +10,9 @@
 /// every processor.
 namespace raylane::core {
 
-/// Operations that `Elementary` needs of double, or of a register of doubles, besides + - * / < >
-/// ==: Bits: as many unsigned 64-bit integers, with + - & ^ << >>. Mask: the result of comparisons.
-/// And sqrt(), correctly rounded.
+/// Operations that `Elementary` needs of double, or of a register of doubles, besides arithmetic
+/// and comparisons (+ - * / < > ==). Bits: as many unsigned 64-bit integers, with + - & ^ << >>.
+/// Mask: the result of comparisons. sqrt(): correctly rounded.
 template <class Number>
 struct Primitives;
 

@@ -11,7 +11,7 @@ namespace raylane::core {
 /// The length of a ray inside of the solids of one material.
 struct MaterialLength {
     MaterialIndex material;
-    double length; ///< in the scene's unit, within an ulp; may be infinite
+    double length; ///< in the scene's unit, within an ulp; infinite without an end
 };
 
 /// Measures the length of a ray, from t_min to t_max, inside of each material's solids. A stretch

@@ -21,7 +21,7 @@ float float_of(double t) {
                                          static_cast<double>(Limits::max())));
 }
 
-/// Return bounds of a value with an error bound, which may be less than half an ulp.
+/// Lower and upper bound of a value with an error bound, which may be less than half an ulp.
 double below(double value, double error) {
     return error == 0.0 ? value
                         : std::nextafter(value - error, -std::numeric_limits<double>::infinity());
@@ -170,7 +170,7 @@ class RoundedDirection {
     }
     /// Returns the floats, which must be sure.
     Vec3f rounded() const { return first_ + Vec3f(0.0F); } // no -0
-    /// Returns the floats, and computes those that are not sure exactly.
+    /// Returns the floats; computes those exactly that are not sure.
     Vec3f rounded(const ExactDirection& exact) const {
         Vec3f result = rounded();
         for (int axis = 0; axis < 3; ++axis)

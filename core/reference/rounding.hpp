@@ -18,8 +18,8 @@ double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<do
 /// more. Decides exactly if t and its error alone leave a doubt.
 int compare_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, double number);
 
-/// Returns true if every t within `error` of this one rounds to the same float as above, and stores
-/// the float in `t_rounded`.
+/// Returns true if every t within `error` of this one rounds to the same float, as by rounded_t().
+/// Stores that float in `t_rounded`, or otherwise the least of them.
 bool rounds_surely(double t, double error, float& t_rounded);
 
 /// Returns true if every number within `error` of this sum rounds to its high part.

@@ -56,8 +56,8 @@ struct Material {
     Vec3f absorption{
         0.0F}; ///< per unit of length inside, >= 0 (Beer-Lambert: exp(-absorption * length))
     /// [0, 1]: the share of the colour that comes from the surface, as with paint on a pane. The
-    /// rest comes from straight behind it. Unlike transmitted light, it is not refracted, absorbed,
-    /// or reduced by reflections.
+    /// rest comes from straight behind it. Unlike transmitted light, the rest is not refracted,
+    /// absorbed, or reduced by reflections.
     float opacity = 1.0F;
     Visible visible = Visible::both;
 

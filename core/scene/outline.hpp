@@ -8,9 +8,9 @@ namespace raylane::core {
 struct Outline {
     float width = 0.0F; ///< pixels, at most max_width; 0: no lines
     Color color{0.0F};  ///< linear RGB
-    /// Minimum angle, in degrees, 0 to 180, between surfaces that meet for a line between them.
-    /// Below 180, a line also separates two materials that meet. 180: lines only where one surface
-    /// is seen in front of another.
+    /// Below 180, lines also separate surfaces that meet if they are bent by at least this angle,
+    /// in degrees, 0 to 180, or if their materials differ. 180: lines only where one surface is
+    /// seen in front of another.
     float creases = 180.0F;
 
     static constexpr float max_width = 32.0F;

@@ -32,13 +32,14 @@ inline double turn_of(const Vec3d& direction) {
 
 } // namespace detail
 
-/// Returns the change of a shape: a continuous map of its surface onto that of the nearest floats
-/// exists, and one back, that moves no point further than this. If a ray crosses the exact surface
-/// at t, the parallel ray displaced by the map crosses the float surface at the same t. Filters
-/// that allow a ray's origin this displacement therefore bound the crossings of the exact shape.
-/// (Suppose that all rays with such a displacement certainly cross the float surface, at a point
-/// that depends on the displacement continuously. Then, by Brouwer's theorem, one of them crosses
-/// it where its displacement equals that of the map: there the ray crosses the exact surface.)
+/// Returns the change of a shape: a distance such that a continuous map of its surface onto that of
+/// the nearest floats, and one back, move no point further than this. If a ray crosses the exact
+/// surface at t, the parallel ray displaced by the map crosses the float surface at the same t.
+/// Filters that allow a ray's origin this displacement therefore bound the crossings of the exact
+/// shape. (Suppose that all rays with such a displacement certainly cross the float surface, at a
+/// point that depends on the displacement continuously. Then, by Brouwer's theorem, one of them
+/// crosses it where its displacement equals that of the map: there the ray crosses the exact
+/// surface.)
 ///
 /// For planes, this is the change of their point; for quadrics, that of the centre and the box.
 /// Filters allow for the relative error of normals and coefficients themselves.

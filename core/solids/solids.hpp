@@ -22,8 +22,8 @@ constexpr Value operator!(Value value) {
     return value == Value::unknown ? value : value == Value::no ? Value::yes : Value::no;
 }
 
-/// A point with bounds. It stands for all points within them, and a function of it is true of all
-/// these points.
+/// A point with bounds. It stands for all points within them: a function of it gives an answer that
+/// holds for all of them.
 using Somewhere = Vec3<Bounded<double>>;
 
 /// Returns the position of a box: all its points.
@@ -87,7 +87,7 @@ class Solids {
             index = nodes_[index].parent;
         return index;
     }
-    /// Returns the child of `above` that is an ancestor of a descendant, or that descendant itself.
+    /// Returns the child of `above` that is, or contains, its descendant `index`.
     Index child_of(Index above, Index index) const {
         while (nodes_[index].parent != above)
             index = nodes_[index].parent;

@@ -92,7 +92,7 @@ struct Transform::Form {
     }
 
     /// Returns the form of the body of a frustum about an axis from 0: |across|^2 = width^2, times
-    /// axis|^4.
+    /// |axis|^4.
     static Form around(const Vec3d& axis, double base_radius, double top_radius) {
         const Exactly a = exactly(axis);
         const Dyadic length = squared_length(a), slope = Dyadic(top_radius) - Dyadic(base_radius);
