@@ -3,10 +3,10 @@
 #include "simd/kernel/shapes/crossings.hpp"
 #include "simd/kernel/shapes/enclosing.hpp"
 
-/// Shared parts of cylinders and cones: core/shapes/axial.hpp
+/// Shared parts of cylinders and cones, as in core/shapes/axial.hpp.
 namespace raylane::simd {
 
-/// A cone where it `tapers`, else a cylinder, whose radii are one number.
+/// The numbers of a cone if `tapers`, otherwise of a cylinder, which has a single radius.
 template <class Arch, bool tapers>
 struct AxialNumbers {
     Vectors<Arch> base, axis;
@@ -20,14 +20,14 @@ struct AxialNumbers {
     }
 
     static constexpr int ends = 2;
-    /// Around one end of the body, which is between both.
+    /// Returns the bounding sphere of one end. The body lies between those of both ends.
     SphereAround<Arch> enclosing(int end) const {
         return end == 0 ? rounded_up<Arch>(base, base_radius)
                         : rounded_up<Arch>(base + axis, top_radius);
     }
 };
 
-/// An axis, and what rays ask of it.
+/// An axis, with the numbers derived from it that rays need.
 template <class Arch>
 struct Axis {
     Vectors<Arch> base, axis;

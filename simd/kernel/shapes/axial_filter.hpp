@@ -5,41 +5,43 @@
 #include "simd/kernel/shapes/first_crossing.hpp"
 #include "simd/kernel/shapes/sphere.hpp"
 
-/// Cylinders and cones. Each ray is first moved to t = `start`, where it enters the slab between
-/// the ends or a sphere about the shape, if it is not inside: so magnitudes are the shape's, the
-/// mirror nappe is left behind, and what crosses the body next is the answer.
+/// Filters of cylinders and cones. Each ray is first moved to t = `start`, where it enters the slab
+/// between the ends or a bounding sphere, unless it starts inside. So magnitudes are those of the
+/// shape, the mirror nappe lies behind the ray, and the ray's next crossing with the body is the
+/// answer.
 namespace raylane::simd {
 
-/// Filter of a cylinder or cone. With the unit axis x, f = origin + start d - base, m = f x x,
-/// n = d x x, the width W + s M at s = t - start, where W = r0 + k f . x, M = k d . x and
-/// k = (r1 - r0) / |axis|:
+/// Filter of a cylinder or cone. Let x be the unit axis, f = origin + start d - base, m = f x x,
+/// n = d x x, and W + s M the width at s = t - start, where W = r0 + k f . x, M = k d . x and
+/// k = (r1 - r0) / |axis|. Then
 ///   F(s) = |m + s n|^2 - (W + s M)^2 = (n.n - M^2) s^2 + 2 (m.n - M W) s + (m.m - W^2)
 /// and, as |m x n| = |f . n|, the discriminant is |W n - M m|^2 - (f . n)^2, without the
 /// cancellation in B^2 - A C. For a cylinder k = 0.
 ///
-/// Rounding moves x by u across itself and changes its length by 3.5 u, k by 5 u. Let |f| stand for
-/// length_above(f) and e = slack + u (3 start + 24 |f|). Then the point at `start` is off by
-/// slack + u (3 start + 2 |f|), and with |n|, |d| <= 1, |m| <= |f|, |W| <= r0 + k |f|:
+/// Rounding moves x by u across itself and changes its length by 3.5 u, and k by 5 u. Let |f| stand
+/// for its upper bound root_above(f . f), and let e = slack + u (3 start + 24 |f|). Then the point
+/// at `start` is off by slack + u (3 start + 2 |f|). With |n|, |d| <= 1, |m| <= |f| and
+/// |W| <= r0 + k |f|, the errors are:
 ///   m       slack + u (3 start + 9 |f|)               n   8 u
 ///   f . n   slack + u (3 start + 13 |f|)              M   15 u k
 ///   W       k (slack + u (3 start + 17 |f|)) + 3 u r0
 ///   W n - M m   k (2 slack + u (6 start + 53 |f|)) + 11 u r0
-/// Of the last and f . n together, with 2 u of each for the squares, the discriminant's `error`
-/// = (1 + 2.5 k) e + 16 u r0. It bounds the errors of m and W with their squares' too, so that
-/// those of C are below 2 error (|m| + |W| + error). B is off by |m| 11 u + |n| (error of m) +
-/// |M| (error of W) + |W| 17 u k < (1 + 2 k^2) e + (22 k + 4) u r0.
+/// The last one and that of f . n together, with 2 u of each for the squares, give
+/// `body` = (1 + 2.5 k) e + 16 u r0 for the discriminant. `body` also bounds the errors of m and W
+/// with those of their squares, so C is off by less than 2 body (|m| + |W| + body). B is off by
+/// |m| 11 u + |n| (error of m) + |M| (error of W) + |W| 17 u k < (1 + 2 k^2) e + (22 k + 4) u r0.
 template <class Arch, bool tapers, bool capped>
 struct AxialFilter {
     using F = Floats<Arch>;
     static constexpr bool is_costly = true;
     static constexpr int values = tapers ? 8 : 7;
 
-    Vectors<Arch> base, axis; ///< of length 1
+    Vectors<Arch> base, axis; ///< axis: of length 1
     Vectors<Arch> whole_axis;
     F largest_radius;
     F half_length, base_radius, narrowing;
-    F reach;             ///< all is this close to the base
-    Mask<Arch> ordinary; ///< |axis|^2 neither overflows nor underflows
+    F reach;             ///< all of the shape is within this distance of the base
+    Mask<Arch> ordinary; ///< no overflow or underflow in |axis|^2
     F body_factor, body_error, slope_factor, slope_error;
 
     template <class Reader>
@@ -82,13 +84,13 @@ struct AxialFilter {
                    body_error, tapers ? slope_factor : o, slope_error);
     }
 
-    /// True where a ray may meet the shape, for less than its bounds.
+    /// True where a ray may meet the shape. Costs less than bounds().
     ///
-    /// With the axis a as given, c = d x a and R the largest radius, the ray passes the line
+    /// Let a be the axis as given, c = d x a and R the largest radius. The ray passes the line
     /// through the axis at a distance of |f . c| / |c|, nearest to base + s a where
     /// s |c|^2 = P = f . a - (f . d)(d . a). It is nearer than R where s is off by less than
-    /// R |d . a| / |c|^2. So it misses if |f . c| > R |c|, and if P is not within R |d . a| of 0 to
-    /// |c|^2.
+    /// R |d . a| / |c|^2. So it misses if |f . c| > R |c|, and if P is not within R |d . a| of the
+    /// interval from 0 to |c|^2.
     ///
     /// With f off by slack + u |f| and d by u, f . c is off by |a| (slack + 8 u |f|), |c| by
     /// 3.5 u |a|, P by |a| (2 slack + 16 u |f|), |c|^2 by 12 u |a|^2 and d . a by 4 u |a|.
@@ -122,11 +124,12 @@ struct AxialFilter {
         return is_number<Arch>(f.x) & ~(missed & known);
     }
 
-    /// That of a sphere around it; where in that it is entered and left is not told.
+    /// The chord is that of a bounding sphere. It does not bound where the ray enters and leaves
+    /// the shape inside the sphere.
     static constexpr bool has_chord_around = true;
     [[gnu::always_inline]] Chord<Arch> chord(const FilterRays<Arch>& rays) const requires capped {
         const Vectors<Arch> middle = fast_mul_add<Arch>(F(0.5F), whole_axis, base);
-        // What underflows is less.
+        // Adds more than anything that underflows.
         const F radius = half_length + largest_radius + F(0x1p-40F);
         const Chord<Arch> around = SphereFilter<Arch>(rounded_up<Arch>(middle, radius)).chord(rays);
         return {around.entry, around.exit_end, zero<Arch>(), around.exit_end};
@@ -145,7 +148,7 @@ struct AxialFilter {
         F start;
         FirstCrossing<Arch> body;
         Mask<Arch> is_shape;
-        Mask<Arch> near;  ///< as the errors in between_ends assume of a ray that hits
+        Mask<Arch> near;  ///< close enough for the errors in between_ends, as is any ray that hits
         Mask<Arch> nappe; ///< W > 0
     };
 
@@ -153,9 +156,9 @@ struct AxialFilter {
         const Vectors<Arch> from_base = rays.origin - base;
         const F closest = negated(fast_dot(from_base, rays.direction));
 
-        // The height above the middle: 9 u |f| and slack for f . x, 2 u |axis| for half the length,
-        // twice, and 3 u of their sum for rounding. |f| <= |closest| + 2 reach if the ray comes
-        // near.
+        // The height above the middle. Its error is 9 u |f| and slack for f . x, 2 u |axis| for
+        // half the length, twice, and 3 u of their sum for rounding. If the ray comes near,
+        // |f| <= |closest| + 2 reach.
         const F position = fast_dot(from_base, axis) - half_length;
         const F rise = fast_dot(rays.direction, axis);
         const F far = abs(closest) + (reach + reach);
@@ -188,7 +191,7 @@ struct AxialFilter {
             g_length = root_above<Arch>(g_squared);
         } else {
             g_squared = base_radius * base_radius * fast_dot(n, n);
-            g_length = base_radius; // |n| <= 1; the rest of it is within the error
+            g_length = base_radius; // |n| <= 1 but for rounding, which the error covers
         }
         const F C = fast_mul_add<Arch>(negated(W), W, m_squared);
         const F C_error = (body + body) * (m_length + abs(W) + body);
@@ -217,18 +220,18 @@ struct AxialFilter {
         const F body_low = (crossing.start + body.low) * F(1 - 4 * half_ulp);
         const F body_high = (crossing.start + body.high) * F(1 + 4 * half_ulp);
 
-        // Within the body at `start`, the solid is entered there at the earliest, unless the ray
-        // is inside already: then the exit counts, by the body or by an end.
+        // A ray that is within the body at `start` enters the solid there at the earliest. If it
+        // starts inside the solid, its exit counts, through the body or through an end.
         const Mask<Arch> within = body.inside & crossing.nappe & crossing.near;
         const Mask<Arch> inside = within & ends.inside & (crossing.start == o);
         const F entry = select(body.outside, body_low, crossing.start);
         const F leaves = select(body.none, F(__builtin_inff()), body_low);
-        const F exit = min(positive_part<Arch>(ends.out_low), leaves); // or NaN of these
+        const F exit = min(positive_part<Arch>(ends.out_low), leaves); // NaN if `leaves` is NaN
         const Mask<Arch> missed = (body.none & body.outside) | (ends.out_high < crossing.start) |
                                   (body.outside & (ends.out_high < body_low));
 
-        // Certain by the body, between the ends; by an end, where the body is not left before; or
-        // inside.
+        // A crossing is certain through the body between the ends; through an end, if the ray does
+        // not leave the body before; or from inside.
         const Mask<Arch> by_body =
             body.outside & body.definite & (body_low >= ends.in_high) & (body_high <= ends.out_low);
         const Mask<Arch> by_end = within & (ends.in_low > o) & (crossing.start <= ends.in_high) &

@@ -3,27 +3,27 @@
 #include "simd/kernel/shapes/axial.hpp"
 #include "simd/kernel/shapes/root.hpp"
 
-/// The finishers of cylinders and cones.
+/// Finishers of cylinders and cones.
 namespace raylane::simd {
 
-/// A ray along and across the axis, as in axial.hpp: F(s) = |across|^2 - width^2 is 0 on
-/// the body, with width = W + s M.
+/// A ray split into parts along and across the axis, as in axial.hpp. F(s) = |across|^2 - width^2
+/// is 0 on the body, with width = W + s M.
 ///
-/// Errors: let P be that of the position at s, and L = |start| + |s|. Taking the axis out of it
-/// errs by 11 u L along the axis and 2 u L across. Along the axis matters at second order alone:
-/// squared, by 2^-98 L^2, or times the like. So across errs by P and 3 u L as if nothing went
-/// wrong along the axis. With k = |top - base| / |axis|, width errs by k (P + 12 u L) + 4 u widest.
-/// Let T be the sum of both and `spread` >= 1 + k. Then
+/// Let P be the error of the position at s, and L = |start| + |s|. Subtracting the part along the
+/// axis errs by 11 u L along the axis and 2 u L across it. Errors along the axis matter at second
+/// order only: squared they are 2^-98 L^2, or multiply similar errors. So across errs by P and
+/// 3 u L, as without errors along the axis. With k = |top - base| / |axis|, width errs by k
+/// (P + 12 u L) + 4 u widest. Let T be the sum of both and `spread` >= 1 + k. Then
 ///   F errs by 2 (1 + 1/8) width T + T^2 + 2^-98 L^2 + 8 u width^2  where |F| < width^2 / 4,
 ///   half F' = across . across_direction - width M, by spread (T + 32 u width) there,
 ///   A = |across_direction|^2 - M^2, by 64 u spread^2,
 ///   the height above the base, by |axis| (P + 8 u L), the other end's by 3 u |axis|^2 more.
-/// Where F is anything, it errs by 2 (|across| + width) T + 2 T^2 + 2^-98 L^2 and 8 u of both
-/// squares.
+/// For any F, F errs by 2 (|across| + width) T + 2 T^2 + 2^-98 L^2 and 8 u of both squares.
 ///
-/// By component, with P_i >= 8 u (|start_i| + |s direction_i|) for the position: across_i errs by
-/// P_i and, as taking the axis out errs along the axis, by |axis_i| / |axis|^2 times 2 |axis| . P;
-/// half the gradient of F by |slope axis_i| times what width errs by more.
+/// Per component, let P_i >= 8 u (|start_i| + |s direction_i|) be the error of the position.
+/// across_i errs by P_i and, as subtracting the part along the axis errs along the axis, by
+/// |axis_i| / |axis|^2 times 2 |axis| . P. Half the gradient of F errs additionally by
+/// |slope axis_i| times the error of width.
 template <class Arch, bool tapers, Wanted wanted>
 struct AxialLine {
     using F = Floats<Arch>;
@@ -36,7 +36,7 @@ struct AxialLine {
     F height_start, height_slope;
     V across_start, across_direction;
     F base_width, top_width, widest;
-    F slope, width_start, width_slope; // if it tapers
+    F slope, width_start, width_slope; // if `tapers`
     F spread;
     Quadratic<Arch> quadratic;
 
@@ -71,7 +71,7 @@ struct AxialLine {
         quadratic.A_error = F(0x1p-47) * (spread * spread);
     }
 
-    /// Passage where F rises, or else falls.
+    /// Returns the passage where F rises, in lanes of `leaves`, and where it falls, in the others.
     [[gnu::always_inline]] Passage<Arch> passage(const M& leaves) const {
         const F s = quadratic.root_where(leaves);
         const V across = across_at(s);
@@ -90,9 +90,9 @@ struct AxialLine {
         return result;
     }
 
-    /// Leaving after a start on the body. At the vertex half F' errs by
+    /// Returns the passage where rays leave that start on the body. At the vertex half F' errs by
     ///   spread^2 (P + 12 u (|start| + |s|) + 16 u widest),
-    /// where the last is for the tapering alone.
+    /// where the last term applies only if `tapers`.
     [[gnu::noinline]] Passage<Arch> from_surface(const Starts<Arch>& starts) const {
         const F vertex = negated(quadratic.B) / quadratic.A;
         F rise_error = local.error_at(vertex, tapers ? 32.0 : 16.0);
@@ -107,7 +107,8 @@ struct AxialLine {
 
     F reach() const { return local.size + F(1.0625) * (axis_size + widest); }
 
-    /// Nor does the line cross the mirror image.
+    /// True where the line certainly does not cross the infinitely extended body, including its
+    /// mirror nappe.
     M has_no_root() const {
         const F vertex = negated(quadratic.B) / quadratic.A;
         const V across = across_at(vertex);
@@ -121,7 +122,7 @@ struct AxialLine {
 
     F height_at(const F& s) const { return mul_add<Arch>(s, height_slope, height_start); }
     V across_at(const F& s) const { return mul_add<Arch>(s, across_direction, across_start); }
-    /// Error of the height at an s that is off by `error_s`.
+    /// Returns the error of the height at an s that is off by `error_s`.
     F height_error(const F& s, const F& error_s) const {
         return F(2.0) * axis_size * (local.error_at(s, 10.0) + error_s) + F(0x1p-49) * axis_squared;
     }
@@ -151,7 +152,7 @@ struct AxialLine {
             return dot(across, across_direction);
     }
 
-    /// The rest of the passage at root.s. The normal is half the gradient of F.
+    /// Completes the passage at root.s. The normal is half the gradient of F.
     [[gnu::always_inline]] void clip(Passage<Arch>& passage) const {
         const F s = passage.root.s;
         const F height = height_at(s), above = axis_squared - height;
@@ -179,7 +180,7 @@ struct AxialLine {
         passage.normal_error = {off.x + along * sizes.x, off.y + along * sizes.y,
                                 off.z + along * sizes.z};
         if constexpr (tapers) return;
-        // Nothing of a cylinder's normal is along its axis, if that is one of the coordinates'.
+        // If a cylinder's axis is a coordinate axis, its normal has no component along that axis.
         const F o = zero<Arch>();
         const M has_x = sizes.x > o, has_y = sizes.y > o, has_z = sizes.z > o;
         const auto clear = [&](const M& others, F& component, F& of_error) {
@@ -192,7 +193,7 @@ struct AxialLine {
     }
 };
 
-/// Without caps, the ray may have come in, or gone, through an end.
+/// Finisher without caps. The ray may have entered or left through an open end.
 template <class Arch, bool tapers>
 struct OpenFinisher {
     AxialNumbers<Arch, tapers> shape;
@@ -212,8 +213,8 @@ struct OpenFinisher {
     }
 
   private:
-    /// True where that shows: each term of direction x axis has a factor 0. Such a line is nowhere
-    /// across the body.
+    /// True where each term of direction x axis has a factor 0, which proves that they are
+    /// parallel. Such a line does not cross the body.
     Mask<Arch> is_along_axis(const Vectors<Arch>& direction) const {
         const auto o = zero<Arch>();
         const Vectors<Arch>& axis = shape.axis;
@@ -227,9 +228,9 @@ struct OpenFinisher {
     }
 };
 
-/// The body bounds a convex solid together with its caps. So where a ray crosses the body in one
-/// direction, certainly between the ends, or a cap, certainly inside its rim, that is where it
-/// enters the solid, or leaves it.
+/// Finisher with caps. The body and its caps bound a convex solid. So where a ray crosses the body
+/// in one direction, certainly between the ends, or a cap, certainly inside its rim, it enters or
+/// leaves the solid.
 template <class Arch, bool tapers>
 struct CappedFinisher {
     AxialNumbers<Arch, tapers> shape;
@@ -260,8 +261,8 @@ struct CappedFinisher {
     template <Wanted wanted>
     using Line = AxialLine<Arch, tapers, wanted>;
 
-    /// True where the line surely passes the solid: it is nowhere within the body, or only beyond
-    /// one end, or behind the start.
+    /// True where the line certainly misses the solid: it is never within the body, or only beyond
+    /// one end, or only behind the start.
     template <Wanted wanted>
     static M passed(const Line<wanted>& line) {
         const Passage<Arch> in = line.passage(none<Arch>()), out = line.passage(all<Arch>());
@@ -276,14 +277,15 @@ struct CappedFinisher {
         return line.has_no_root() | (known & (beyond | (out.t < negated(out.error))));
     }
 
-    /// Seldom needed, so kept out of the way.
+    /// Not inlined, as it is seldom needed.
     template <Wanted wanted>
     [[gnu::noinline]] static void leave(Finished<Arch>& result, const M& lanes,
                                         const Line<wanted>& line, const Starts<Arch>& starts) {
         result = select<Arch>(lanes, pass(line, starts.on_surface | lanes, starts), result);
     }
 
-    /// Crossing where the ray leaves the solid, or else enters it.
+    /// Returns the crossing where the ray leaves the solid, in lanes of `leaves`, and where it
+    /// enters it, in the others.
     template <Wanted wanted>
     [[gnu::always_inline]] static Finished<Arch> pass(const Line<wanted>& line, const M& leaves,
                                                       const Starts<Arch>& starts) {
@@ -292,8 +294,8 @@ struct CappedFinisher {
         const M at_top = (rises & leaves) | (~rises & ~leaves);
         const F face = select(at_top, F(2.0), F(1.0));
 
-        // The cap's plane; and within the rim, where |across| errs by `off`, so |across|^2 by 2
-        // width off + off^2, and 6 u width^2.
+        // The crossing with the cap's plane, and whether it is within the rim. |across| errs by
+        // `off`, so |across|^2 errs by 2 width off + off^2, and 6 u width^2.
         const F inverse = F(1.0) / line.height_slope;
         const F cap_height = select(at_top, line.axis_squared, zero<Arch>());
         const F width = select(at_top, line.top_width, line.base_width);
@@ -309,7 +311,8 @@ struct CappedFinisher {
 
         const M from_body = starts.on_surface & (starts.face == zero<Arch>());
         if (any<Arch>(from_body)) {
-            // It leaves through what comes first, and through the cap if the body is not met again.
+            // The ray leaves through whichever comes first, and through the cap if it does not meet
+            // the body again.
             const Passage<Arch> onward = line.from_surface(starts);
             const M never = line.quadratic.A < F(-1.0) * line.quadratic.A_error;
             const M beyond = onward.root.certain & onward.outside &
@@ -325,7 +328,7 @@ struct CappedFinisher {
         }
 
         const F t = local.shift + s;
-        // An axis is exact.
+        // The cap's normal is the axis, which is exact.
         const Finished<Arch> cap = {by_cap, t,       local.error_of_t(t, s, error_s),
                                     face,   ~leaves, negated_where<Arch>(~at_top, line.axis)};
         Finished<Arch> result = select<Arch>(by_cap, cap, side.finished(by_side, ~leaves));
@@ -334,7 +337,7 @@ struct CappedFinisher {
         return result;
     }
 
-    /// True where what is outside of both ends is so at the end that the ray goes to.
+    /// True where a passage that is outside of the ends is beyond the end that the ray goes to.
     template <Wanted wanted>
     static M passes(const Line<wanted>& line, const Passage<Arch>& passage, const M& at_top) {
         const F height = line.height_at(passage.root.s);

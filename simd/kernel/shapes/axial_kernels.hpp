@@ -7,7 +7,7 @@
 
 namespace raylane::simd {
 
-/// ShapeKernels of a cylinder or cone, which differ in their solvers.
+/// ShapeKernels of a cylinder or cone, which differ in their solvers only.
 template <bool tapers, bool capped, template <class, bool, bool> class SolverOf>
 struct AxialKernels {
     template <class Arch>

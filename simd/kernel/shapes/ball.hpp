@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// core::ball_crossings
+/// Same as core::ball_crossings, per lane.
 template <class Arch, bool textbook>
 Crossings<Arch> ball_crossings(const MeasuredRays<Arch>& rays, const Floats<Arch>& radius,
                                const Starts<Arch>& starts) {

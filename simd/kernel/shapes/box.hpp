@@ -23,13 +23,14 @@ struct BoxNumbers {
     }
 };
 
-/// Three slabs |n . f - volume / 2| <= |volume| / 2 for f = origin - corner, the normals n = v x w,
-/// w x u, u x v and volume = n . u.
+/// Filter of a box: three slabs |n . f - volume / 2| <= |volume| / 2 for f = origin - corner, the
+/// normals n = v x w, w x u, u x v, and volume = n . u.
 ///
 /// A normal is off by 2 u of absolute_cross(), n . f by 6 u of the sum of the absolute products,
-/// half the volume by 5 u of its own, twice: in the position and in the width. What cross_slab()
-/// wants paid for and the sum's rounding add 3 u of n . f and 5 u of half the volume. n . d is off
-/// by 6 u. Sums are doubled, or taken eightfold, to overflow in time.
+/// and half the volume by 5 u of its sum. The last counts twice: in the position and in the width.
+/// The roundings that cross_slab() leaves to `error`, and that of the sum, add 3 u of n . f and 5 u
+/// of half the volume. n . d is off by 6 u. Sums are computed doubled or eightfold, so that they
+/// overflow before the values that they bound.
 template <class Arch>
 struct BoxFilter {
     static constexpr bool is_costly = true;
@@ -94,7 +95,7 @@ struct BoxFilter {
     }
 };
 
-/// core/shapes/box.hpp
+/// Same formulas as core/shapes/box.hpp, per lane.
 template <class Arch, bool>
 struct BoxSolver {
     Vectors<Arch> corner, normals[3]; ///< outward where the edge coordinate is 1
@@ -149,13 +150,12 @@ struct BoxSolver {
     }
 };
 
-/// Three slabs 0 <= normal . p <= volume. The ray crosses the boundary of a convex solid just once
-/// in each direction; so where it crosses the plane of a face in one direction, certainly within
-/// the other two slabs, that is where it enters, or leaves.
+/// Finisher of a box: three slabs 0 <= normal . p <= volume. A ray crosses the boundary of a convex
+/// solid only once in each direction. So if it crosses the plane of a face in one direction,
+/// certainly within the other two slabs, it enters or leaves the box there.
 ///
-/// With N = |v|_1 |w|_1 >= |v x w|, normal . at(s) errs by N times the error of the position and 10
-/// u
-/// (|start| + |s|), normal . direction by 8 u N, the volume by 12 u |u|_1 |v|_1 |w|_1.
+/// With N = |v|_1 |w|_1 >= |v x w|, normal . at(s) errs by N times the error of the position and
+/// 10 u (|start| + |s|), normal . direction by 8 u N, and the volume by 12 u |u|_1 |v|_1 |w|_1.
 template <class Arch>
 struct BoxFinisher {
     BoxNumbers<Arch> box;
@@ -224,8 +224,8 @@ struct BoxFinisher {
             }
         }
 
-        /// True where the line surely leaves one slab before it enters another, or all of them
-        /// before it starts.
+        /// True where the line certainly leaves one slab before it enters another, or before the
+        /// ray starts.
         M passed(const Starts<Arch>& starts) const {
             M in_known, out_known;
             const Finished<Arch> in = pass(none<Arch>(), starts, &in_known),
@@ -234,9 +234,9 @@ struct BoxFinisher {
                    (out_known & (out.t < negated(out.error)));
         }
 
-        /// Crossing where the ray leaves, or else enters. `known`: where its t is that of the slab
-        /// which is the last to be entered, or the first to be left, whether or not it is inside of
-        /// the others.
+        /// Returns the crossing where the ray leaves, in lanes of `leaves`, and where it enters, in
+        /// the others. `known`: lanes whose t is that of the slab which is the last to be entered,
+        /// or the first to be left, even if this crossing is not inside the others.
         Finished<Arch> pass(const M& leaves, const Starts<Arch>& starts, M* known = nullptr) const {
             // The last plane to be entered, or the first to be left.
             F s(0.0), face(0.0);

@@ -5,7 +5,7 @@
 
 namespace raylane::simd {
 
-/// core/shapes/cone.hpp
+/// Same formulas as core/shapes/cone.hpp, per lane.
 template <class Arch, bool capped, bool textbook>
 struct ConeSolver {
     Axis<Arch> axis;

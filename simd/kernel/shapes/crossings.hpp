@@ -4,8 +4,8 @@
 
 namespace raylane::simd {
 
-/// Answer to a question that decides between ways to compute the same: there either will do, so
-/// that numbers with bounds need not be certain of it.
+/// Returns the answer to a question that chooses between equivalent ways of computing the same
+/// value. Either way is correct, so numbers with bounds need not be certain of the answer.
 template <class Number, class Arch>
 xsimd::batch_bool<Number, Arch> either_way(const xsimd::batch_bool<Number, Arch>& a) {
     return a;
@@ -16,7 +16,7 @@ struct Rays {
     Vectors<Arch> origin, direction;
 };
 
-/// With what many shapes ask of them.
+/// Rays with numbers that many shapes need.
 template <class Arch>
 struct MeasuredRays : Rays<Arch> {
     Floats<Arch> squared_length; ///< of directions
@@ -27,16 +27,15 @@ struct MeasuredRays : Rays<Arch> {
           by_squared_length(squared_length) {}
 };
 
-/// core::Start per lane. Faces are small whole numbers held as floats: so all masks are of one
-/// type.
+/// core::Start per lane. Faces are small integers held as floats, so that all masks have one type.
 template <class Arch>
 struct Starts {
-    Mask<Arch> on_surface; ///< of the shape that is tested
+    Mask<Arch> on_surface; ///< the ray starts on the tested shape
     Mask<Arch> inward;
     Floats<Arch> face;
 };
 
-/// core::Crossing per lane, where `exists`.
+/// core::Crossing per lane, valid where `exists`.
 template <class Arch>
 struct Crossing {
     Mask<Arch> exists;
@@ -45,7 +44,7 @@ struct Crossing {
     Mask<Arch> entering;
 };
 
-/// Up to two per lane. In a lane where both exist, the first comes first.
+/// Up to two crossings per lane. If both exist, `first` comes first along the ray.
 template <class Arch>
 struct Crossings {
     Crossing<Arch> first, second;
@@ -59,20 +58,20 @@ template <class Arch>
 Mask<Arch> all() {
     return Mask<Arch>(true);
 }
-/// Starts of rays that start on no surface.
+/// Returns the starts of rays that start on no surface.
 template <class Arch>
 Starts<Arch> starts_nowhere() {
     return {none<Arch>(), none<Arch>(), zero<Arch>()};
 }
 
-/// True where a crossing counts: ahead of the ray or, where that starts on the surface, at t = 0.
+/// True where a crossing counts: ahead of the ray or, if the ray starts on the surface, at t = 0.
 template <class Arch>
 Mask<Arch> ahead(const Crossing<Arch>& crossing, const Mask<Arch>& on_surface) {
     return crossing.exists &
            ((crossing.t > zero<Arch>()) | (on_surface & (crossing.t == zero<Arch>())));
 }
 
-/// The first crossing that is ahead.
+/// Returns the first crossing that is ahead.
 template <class Arch>
 Crossing<Arch> first_ahead(const Crossings<Arch>& found, const Mask<Arch>& on_surface) {
     const Mask<Arch> first = ahead(found.first, on_surface),
@@ -82,13 +81,13 @@ Crossing<Arch> first_ahead(const Crossings<Arch>& found, const Mask<Arch>& on_su
             (first & found.first.entering) | (~first & found.second.entering)};
 }
 
-/// core::not_behind
+/// Same as core::not_behind, per lane.
 template <class Arch>
 Floats<Arch> not_behind(const Floats<Arch>& t) {
     return select(t > zero<Arch>(), t, zero<Arch>());
 }
 
-/// A ray that leaves a convex solid does not meet it again.
+/// Removes the crossings of rays that leave a convex solid, as they do not meet it again.
 template <class Arch>
 Crossings<Arch> inward_only(Crossings<Arch> crossings, const Starts<Arch>& starts) {
     const Mask<Arch> counts = ~starts.on_surface | starts.inward;
@@ -131,7 +130,8 @@ class ClipInterval {
         clip_back(crosses, select(rises, at_high, at_low), select(rises, high_face, low_face));
     }
 
-    /// `exits`: lanes that start on the surface, for which only the far end counts.
+    /// Returns both ends of the interval. `exits`: lanes that start on the surface, for which only
+    /// the far end counts.
     Crossings<Arch> crossings(const Mask<Arch>& exits) const {
         const Mask<Arch> both = ~exits & ~empty_ & has_front_ & has_back_ & ~(back_ < front_);
         const Mask<Arch> leaves = exits & has_back_;
@@ -141,7 +141,7 @@ class ClipInterval {
     }
 
   private:
-    // Braces would call xsimd's constructor from a list of all lanes.
+    // Braces would call xsimd's constructor that takes a list of all lanes.
     Floats<Arch> front_ = zero<Arch>(), back_ = zero<Arch>();
     Floats<Arch> front_face_ = zero<Arch>(), back_face_ = zero<Arch>();
     Mask<Arch> has_front_ = none<Arch>(), has_back_ = none<Arch>(), empty_ = none<Arch>();

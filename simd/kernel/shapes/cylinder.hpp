@@ -5,7 +5,7 @@
 
 namespace raylane::simd {
 
-/// core/shapes/cylinder.hpp
+/// Same formulas as core/shapes/cylinder.hpp, per lane.
 template <class Arch, bool capped, bool textbook>
 struct CylinderSolver {
     Axis<Arch> axis;

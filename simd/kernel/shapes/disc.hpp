@@ -18,10 +18,11 @@ struct DiscNumbers {
     SphereAround<Arch> enclosing() const { return rounded_up<Arch>(center, radius); }
 };
 
-/// The ray meets the plane within spread + 6 u |t| of t. The point at t is then off by as much, by
-/// slack + u |f| for f = origin - center, by u |t| for the direction and by u (|t| + distance) for
-/// its own rounding, where |f| <= |t| + distance. Squaring and comparing adds 4 u of the radius,
-/// near which alone it matters: 9 u |t| and 6 u radius.
+/// Filter of a disc. The ray meets the plane within spread + 6 u |t| of t, so the point at t is off
+/// by as much. It is also off by slack + u |f| for f = origin - center, by u |t| for the direction
+/// and by u (|t| + distance) for its own rounding, where |f| <= |t| + distance. Squaring and
+/// comparing add 4 u of the radius, as they matter only near the radius. In total these are 9 u |t|
+/// and 6 u radius.
 template <class Arch>
 struct DiscFilter : DiscNumbers<Arch> {
     using Numbers = DiscNumbers<Arch>;
@@ -61,8 +62,8 @@ struct DiscSolver : DiscNumbers<Arch> {
 };
 
 /// Finisher of a disc. With N >= |normal|, normal . at(s) is off by N times the error of the
-/// position and 6 u (|start| + |s|) for the products; so s errs by that, divided by |approach|, if
-/// approach itself is certain within a fifth: it errs by 5 u N.
+/// position and 6 u (|start| + |s|) for the products. So s errs by this error divided by
+/// |approach|, if approach itself, which errs by 5 u N, is certain within a fifth.
 template <class Arch>
 struct DiscFinisher {
     DiscNumbers<Arch> disc;
@@ -83,7 +84,8 @@ struct DiscFinisher {
         const F position_error = local.error_at(s, 8.0);
         const F error_s = F(1.25) * N * position_error * abs(inverse);
 
-        // |p| <= radius: p is off by `off`, so |p|^2 by 2 radius off + off^2, and 6 u radius^2.
+        // Where |p| <= radius, p is off by `off`. So |p|^2 is off by 2 radius off + off^2 and 6 u
+        // radius^2.
         const F off = position_error + error_s, reach = radius + off;
         const F squared = squared_length(local.at(s));
         const Mask<Arch> clear = abs(approach) > F(0x1p-44) * N;

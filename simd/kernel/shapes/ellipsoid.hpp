@@ -26,23 +26,24 @@ struct EllipsoidNumbers {
     }
 };
 
-/// Filter of an ellipsoid. With n_i the rows that make of it the unit ball (core::ToBall), a ray's
-/// position at tau + s, in the ball, is b + s a for a = n d and b = n p, p = origin + tau d -
-/// center; tau is about where |n p| is least. The ray crosses where |b + s a| = 1.
+/// Filter of an ellipsoid. Let n_i be the rows that map it to the unit ball (core::ToBall). A ray's
+/// position at tau + s maps to b + s a in the ball, for a = n d and b = n p, p = origin + tau
+/// d - center, where tau is near the minimum of |n p|. The ray crosses where |b + s a| = 1.
 ///
-/// All but t is in units of a power of two, in which the axes' components add up to less than 2,
-/// and to 1 or more. L is the length of all axes together: as p = b_u u + b_v v + b_w w, it is |p|
-/// <= L |b|, and 1 <= L |a|. A row errs by 3 u of its part of absolute_cross() / |volume|, sigma
-/// being the length of all these parts; and all rows as the volume does, by r = u (8 S / |volume| +
-/// 8), S being the sum of the absolute products, which makes the ball as much larger or smaller.
+/// Everything but t is in units of a power of two, in which the axes' components add up to less
+/// than 2, and to 1 or more. Let L be the length of all axes together. Since
+/// p = b_u u + b_v v + b_w w, |p| <= L |b|, and 1 <= L |a|. Let sigma be the length of all rows'
+/// parts of absolute_cross() / |volume|. A row errs by 3 u of its part. All rows err as the volume
+/// does, by r = u (8 S / |volume| + 8), where S is the sum of the absolute products. This makes the
+/// ball larger or smaller by the same share.
 ///
-/// p errs by eta = slack + 4 u |tau| and 2 u |p|, so b by sigma (8 u |p| + eta), and a by 7 u
-/// sigma. Where |b + s a| is X, |p| <= L X and |s| <= 2 X L, as b is next to the centre: so the
-/// true position is within sigma (22 u X L + eta) of it. Of two such X, one of which is 1, neither
-/// then is further from the other than
+/// p errs by eta = slack + 4 u |tau| and 2 u |p|, so b errs by sigma (8 u |p| + eta), and a by 7 u
+/// sigma. Where |b + s a| is X, |p| <= L X and |s| <= 2 X L, as b is next to the centre. So the
+/// true position is within sigma (22 u X L + eta) of it. Hence two such X, one of which is 1,
+/// differ by at most
 ///   e = 32 u L sigma + r + 1.5 sigma eta,
-/// as long as the first terms are below 1/4. The roots of |b + s a| = 1 +- e bound s, but for the
-/// rounding of what they are made of: 8 u of 1 +- e, and 16 u (|tau| + L (1 + e)) of t.
+/// as long as the first terms are below 1/4. The roots of |b + s a| = 1 +- e bound s, apart from
+/// the rounding of their operands: 8 u of 1 +- e, and 16 u (|tau| + L (1 + e)) of t.
 template <class Arch>
 struct EllipsoidFilter {
     using F = Floats<Arch>;
@@ -52,13 +53,13 @@ struct EllipsoidFilter {
     V center, rows[3];
     F unit, per_unit;
     F error, sigma, size; ///< 32 u L sigma + r, sigma, L
-    Mask<Arch> ordinary;  ///< the error is small, and no number is 0 for being so
+    Mask<Arch> ordinary;  ///< the error is small, and no number has underflowed to 0
 
     template <class Reader>
     explicit EllipsoidFilter(Reader reader) : EllipsoidFilter(EllipsoidNumbers<Arch>(reader)) {}
     explicit EllipsoidFilter(const EllipsoidNumbers<Arch>& e) : center(e.center) {
         const auto sum_of = [](const V& v) { return abs(v.x) + abs(v.y) + abs(v.z); };
-        const F exponent(__builtin_inff()); // its bits
+        const F exponent(__builtin_inff()); // its bits mask the exponent
         unit = (sum_of(e.axis_u) + sum_of(e.axis_v) + sum_of(e.axis_w)) & exponent;
         per_unit = F(1.0F) / unit;
         const V u = scaled<Arch>(per_unit, e.axis_u), v = scaled<Arch>(per_unit, e.axis_v),
@@ -102,7 +103,7 @@ struct EllipsoidFilter {
         const F a_squared = fast_dot(a, a), per_a = one / a_squared;
         const F tau = negated(fast_dot(a, to_ball(from_center)) * per_a);
         const V b = to_ball(fast_mul_add<Arch>(tau, rays.direction, from_center));
-        const F beside = fast_dot(a, b); // of the foot
+        const F beside = fast_dot(a, b); // 0 if b is the foot
         const F to_foot = negated(beside * per_a);
         const F foot_squared = fast_mul_add<Arch>(beside, to_foot, fast_dot(b, b));
 
@@ -123,7 +124,7 @@ struct EllipsoidFilter {
         const F inner_half = sqrt(inner_chord) * per_length;
         const Mask<Arch> known = ordinary & (inner > o) & (inner_chord > o);
         const Mask<Arch> ahead = entry > o;
-        // Surely inside, it is the exit that counts.
+        // A ray that certainly starts inside first crosses at its exit.
         const Mask<Arch> inside =
             known & (fast_mul_add<Arch>(foot * foot, a_squared, foot_squared) < inner * inner);
         const F last = foot + inner_half - rounding, first = foot - inner_half + rounding;
@@ -138,7 +139,7 @@ struct EllipsoidFilter {
     }
 };
 
-/// core::ToBall
+/// Same as core::ToBall, per lane.
 template <class Arch>
 struct ToBall {
     Vectors<Arch> rows[3];
@@ -168,7 +169,7 @@ struct ToBall {
     }
 };
 
-/// core/shapes/ellipsoid.hpp
+/// Same formulas as core/shapes/ellipsoid.hpp, per lane.
 template <class Arch, bool textbook>
 struct EllipsoidSolver {
     Vectors<Arch> center;
@@ -197,17 +198,19 @@ struct EllipsoidSolver {
     }
 };
 
-/// F(s) = |b(s)|^2 - volume^2 for b(s) = rows . p, p = start + s direction relative to the centre.
+/// Finisher of an ellipsoid. F(s) = |b(s)|^2 - volume^2 for b(s) = rows . p, p = start + s
+/// direction relative to the centre.
 ///
-/// Errors, with K_i = |v|_1 |w|_1 and so on, which is more than row i's length, and P =
-/// local.error_at(s, 10) for the position and the roundings of its products: b_i errs by K_i P, a_i
-/// = row i . direction by 8 u K_i, the volume by 12 u |u|_1 |v|_1 |w|_1. So, T being the sum of all
-/// K_i P, K that of all K_i, b and a by their sums of sizes,
-///   F          errs by 2 T b + T^2 + 2 |volume| volume_error + volume_error^2 + 8 u (b^2 +
-///   volume^2), half F'    by T a + b 8 u K + T 8 u K + 4 u a b, A = |a|^2  by 2 a 8 u K + (8 u
-///   K)^2 + 4 u a^2.
-/// The normal is half the gradient of F: by component, the rows' sizes times what b_i errs by, and
-/// 8 u of what it is made of.
+/// Let K_i = |v|_1 |w|_1 and so on, which is more than row i's length, and let
+/// P = local.error_at(s, 10) be the error of the position and of the roundings of its products. b_i
+/// errs by K_i P, a_i = row i . direction by 8 u K_i, and the volume by 12 u |u|_1 |v|_1 |w|_1. Let
+/// T be the sum of all K_i P and K that of all K_i, and let b and a stand for their sums of sizes.
+/// The errors are:
+///   F          2 T b + T^2 + 2 |volume| volume_error + volume_error^2 + 8 u (b^2 + volume^2)
+///   half F'    T a + b 8 u K + T 8 u K + 4 u a b
+///   A = |a|^2  2 a 8 u K + (8 u K)^2 + 4 u a^2
+/// The normal is half the gradient of F. Each component errs by the rows' sizes times the errors of
+/// b_i, and by 8 u of its terms.
 template <class Arch>
 struct EllipsoidFinisher {
     EllipsoidNumbers<Arch> ellipsoid;
@@ -232,10 +235,10 @@ struct EllipsoidFinisher {
         LocalRays<Arch> local;
         ToBall<Arch> to_ball;
         V row_sizes; ///< K_i
-        F size;      ///< of all axes
+        F size;      ///< sum of the axes' sizes
         F volume_error;
         V a;
-        F a_error; ///< of all a_i together
+        F a_error; ///< sum of the errors of all a_i
         Quadratic<Arch> quadratic;
 
         Line(const EllipsoidNumbers<Arch>& e, const Rays<Arch>& rays)
@@ -269,7 +272,7 @@ struct EllipsoidFinisher {
             return result;
         }
 
-        /// The other root of a ray that starts on the surface and goes inward.
+        /// Returns the other root of rays that start on the surface and go inward.
         [[gnu::noinline]] Passage<Arch> from_surface(const Starts<Arch>& starts) const {
             const F vertex = negated(quadratic.B) / quadratic.A;
             const V b = to_ball(local.at(vertex));
@@ -307,7 +310,7 @@ struct EllipsoidFinisher {
                    F(0x1p-50) * (a_size * b_size);
         }
 
-        /// The rest of the passage at root.s: a closed surface has no bounds of its own.
+        /// Completes the passage at root.s. A closed surface has no bounds.
         [[gnu::always_inline]] void find_normal(Passage<Arch>& passage) const {
             const F s = passage.root.s;
             const V b = to_ball(local.at(s));

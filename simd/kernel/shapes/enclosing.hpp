@@ -2,11 +2,11 @@
 
 #include "simd/kernel/shapes/shape.hpp"
 
-/// Spheres around shapes: the first and cheapest bound.
+/// Bounding spheres of shapes: the first and cheapest bound.
 namespace raylane::simd {
 
-/// A sphere around a shape, per lane. The radius is rounded up by more than all roundings here can
-/// amount to: `rounded_up` adds 2^-20 of the radius and of the centre's coordinates.
+/// A bounding sphere of a shape, per lane. `rounded_up` enlarges the radius by 2^-20 of the radius
+/// and of the centre's coordinates, which exceeds the sum of all roundings here.
 template <class Arch>
 struct SphereAround {
     Vectors<Arch> center;

@@ -3,30 +3,29 @@
 #include "simd/kernel/shapes/crossings.hpp"
 #include "simd/kernel/shapes/shape.hpp"
 
-/// Filters: float arithmetic that cannot be wrong, because it does not say where a ray crosses a
-/// shape, but between which bounds. What survives them is solved in double.
+/// Filters bound a ray's crossing with a shape in float arithmetic. They cannot be wrong, because
+/// they return bounds on the crossing, not the crossing itself. Shapes that a filter cannot rule
+/// out are solved in double.
 ///
-/// Each filter stands for one kind of shape, is made of a reader (shape.hpp), and
-/// has
+/// Each filter serves one kind of shape and is constructed from a reader (shape.hpp). It has
 ///   Bounds<Arch> bounds(const FilterRays<Arch>&) const
-/// and may have
+/// It may also have
 ///   Mask<Arch> may_meet(const FilterRays<Arch>&) const
 /// which is true wherever there is a crossing, and
 ///   Obstacle<Arch> obstacle(const FilterRays<Arch>&, asked, perhaps_before, surely_before) const
-/// which is true of the lanes that are asked about, and as sharp as the bounds, for less.
-/// The bounds hold whether or not mul_add is fused, and for every ray whose floats are within the
-/// stated errors.
+/// which holds for the lanes in `asked` and is as sharp as the bounds at less cost. The bounds hold
+/// whether or not mul_add is fused, and for every ray whose floats are within the stated errors.
 ///
-/// In the derivations u = half_ulp, terms in u^2 go into what constants are rounded up by, and |v|
-/// is a vector's length. To be safe from overflow, errors are made of sums that overflow before
-/// what they are the errors of does, and each decision is the negation of what is sure: infinite
-/// errors and NaN then decide nothing.
+/// In the derivations u = half_ulp and |v| is a vector's length. The constants are rounded up to
+/// cover terms in u^2. To be safe from overflow, errors are computed from sums that overflow before
+/// the values that they belong to. Each decision is the negation of a proved statement, so infinite
+/// errors and NaN decide nothing.
 namespace raylane::simd {
 
-/// Rays that were rounded to float. The ray meant has a direction of length 1 +- 2^-40 and is
-/// within half an ulp of this direction in each component. Its origin is closer to this one than
-/// (slack - slack_floor) / (1 + 2^-16), a length: the rest pays for roundings of slack itself and
-/// for squares of lengths that underflow.
+/// Rays that were rounded to float. The exact ray has a direction of length 1 +- 2^-40, which is
+/// within half an ulp of this direction in each component. The distance of its origin from this one
+/// is less than (slack - slack_floor) / (1 + 2^-16). The rest of slack covers the roundings of
+/// slack itself and squares of lengths that underflow.
 template <class Arch>
 struct FilterRays {
     Vectors<Arch> origin, direction;
@@ -35,31 +34,31 @@ struct FilterRays {
 
 inline constexpr float slack_floor = 0x1p-68F;
 
-/// Bounds on a ray's first crossing with one shape, of those with t > 0, per lane. What a caller
-/// does not use of them costs nothing.
+/// Bounds on a ray's first crossing with one shape at t > 0, per lane. A member that the caller
+/// does not use costs nothing.
 template <class Arch>
 struct Bounds {
-    Mask<Arch> possible; ///< false: there is none
-    Floats<Arch> lower;  ///< where possible: none is before this; >= 0, finite if there is one
-    Mask<Arch> certain;  ///< there is one
-    Floats<Arch> upper;  ///< where certain: the first is not behind this
+    Mask<Arch> possible; ///< false: no crossing exists
+    Floats<Arch> lower;  ///< where possible: t >= lower >= 0; finite if there is a crossing
+    Mask<Arch> certain;  ///< there is a crossing
+    Floats<Arch> upper;  ///< where certain: t of the first crossing <= upper
 };
 
-/// Any-hit: a shape in the way of rays, per lane.
+/// A shape that may block a ray (any-hit query), per lane.
 template <class Arch>
 struct Obstacle {
-    Mask<Arch> possible; ///< false: it is not
-    Mask<Arch> certain;  ///< where possible: it is
+    Mask<Arch> possible; ///< false: it does not block
+    Mask<Arch> certain;  ///< where possible: it blocks
 };
 
-/// Where lines cross a convex shape, behind the rays' origins, too.
+/// Bounds on where lines cross a convex shape. Crossings behind a ray's origin count, too.
 template <class Arch>
 struct Chord {
     Floats<Arch> entry, entry_end; ///< the first crossing is between these
-    Floats<Arch> exit, exit_end;   ///< and the last between these
+    Floats<Arch> exit, exit_end;   ///< the last crossing is between these
 };
 
-/// True of filters, and of what they are made of, whose shapes may be packed.
+/// True for filters, and for the shape numbers they read, whose shapes may be packed.
 template <class Filter>
 constexpr bool of_spheres() {
     if constexpr (requires { Filter::is_of_spheres; })
@@ -68,7 +67,7 @@ constexpr bool of_spheres() {
         return false;
 }
 
-/// True of filters that are made of solvers.
+/// True for filters that use solvers.
 template <class Filter>
 constexpr bool solves_shapes() {
     return requires {
@@ -76,8 +75,9 @@ constexpr bool solves_shapes() {
     };
 }
 
-/// Obstacle of lanes that are asked about, as bits: whether the shape may be entered before one t,
-/// and is before another, which is not later. By the filter's own way, or its bounds.
+/// Returns the obstacle of the lanes in `asked` (bits): whether the shape may be crossed before
+/// `perhaps_before`, and whether it is certainly crossed before `surely_before`, which is not
+/// later. Uses the filter's obstacle() if it has one, otherwise its bounds.
 template <class Arch, class Filter, class Rays>
 [[gnu::always_inline]] inline Obstacle<Arch>
 obstacle_of(const Filter& filter, const Rays& rays, std::uint32_t asked,
@@ -91,25 +91,26 @@ obstacle_of(const Filter& filter, const Rays& rays, std::uint32_t asked,
     }
 }
 
-/// True of a filter that can tell for less than its bounds cost that there are none.
+/// True for a filter that has may_meet(), which rules out crossings at less cost than bounds().
 template <class Filter, class Rays>
 inline constexpr bool has_may_meet = requires(const Filter& filter, const Rays& rays) {
     filter.may_meet(rays);
 };
 
-/// True if that is worth it for a packet of rays, a few of which meet the shape as a rule.
+/// True if calling may_meet() first pays for a packet of rays, of which usually a few meet the
+/// shape.
 template <class Filter, class Rays>
 inline constexpr bool sifts_packets = has_may_meet<Filter, Rays>&& requires {
     Filter::is_costly;
 };
 
-/// Half an ulp of 1: what one operation is off by, relative to its result.
+/// Half an ulp of 1: the relative error of one operation.
 inline constexpr float half_ulp = 0x1p-24F;
 
-/// More than what some products that underflow are off by together.
+/// More than the total error of a few products that underflow.
 inline constexpr float underflow = 0x1p-120F;
 
-/// a * b + c, fused where the processor does it in one instruction.
+/// Returns a * b + c, fused where the processor has one instruction for it.
 template <class Arch>
 Floats<Arch> fast_mul_add(const Floats<Arch>& a, const Floats<Arch>& b, const Floats<Arch>& c) {
     if constexpr (Lanes<Arch>::has_mul_add)
@@ -124,7 +125,8 @@ Vectors<Arch> fast_mul_add(const Floats<Arch>& s, const Vectors<Arch>& a, const 
             fast_mul_add<Arch>(s, a.z, b.z)};
 }
 
-/// a . b + c; off by at most 3 u of the sum of the products' absolute values (and u of c).
+/// Returns a . b + c. The error is at most 3 u of the sum of the products' absolute values (and u
+/// of c).
 template <class Arch>
 Floats<Arch> fast_dot(const Vectors<Arch>& a, const Vectors<Arch>& b, const Floats<Arch>& c) {
     return fast_mul_add<Arch>(a.x, b.x,
@@ -136,7 +138,8 @@ Floats<Arch> fast_dot(const Vectors<Arch>& a, const Vectors<Arch>& b) {
     return fast_mul_add<Arch>(a.x, b.x, fast_mul_add<Arch>(a.y, b.y, a.z * b.z));
 }
 
-/// a x b; each component is off by at most 2 u of its part of absolute_cross(a, b).
+/// Returns a x b. The error of each component is at most 2 u of that component of absolute_cross(a,
+/// b).
 template <class Arch>
 Vectors<Arch> fast_cross(const Vectors<Arch>& a, const Vectors<Arch>& b) {
     return {fast_mul_add<Arch>(a.y, b.z, negated(a.z * b.y)),
@@ -149,7 +152,8 @@ Vectors<Arch> absolute(const Vectors<Arch>& a) {
     return {abs(a.x), abs(a.y), abs(a.z)};
 }
 
-/// The sums of what a x b has the differences of, plus c. Of length <= 1.155 |a| |b| if c = 0.
+/// Returns a x b with sums of absolute products in place of differences, plus c. Its length
+/// is <= 1.155 |a| |b| if c = 0.
 template <class Arch>
 Vectors<Arch> absolute_cross(const Vectors<Arch>& a, const Vectors<Arch>& b,
                              const Floats<Arch>& c) {
@@ -159,7 +163,7 @@ Vectors<Arch> absolute_cross(const Vectors<Arch>& a, const Vectors<Arch>& b,
             fast_mul_add<Arch>(p.x, q.y, fast_mul_add<Arch>(p.y, q.x, c))};
 }
 
-/// s |a| + c, component by component.
+/// Returns s |a| + c for each component.
 template <class Arch>
 Vectors<Arch> error_of(float s, const Vectors<Arch>& a, const Floats<Arch>& c) {
     return fast_mul_add<Arch>(Floats<Arch>(s), absolute(a), {c, c, c});
@@ -170,20 +174,21 @@ Floats<Arch> sign_bit(const Floats<Arch>& a) {
     return a & Floats<Arch>(-0.0F);
 }
 
-/// a > 0 ? a : 0, which is also what NaN becomes.
+/// Returns a if a > 0, otherwise 0. Returns 0 for NaN.
 template <class Arch>
 Floats<Arch> positive_part(const Floats<Arch>& a) {
     return select(a > zero<Arch>(), a, zero<Arch>());
 }
 
-/// True where the input was numbers. Differences of coordinates, which are at most 1e30, are then
-/// numbers as well.
+/// True where `difference` is not NaN. Coordinates are at most 1e30, so the difference of two
+/// numbers is a number.
 template <class Arch>
 Mask<Arch> is_number(const Floats<Arch>& difference) {
     return difference == difference;
 }
 
-/// sqrt(a), or up to 2^-9 and 2^-50 more, for a >= 0.
+/// Returns an upper bound of sqrt(a) for a >= 0, at most 2^-9 (relative) and 2^-50 (absolute) above
+/// it.
 template <class Arch>
 Floats<Arch> root_above(const Floats<Arch>& a) {
     const Floats<Arch> positive = a + Floats<Arch>(0x1p-100F);

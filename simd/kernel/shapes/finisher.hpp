@@ -4,48 +4,47 @@
 #include "simd/kernel/shapes/crossings.hpp"
 #include "simd/kernel/shapes/shape.hpp"
 
-/// Finishers: where a ray first crosses a shape, in double, with a bound on the error of t; and
-/// whether that is certain. What is not is rare, and a scalar solver that knows how to ask again in
-/// a wider type decides it. So there is no search for what happens in hard cases here, only for
-/// proofs that a case is not hard: a lane is certain if some sufficient condition holds.
+/// Finishers compute the first crossing of a ray with a shape in double, with a bound on the error
+/// of t, and whether the crossing is certain. Uncertain crossings are rare. A scalar solver decides
+/// them, which can repeat the computation in a wider type. So finishers do not resolve hard cases;
+/// they only prove that a case is not hard. A lane is certain if some sufficient condition holds.
 ///
-/// Each finisher stands for one kind of shape, is made of a reader of
-/// doubles, and has
+/// Each finisher serves one kind of shape, is constructed from a reader of doubles, and has
 ///   Finished<Arch> finish<wanted>(const Rays<Arch>&, const Starts<Arch>&) const
 /// Arch is a Double<...> throughout.
 ///
-/// In the comments u = 2^-53 is what one operation is off by, relative to its result. Rays and
-/// shapes are exact, directions have a length of 1 +- 2^-48. Powers of two that are larger than
-/// what they bound leave room for the rounding of the bounds themselves. Comparisons are such that
-/// NaN is not certain. Underflow is outside of it, as in core/numbers/bounded.hpp.
+/// In the comments u = 2^-53 is the relative error of one operation. Rays and shapes are exact, and
+/// directions have a length of 1 +- 2^-48. Powers of two that exceed the value that they bound
+/// leave a margin for the rounding of the bounds themselves. Comparisons are such that NaN is not
+/// certain. Underflow is excluded, as in core/numbers/bounded.hpp.
 namespace raylane::simd {
 
-/// Wishes of a caller of a finisher.
+/// Results that the caller of a finisher needs.
 enum class Wanted {
     crossings, ///< certain ones
-    all,       ///< certain misses, and the error of normals, as well
+    all,       ///< also certain misses, and the error of normals
 };
 
-/// The first crossing per lane, as core::Searcher counts them.
+/// The first crossing per lane, counted in the same way as by core::Searcher.
 template <class Arch>
 struct Finished {
-    Mask<Arch> certain; ///< if not, the rest means nothing
+    Mask<Arch> certain; ///< if false, only `misses` is meaningful
     Floats<Arch> t;
     Floats<Arch> error; ///< |t - true t|
     Floats<Arch> face;
     Mask<Arch> entering;
     Vectors<Arch> normal;             ///< unit, outward, within 2^-12
-    Mask<Arch> misses = none<Arch>(); ///< where not certain: certainly crosses nowhere
-    /// |normal - true normal|, by component, if all is wanted. It is 0 where that is no rounding.
+    Mask<Arch> misses = none<Arch>(); ///< where not certain: certainly no crossing
+    /// |normal - true normal| per component, with Wanted::all. It is 0 where no rounding occurs.
     Vectors<Arch> normal_error = {zero<Arch>(), zero<Arch>(), zero<Arch>()};
 };
 
-/// True where all numbers within `error` of a value round to one float.
+/// True where all numbers within `error` of `value` round to the same float.
 template <class Arch>
 Mask<Arch> round_alike(const Floats<Arch>& value, const Floats<Arch>& error) {
     return Lanes<Arch>::round_alike(value - error, value + error);
 }
-/// True where each component of the normal rounds to one float, whatever its error.
+/// True where each component of the normal rounds to the same float anywhere within its error.
 template <class Arch>
 Mask<Arch> is_rounded(const Finished<Arch>& finished) {
     return round_alike<Arch>(finished.normal.x, finished.normal_error.x) &
@@ -53,10 +52,10 @@ Mask<Arch> is_rounded(const Finished<Arch>& finished) {
            round_alike<Arch>(finished.normal.z, finished.normal_error.z);
 }
 
-/// The relative accuracy that a t must have, as core::needed_accuracy.
+/// The relative accuracy that t must have, same as core::needed_accuracy.
 inline constexpr double needed_accuracy = 0x1p-27;
 
-/// a where mask, else b.
+/// Returns a where `mask`, otherwise b.
 template <class Arch>
 [[gnu::always_inline]] inline Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a,
                                                     const Finished<Arch>& b) {
@@ -70,20 +69,20 @@ template <class Arch>
             select(mask, a.normal_error, b.normal_error)};
 }
 
-/// Accurate, and ahead of the ray.
+/// True where t is accurate enough and ahead of the ray.
 template <class Arch>
 Mask<Arch> is_result(const Floats<Arch>& t, const Floats<Arch>& error) {
     return error < Floats<Arch>(needed_accuracy) * t;
 }
 
-/// |x| + |y| + |z|, between |v| and 1.74 |v|.
+/// Returns |x| + |y| + |z|, which is between |v| and 1.74 |v|.
 template <class Arch>
 Floats<Arch> sum_of_sizes(const Vectors<Arch>& v) {
     return abs(v.x) + abs(v.y) + abs(v.z);
 }
 
-/// True where a t that is off by `error`, and what double makes of the point there, is off by no
-/// more than an ulp of float of its largest coordinate.
+/// True where the point at t, computed in double, is off by no more than one float ulp of its
+/// largest coordinate. `error` is the error of t.
 template <class Arch>
 [[gnu::always_inline]] inline Mask<Arch> holds_point(const Rays<Arch>& rays, const Floats<Arch>& t,
                                                      const Floats<Arch>& error) {
@@ -93,16 +92,17 @@ template <class Arch>
     return error + F(0x1p-51) * t <= F(0x1p-24) * largest;
 }
 
-/// Error of a unit vector made of one that is exact: what bringing it to length 1 is off by.
+/// Returns the error of a unit vector made from an exact vector, which is that of bringing it to
+/// length 1.
 template <class Arch>
 [[gnu::always_inline]] inline Vectors<Arch> error_of_unit(const Vectors<Arch>& unit) {
     const Floats<Arch> roundings(0x1p-50);
     return {roundings * abs(unit.x), roundings * abs(unit.y), roundings * abs(unit.z)};
 }
 
-/// Error of a unit vector made of one of length 1 / inverse that is off by `error`: each component
-/// errs by its own, and with the length, which is off by all of them. (If that is not small, nor is
-/// the error.)
+/// Returns the error of a unit vector made from a vector of length 1 / inverse that is off by
+/// `error`. Each component errs by its own error, and by that of the length, to which all
+/// components contribute. (If the length's error is not small, neither is the result.)
 template <class Arch>
 [[gnu::always_inline]] inline Vectors<Arch>
 error_of_unit(const Vectors<Arch>& unit, const Vectors<Arch>& error, const Floats<Arch>& inverse) {
@@ -113,8 +113,8 @@ error_of_unit(const Vectors<Arch>& unit, const Vectors<Arch>& error, const Float
             own * error.z + common * abs(unit.z)};
 }
 
-/// Error of the product a x b, that is `product`, of exact vectors: none but its last rounding
-/// where these are floats.
+/// Returns the error of `product`, which is a x b of exact vectors. If their components are floats,
+/// only the last rounding contributes.
 template <class Arch>
 [[gnu::always_inline]] inline Vectors<Arch>
 error_of_cross(const Vectors<Arch>& a, const Vectors<Arch>& b, const Vectors<Arch>& product) {
@@ -134,28 +134,28 @@ bool any(const Mask<Arch>& mask) {
     return Lanes<Arch>::bits(mask) != 0;
 }
 
-/// v with the sign of each lane's components turned where `mask`.
+/// Returns v with all components negated in lanes of `mask`.
 template <class Arch>
 Vectors<Arch> negated_where(const Mask<Arch>& mask, const Vectors<Arch>& v) {
     const Floats<Arch> sign = select(mask, Floats<Arch>(-0.0), zero<Arch>());
     return {v.x ^ sign, v.y ^ sign, v.z ^ sign};
 }
 
-/// True where each term of a . b has a factor 0: all of it is 0 then, whatever rounding does.
+/// True where each term of a . b has a factor 0. Then a . b is exactly 0, with or without rounding.
 template <class Arch>
 Mask<Arch> have_no_product(const Vectors<Arch>& a, const Vectors<Arch>& b) {
     const Floats<Arch> o = zero<Arch>();
     return ((a.x == o) | (b.x == o)) & ((a.y == o) | (b.y == o)) & ((a.z == o) | (b.z == o));
 }
 
-/// A ray relative to a point of its shape, and moved along itself to where it is next to that
-/// point: then all that follows happens at the scale of the shape, and how far away the ray starts
-/// shows in `error` alone.
+/// A ray relative to a point of its shape, moved along itself to where it is closest to that point.
+/// So everything that follows happens at the scale of the shape. The distance at which the ray
+/// starts shows in `error` alone.
 ///   t = shift + s,  point(t) = anchor + start + s direction
 template <class Arch>
 struct LocalRays {
     Vectors<Arch> direction;
-    Floats<Arch> shift;  ///< any number will do, so this one is exact
+    Floats<Arch> shift;  ///< exact, as any number is a valid shift
     Vectors<Arch> start; ///< within `error` of the true one
     Floats<Arch> size;   ///< >= |start|
     Floats<Arch> error;
@@ -165,26 +165,26 @@ struct LocalRays {
         shift = negated(dot(from_anchor, direction));
         start = mul_add<Arch>(shift, direction, from_anchor);
         size = sum_of_sizes(start);
-        // The operands of each rounding: u (|from_anchor| + |shift| |direction| + |start|), and
-        // |from_anchor| <= |shift| |direction| + |start|. As much again lets directions be off by
-        // what bringing them to unit length costs.
+        // The operands of the roundings contribute u (|from_anchor| + |shift|
+        // |direction| + |start|), and |from_anchor| <= |shift| |direction| + |start|. The same
+        // amount again covers directions that are off by the rounding of their normalisation.
         error = Floats<Arch>(0x1p-50) * (abs(shift) + size);
     }
 
     Vectors<Arch> at(const Floats<Arch>& s) const { return mul_add<Arch>(s, direction, start); }
 
-    /// u (|start| + |s|), `count` times: rounding errors of what is at s.
+    /// Returns `count` times u (|start| + |s|): the rounding errors of a value at s.
     Floats<Arch> rounding(double count, const Floats<Arch>& s) const {
         return Floats<Arch>(count * 0x1.2p-53) * (size + abs(s));
     }
 
-    /// Error of the position at(s), and `count` roundings.
+    /// Returns the error of the position at(s), including `count` roundings.
     Floats<Arch> error_at(const Floats<Arch>& s, double count = 2.0) const {
         return error + rounding(count, s);
     }
 
-    /// Error of the position at(s) for an s that is off by `error_s`, by component: where
-    /// neither origin nor direction have one, it has none.
+    /// Returns the error of the position at(s) per component, for an s that is off by `error_s`. It
+    /// is 0 for components that are 0 in both `start` and `direction`.
     Vectors<Arch> off_at(const Floats<Arch>& s, const Floats<Arch>& error_s) const {
         using F = Floats<Arch>;
         const F along = F(0x1p-49) * abs(shift) + F(0x1p-50) * abs(s) + error_s;
@@ -194,8 +194,8 @@ struct LocalRays {
         return {off(start.x, direction.x), off(start.y, direction.y), off(start.z, direction.z)};
     }
 
-    /// The error of t = shift + s for an s that is off by `error_s`, of which the last rounding is
-    /// not yet counted.
+    /// Returns the error of t = shift + s for an s that is off by `error_s`, which need not include
+    /// the last rounding of s.
     Floats<Arch> error_of_t(const Floats<Arch>& t, const Floats<Arch>& s,
                             const Floats<Arch>& error_s) const {
         return error_s + Floats<Arch>(0x1p-51) * (abs(t) + abs(s));

@@ -4,17 +4,18 @@
 
 namespace raylane::simd {
 
-/// The first crossing of a surface of second degree, F(s) = A s^2 + 2 B s + C = 0 for s > 0, from
-/// C, B and the discriminant D = B^2 - A C with what they may be off by:
-///   s = C / (sqrt(D) - B) if C > 0, and -C / (sqrt(D) + B) if C < 0,
-/// none where the divisor is not positive: whatever the sign of A, which may be zero.
+/// Bounds on the first crossing with a surface of second degree, F(s) = A s^2 + 2 B s + C = 0 for
+/// s > 0. They are computed from C, B and the discriminant D = B^2 - A C with their errors:
+///   s = C / (sqrt(D) - B) if C > 0, and -C / (sqrt(D) + B) if C < 0.
+/// There is no crossing where the divisor is not positive. This holds for either sign of A, and for
+/// A = 0.
 template <class Arch>
 struct FirstCrossing {
-    Floats<Arch> low, high; ///< high: where definite
-    Mask<Arch> none;        ///< surely
-    Mask<Arch> definite;    ///< surely one
-    Mask<Arch> outside;     ///< C > 0, surely
-    Mask<Arch> inside;      ///< C < 0, surely
+    Floats<Arch> low, high; ///< `high` is valid where `definite`
+    Mask<Arch> none;        ///< certainly no crossing
+    Mask<Arch> definite;    ///< certainly a crossing
+    Mask<Arch> outside;     ///< certainly C > 0
+    Mask<Arch> inside;      ///< certainly C < 0
 
     [[gnu::always_inline]] FirstCrossing(const Floats<Arch>& B, const Floats<Arch>& B_error,
                                          const Floats<Arch>& C, const Floats<Arch>& C_error,
@@ -36,8 +37,8 @@ struct FirstCrossing {
     }
 };
 
-/// Bounds of a surface that ends where `ends` does, seen from a point at t = `start` that is not
-/// behind its first crossing.
+/// Returns the bounds of a surface that lies within `ends`. `crossing` is relative to the point at
+/// t = `start`, which is not after the first crossing.
 template <class Arch>
 [[gnu::always_inline]] inline Bounds<Arch>
 surface_bounds(const Mask<Arch>& is_shape, const Stay<Arch>& ends, const Floats<Arch>& start,

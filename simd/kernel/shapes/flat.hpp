@@ -6,23 +6,23 @@
 /// Shared parts of flat shapes.
 namespace raylane::simd {
 
-/// t = height / approach for height = n . (p - origin) and approach = n . d, given what these two
-/// may be off by.
+/// t = height / approach for height = n . (p - origin) and approach = n . d, which are given with
+/// their errors.
 template <class Arch>
 struct FlatCrossing {
     Floats<Arch> t;      ///< an approximation, of either sign
-    Floats<Arch> spread; ///< where clear: what t may be off by, but for 6 u |t|
-    Floats<Arch> lower;  ///< no crossing with t > 0 is before; may be < 0
-    Floats<Arch> upper;  ///< where ahead: the crossing is not behind
+    Floats<Arch> spread; ///< where clear: the error of t, beyond 6 u |t|
+    Floats<Arch> lower;  ///< a crossing with t > 0 has t >= lower; may be < 0
+    Floats<Arch> upper;  ///< where ahead: the crossing has t <= upper
     Mask<Arch> clear;    ///< the ray is not nearly parallel
-    Mask<Arch> ahead;    ///< clear, and the plane is surely in front
-    Mask<Arch> behind;   ///< the plane is surely not in front
+    Mask<Arch> ahead;    ///< clear, and the plane is certainly in front
+    Mask<Arch> behind;   ///< the plane is certainly not in front
 
-    /// Bounds of the crossing. With a = |approach|, h = |height| and their errors, h' = h +- e and
-    /// a' = a +- f are
-    ///   (h - e) / (a + f) <= h' / a' <= (h + e) / (a - f),
-    /// and one division serves both: (a + f) / (a - f) = 1 / (1 - x) <= 1 + 2 x for
-    /// x = 2 f / (a + f) <= 1/2.
+    /// Computes the bounds of the crossing. With a = |approach|, h = |height| and their errors f
+    /// and e, the true values h' = h +- e and a' = a +- f satisfy
+    ///   (h - e) / (a + f) <= h' / a' <= (h + e) / (a - f).
+    /// One division serves both bounds, since (a + f) / (a - f) = 1 / (1 - x) <= 1 + 2 x
+    /// for x = 2 f / (a + f) <= 1/2.
     [[gnu::always_inline]] FlatCrossing(const Floats<Arch>& height,
                                         const Floats<Arch>& height_error,
                                         const Floats<Arch>& approach,
@@ -44,9 +44,9 @@ struct FlatCrossing {
     }
 };
 
-/// height and approach are sums of three products: off by 3 u of the sum of their absolute values,
-/// by u more for the rounded difference or direction, by another if the normal was rounded, and the
-/// height by |n| slack.
+/// Returns the crossing with a plane. height and approach are sums of three products. They are off
+/// by 3 u of the sum of the products' absolute values, by another u for the rounded difference or
+/// direction, and by another if the normal was rounded. height is also off by |n| slack.
 template <class Arch>
 [[gnu::always_inline]] inline FlatCrossing<Arch> cross_plane(const Vectors<Arch>& to_point,
                                                              const Vectors<Arch>& normal,
@@ -78,9 +78,9 @@ Crossings<Arch> only(const Crossing<Arch>& crossing) {
             {none<Arch>(), zero<Arch>(), zero<Arch>(), none<Arch>()}};
 }
 
-/// A flat shape is not met again by a ray that starts on it. `passed`: the line surely does not
-/// cross it, for one as it is parallel to it; `clear`: where t is known, so that it may be behind
-/// the ray.
+/// Returns the result for a flat shape. A ray that starts on it does not meet it again. `passed`:
+/// lanes whose line certainly does not cross the shape, for example because they are parallel.
+/// `clear`: lanes where t is known, so that the shape may be proved to be behind the ray.
 template <Wanted wanted, class Arch>
 Finished<Arch> finish_flat(const Mask<Arch>& clear, const Mask<Arch>& inside,
                            const Mask<Arch>& passed, const Floats<Arch>& t,

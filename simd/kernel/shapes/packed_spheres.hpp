@@ -5,9 +5,9 @@
 
 namespace raylane::simd {
 
-/// Spheres of a packed table (core/shapes/packed_spheres.hpp), as those of a plain one are: rows of
-/// 16 floats, x, y, z and radius, and a row of ids, with the same bits. All that reads a packed
-/// table does it by way of this.
+/// Unpacks the spheres of a packed table (core/shapes/packed_spheres.hpp) into the layout of a
+/// plain table: rows of 16 floats, x, y, z and radius, and a row of ids, with the same bits. All
+/// code that reads packed tables uses this class.
 template <class Arch>
 struct PackedSpheres {
     using F = Floats<Arch>;
@@ -27,16 +27,16 @@ struct PackedSpheres {
         if (!is_of_steps(block)) [[unlikely]]
             copy_whole_rows(packed, block, to);
     }
-    /// The same as a function to itself, for those who ask less often.
+    /// Same in a separate function, for callers that unpack less often.
     [[gnu::noinline]] static void unpack_apart(const PackedView& packed, std::uint32_t number,
                                                float (*to)[16]) {
         unpack(packed, number, to);
     }
 
-    /// True if no row of a block stands elsewhere.
+    /// True if a block has no whole rows, which are stored outside of it.
     static bool is_of_steps(const PackedBlockView& block) { return (block.whole & 15) == 0; }
 
-    /// Fetches those rows of a block that do.
+    /// Prefetches the whole rows of a block, if any.
     [[gnu::always_inline]] static void fetch_whole_rows(const PackedView& packed,
                                                         std::uint32_t number) {
         const PackedBlockView& block = packed.blocks[number];
@@ -47,8 +47,8 @@ struct PackedSpheres {
             __builtin_prefetch(first + row);
     }
 
-    /// A register's worth of spheres of such a block, from one on. What is in empty lanes means
-    /// nothing.
+    /// A register's worth of spheres of a block without whole rows, from lane `first` on. Empty
+    /// lanes hold undefined values.
     struct Some {
         const PackedView& packed;
         const PackedBlockView& block;
@@ -69,7 +69,7 @@ struct PackedSpheres {
         [[gnu::always_inline]] F ids() const { return words & bits(packed.id_mask); }
     };
 
-    /// The same, row after row. Of empty lanes, x is NaN, which is what filters ask for.
+    /// Reads the same spheres row after row. In empty lanes x is NaN, which filters test for.
     class Reader {
       public:
         [[gnu::always_inline]] Reader(const PackedView& packed, const PackedBlockView& block,
@@ -86,7 +86,8 @@ struct PackedSpheres {
         int row_ = 0;
     };
 
-    /// The same of one sphere, to one lane; place: 16 times the block, and the lane there.
+    /// Unpacks one sphere into one lane. `place` is 16 times the block's number, plus the sphere's
+    /// lane in the block.
     static void unpack_one(const PackedView& packed, std::uint32_t place, float (*to)[16],
                            std::uint32_t lane) {
         for (int row = 0; row < 4; ++row)
@@ -94,7 +95,7 @@ struct PackedSpheres {
         to[4][lane] = __builtin_bit_cast(float, id(packed, place));
     }
     [[gnu::noinline]] static float value(const PackedView& packed, std::uint32_t place, int row) {
-        if (row > 3) __builtin_unreachable(); // other kinds have more, and are not packed
+        if (row > 3) __builtin_unreachable(); // other kinds have more rows, and are not packed
         const PackedBlockView& block = packed.blocks[place / 16];
         const std::uint32_t lane = place % 16;
         if ((block.whole >> row & 1) != 0) [[unlikely]]
@@ -113,7 +114,8 @@ struct PackedSpheres {
   private:
     static F bits(std::uint32_t number) { return F(__builtin_bit_cast(float, number)); }
 
-    /// Of empty lanes it does not matter, but may not be read from anywhere.
+    /// Returns the radii from the palette. Empty lanes get any value, but must not read out of
+    /// bounds.
     [[gnu::always_inline]] static F of_palette(const PackedView& packed, const F& words) {
         const auto numbers = bits_as<std::uint32_t>(words) >> static_cast<int>(packed.id_bits);
         if (packed.radius_count <= 16) [[likely]]

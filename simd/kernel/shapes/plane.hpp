@@ -13,7 +13,7 @@ struct PlaneNumbers {
     explicit PlaneNumbers(Reader reader)
         : point(next_vector<Arch>(reader)), normal(next_vector<Arch>(reader)) {}
 
-    /// It has none.
+    /// A plane has no bounding sphere, so the radius is infinite.
     SphereAround<Arch> enclosing() const { return {point, Floats<Arch>(__builtin_inff())}; }
 };
 
@@ -25,7 +25,7 @@ struct PlaneFilter : PlaneNumbers<Arch> {
         using F = Floats<Arch>;
         const Vectors<Arch> to_point = point - rays.origin;
         const FlatCrossing<Arch> crossing = cross_plane(to_point, normal, rays);
-        // Alone of all shapes, it may be met beyond the largest float.
+        // A plane is the only shape that a ray may meet beyond the largest float.
         const F lower = min(positive_part<Arch>(crossing.lower), F(0x1.fffffep+127F));
         return {is_number<Arch>(to_point.x) & ~crossing.behind, lower, crossing.ahead,
                 crossing.upper};
@@ -47,10 +47,11 @@ struct PlaneSolver : PlaneNumbers<Arch> {
     }
 };
 
-/// t = (normal . (point - origin)) / (normal . direction), where rounding is relative to the single
-/// terms of each product: on a floor along the axes it hardly matters how far away its point is.
-/// Each product errs by 4 u times the sum of its terms' sizes; t by both, divided by approach, and
-/// the share 2^-27 of which approach itself is in doubt where t is certain.
+/// Finisher of a plane. t = (normal . (point - origin)) / (normal . direction), where rounding is
+/// relative to the single terms of each product. So for a plane along the coordinate axes, the
+/// distance of its point hardly matters. Each product errs by 4 u times the sum of its terms'
+/// sizes. t errs by both errors divided by approach, enlarged by the relative error of approach
+/// itself, which is at most 2^-27 where t is certain.
 template <class Arch>
 struct PlaneFinisher {
     PlaneNumbers<Arch> plane;

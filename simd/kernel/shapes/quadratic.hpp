@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// core::solve_textbook. In lanes where A = 0 the first crossing is the only one.
+/// Same as core::solve_textbook, per lane. If A = 0, the first crossing is the only one.
 template <class Arch>
 Crossings<Arch> solve_textbook(const Floats<Arch>& A, const Floats<Arch>& B,
                                const Floats<Arch>& C) {
@@ -22,7 +22,7 @@ Crossings<Arch> solve_textbook(const Floats<Arch>& A, const Floats<Arch>& B,
             {curved, select(in_first, out, in), o, ~linear & ~in_first}};
 }
 
-/// core::solve_quadratic. In lanes where A = 0 the first crossing is the only one.
+/// Same as core::solve_quadratic, per lane. If A = 0, the first crossing is the only one.
 template <class Arch, bool textbook = false, class AtVertex>
 Crossings<Arch> solve_quadratic(const Floats<Arch>& A, const Floats<Arch>& B, const Floats<Arch>& C,
                                 const Floats<Arch>& scale, const AtVertex& at_vertex) {
@@ -40,7 +40,8 @@ Crossings<Arch> solve_quadratic(const Floats<Arch>& A, const Floats<Arch>& B, co
     const Floats<Arch> q = select(falling, root - B, negated(root) - B);
     const Mask<Arch> tangent = q == o;
     const Floats<Arch> of_A = q / by_A, of_C = C / q;
-    // The one by A leaves where B falls, so it comes first where it enters first, or neither.
+    // q / A is the exit where B < 0 and otherwise the entry. So it comes first where either the
+    // entry comes first or B < 0, but not both.
     const Mask<Arch> in_first = opens_up | (discriminant == o);
     const Mask<Arch> A_first = (in_first & ~falling) | (~in_first & falling);
     const Floats<Arch> first = select(A_first, of_A, of_C);

@@ -45,18 +45,19 @@ struct QuadricNumbers {
     }
 };
 
-/// The ray is first moved to t = `start`, where it enters the box: so magnitudes are the box's, and
-/// the form's next crossing is the answer.
+/// Filter of a quadric. The ray is first moved to t = `start`, where it enters the box. So
+/// magnitudes are those of the box, and the form's next crossing is the answer.
 ///
 /// There, f = origin + start d - center is off by slack + u (3 start + 2 |f|). Let K >= |M v| / |v|
-/// for the form's matrix M, the largest sum of a row's absolute values, k = |linear| and
-/// e = slack + u (3 start + 16 |f|). By 8 operations in a row with rounded operands
+/// for the form's matrix M be the largest sum of a row's absolute values, k = |linear| and
+/// e = slack + u (3 start + 16 |f|). Since each takes at most 8 operations in a row with rounded
+/// operands,
 ///   A = d . M d is off by 10 u K,
 ///   B = d . (M f + linear) by K (slack + u (3 start + 10 |f|)) + 6 u k,
 ///   C = f . (M f + 2 linear) + one by 2 (K |f| + k) (slack + u (3 start + 6 |f|)) + u |one|
-/// and some of the error's square, and by 2 u K, K u |f| + u k and u (K |f|^2 + 2 k |f| + |one|) if
-/// coefficients were rounded: below 16 u K, K e + 12 u k and 2 (K (|f| + e) + k) e + 3 u |one|, and
-/// the discriminant adds 2 u of B^2 and of A C.
+/// and part of the error's square. If the coefficients were rounded, they add 2 u K, K u |f| + u k
+/// and u (K |f|^2 + 2 k |f| + |one|). The totals are below 16 u K, K e + 12 u k and 2 (K
+/// (|f| + e) + k) e + 3 u |one|. The discriminant adds 2 u of B^2 and of A C.
 template <class Arch>
 struct QuadricFilter {
     using F = Floats<Arch>;
@@ -104,8 +105,8 @@ struct QuadricFilter {
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         const Vectors<Arch> from_center = rays.origin - center, d = rays.direction;
         const Vectors<Arch> slope_error = error_of<Arch>(2 * half_ulp, d, F(0x1p-126F));
-        // u for each rounding of f, middle and half, and 3 u of the position as cross_slab() has
-        // it.
+        // u for each rounding of f, middle and half, and 3 u of the position, as cross_slab()
+        // requires.
         const Vectors<Arch> error =
             error_of<Arch>(6 * half_ulp, absolute(from_center) + extent, rays.slack);
         const Stay<Arch> stay =
@@ -149,7 +150,7 @@ struct QuadricFilter {
     }
 };
 
-/// core/shapes/quadric.hpp
+/// Same formulas as core/shapes/quadric.hpp, per lane.
 template <class Arch, bool textbook>
 struct QuadricSolver : QuadricNumbers<Arch> {
     using Numbers = QuadricNumbers<Arch>;
@@ -193,15 +194,16 @@ struct QuadricSolver : QuadricNumbers<Arch> {
     }
 };
 
-/// F(s) = Q(p) with p = start + s direction relative to the centre.
+/// Finisher of a quadric. F(s) = Q(p) with p = start + s direction relative to the centre.
 ///
-/// Errors, with m the largest of the square coefficients' sizes, l = |linear|_1, v = m |p|_1 + l,
-/// and P = local.error_at(s) for the position: each component of the half gradient N = M p + linear
-/// errs by 8 u v + 1.74 m P, and is at most v, so
-///   Q(p) = p . (N + linear) + one   by 8 u ((v + l) |p|_1 + |one|) + 3.5 v P + 3 m P^2,
-///   half F' = N . direction         by 20 u v + 3.1 m P,
-///   A = direction . M direction     by 24 u m.
-/// By component, N errs by the row of |M| times the errors of p, and 8 u times what it is made of.
+/// Let m be the largest of the square coefficients' sizes, l = |linear|_1, v = m |p|_1 + l, and
+/// P = local.error_at(s) the error of the position. Each component of the half gradient
+/// N = M p + linear errs by 8 u v + 1.74 m P, and is at most v. So the errors are:
+///   Q(p) = p . (N + linear) + one   8 u ((v + l) |p|_1 + |one|) + 3.5 v P + 3 m P^2
+///   half F' = N . direction         20 u v + 3.1 m P
+///   A = direction . M direction     24 u m
+/// Each component of N errs by the row of |M| times the errors of p, and by 8 u times the row's
+/// terms.
 template <class Arch>
 struct QuadricFinisher {
     QuadricNumbers<Arch> quadric;
@@ -256,8 +258,8 @@ struct QuadricFinisher {
             return result;
         }
 
-        /// The other root is ahead if the ray first falls inside and the form rises again, or the
-        /// reverse.
+        /// Returns the passage of rays that start on the surface. The other root is ahead if the
+        /// form first falls, because the ray goes inside, and rises again, or the reverse.
         [[gnu::noinline]] Passage<Arch> from_surface(const Starts<Arch>& starts) const {
             const F vertex = negated(quadratic.B) / quadratic.A;
             const V p = local.at(vertex);
@@ -303,7 +305,7 @@ struct QuadricFinisher {
             return F(0x1.8p-49) * steepest + F(4.0) * largest * position_error;
         }
 
-        /// The rest of the passage at root.s.
+        /// Completes the passage at root.s.
         [[gnu::always_inline]] void clip(Passage<Arch>& passage) const {
             const V p = local.at(passage.root.s);
             const F margin = local.error_at(passage.root.s) + F(1.0625) * passage.root.error;

@@ -2,11 +2,11 @@
 
 #include "simd/kernel/shapes/finisher.hpp"
 
-/// Roots of F(s) = A s^2 + 2 B s + C, found with no thought of errors and then certified.
+/// Roots of F(s) = A s^2 + 2 B s + C: first computed without regard to errors, then certified.
 namespace raylane::simd {
 
-/// F at some s: its value, half of its derivative, and what they are off by when they are computed
-/// from the geometry there. They owe nothing to the errors of A, B and C.
+/// The value of F at some s and half of its derivative, with their errors. Both are computed from
+/// the geometry at s, so their errors do not depend on those of A, B and C.
 template <class Arch>
 struct Residual {
     Floats<Arch> value, value_error;
@@ -17,7 +17,7 @@ template <class Arch>
 struct Root {
     Mask<Arch> certain;
     Floats<Arch> s, error;
-    Floats<Arch> rise; ///< |F'| / 2, within a quarter
+    Floats<Arch> rise; ///< |F'| / 2, to within a quarter
 };
 
 template <class Arch>
@@ -27,11 +27,12 @@ struct Quadratic {
 
     Mask<Arch> opens_up() const { return A > A_error; }
     Mask<Arch> opens_down() const { return A < negated(A_error); }
-    /// A plane's: it has one root.
+    /// True where F is linear and has one root, as for a plane.
     Mask<Arch> is_linear() const { return most_A() == zero<Arch>(); }
     Floats<Arch> most_A() const { return abs(A) + A_error; }
 
-    /// The root where F rises (the ray leaves), or else falls. Neither form cancels.
+    /// Returns the root where F rises (the ray leaves) in lanes of `rises`, and the root where F
+    /// falls in the others. Neither form cancels.
     [[gnu::always_inline]] Floats<Arch> root_where(const Mask<Arch>& rises) const {
         const Floats<Arch> root = sqrt(B * B - A * C);
         const Mask<Arch> falling = B < zero<Arch>();
@@ -40,10 +41,12 @@ struct Quadratic {
         return select(by_A, q, C) / select(by_A, A, q);
     }
 
-    /// One step of Newton's method, and a proof. After a step h = value / (2 rise),
-    ///   |F| <= value_error + |h| (2 rise_error + |A h| + roundings)
-    /// and half F' is still three quarters of `rise`, if both its error and A h are below an
-    /// eighth. Then, where A |F| <= (F' / 2)^2, F changes its sign within |F| / (|F'| / 2).
+    /// Refines s by one step of Newton's method and proves the result. After a step h = value / (2
+    /// rise),
+    ///   |F| <= value_error + |h| (2 rise_error + |A h| + roundings).
+    /// If both the error of `rise` and A h are below an eighth of `rise`, half F' is still three
+    /// quarters of `rise`. Then, where A |F| <= (F' / 2)^2, F changes its sign within
+    /// |F| / (|F'| / 2).
     [[gnu::always_inline]] Root<Arch> refine(const Floats<Arch>& s, const Residual<Arch>& residual,
                                              const Mask<Arch>& rises) const {
         using F = Floats<Arch>;
@@ -60,26 +63,26 @@ struct Quadratic {
                 s - step, F(1.5) * value * abs(inverse), rise_size};
     }
 
-    /// True where the other root is further than `reach` from s = 0, going by this one: they are
-    /// F' / A apart.
+    /// True where the other root is further than `reach` from s = 0. This follows from `root`
+    /// alone, as the roots are F' / A apart.
     Mask<Arch> other_is_beyond(const Floats<Arch>& reach, const Root<Arch>& root) const {
         return root.certain & (root.rise > most_A() * (abs(root.s) + reach));
     }
 };
 
-/// A crossing with a surface that does not close a solid.
+/// A crossing with a surface of second degree, which may end at bounds.
 template <class Arch>
 struct Passage {
     Root<Arch> root;
     Floats<Arch> t, error;
     Mask<Arch> inside;          ///< certainly within the bounds of the surface
-    Mask<Arch> outside;         ///< certainly not
-    Mask<Arch> steady;          ///< the normal is within 2^-12
+    Mask<Arch> outside;         ///< certainly outside of them
+    Mask<Arch> steady;          ///< the error of the normal is below 2^-12
     Vectors<Arch> normal;       ///< of any length
-    Vectors<Arch> normal_error; ///< by component, if all is wanted
+    Vectors<Arch> normal_error; ///< per component, with Wanted::all
 
-    /// Passage opposite the start of a ray on the surface: t = 0 is one root, so the other is twice
-    /// the vertex, where F' = 0. Not certain as yet.
+    /// Returns the passage opposite the start of a ray on the surface. One root is t = 0, so the
+    /// other is at twice the vertex, where F' = 0. The caller sets root.certain.
     [[gnu::always_inline]] static Passage opposite(const Floats<Arch>& vertex,
                                                    const Floats<Arch>& vertex_error,
                                                    const LocalRays<Arch>& local) {
@@ -106,17 +109,18 @@ struct Passage {
 template <Wanted wanted, class Arch>
 [[gnu::always_inline]] inline void make_unit(Finished<Arch>& finished) {
     const Floats<Arch> inverse =
-        constant<Arch>(1.0F) / sqrt(squared_length(finished.normal)); // as unit() has it
+        constant<Arch>(1.0F) / sqrt(squared_length(finished.normal)); // same formula as unit()
     finished.normal = scaled<Arch>(inverse, finished.normal);
     if constexpr (wanted == Wanted::all)
         finished.normal_error =
             error_of_unit<Arch>(finished.normal, finished.normal_error, inverse);
 }
 
-/// The first of both crossings with `surface`, which has
-///   passage(leaves), from_surface(starts)  as Passage,
-///   quadratic, reach()                     as Quadratic and how far |s| can be inside its bounds
-///   has_no_root()                          certainly
+/// Returns the first of the two crossings with `surface`, which has
+///   passage(leaves), from_surface(starts)  returning a Passage,
+///   quadratic                              a Quadratic,
+///   reach()                                the largest |s| inside its bounds,
+///   has_no_root()                          true where this is certain
 template <Wanted wanted, class Arch, class Surface>
 Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts) {
     using M = Mask<Arch>;
@@ -143,11 +147,12 @@ Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts)
         const Passage<Arch> onward = surface.from_surface(starts);
         result = select<Arch>(starts.on_surface, onward.finished(onward.counts(), ~starts.inward),
                               result);
-        // Where the surface curves away from it, the other root is behind the ray.
+        // If the surface curves away from the ray, the other root is behind the start.
         const M behind = (starts.inward & surface.quadratic.opens_down()) |
                          (~starts.inward & surface.quadratic.opens_up()) |
                          surface.quadratic.is_linear();
-        // (What rounding alone puts behind the start counts as there: core::not_behind.)
+        // A crossing that only rounding puts behind the start counts as one at the start
+        // (core::not_behind).
         const M out_of_bounds = onward.root.certain & onward.outside & (onward.t > onward.error);
         result.misses =
             (~starts.on_surface & result.misses) | (starts.on_surface & (behind | out_of_bounds));

@@ -3,26 +3,25 @@
 #include "core/kinds.hpp"
 #include "simd/kernel/lanes/vectors.hpp"
 
-/// The shapes of core/shapes, one per lane. Each can be loaded from one shape's floats for all
-/// lanes, or from a block of shapes, structure of arrays.
+/// The shapes of core/shapes, one per lane. They are loaded either from one shape's floats for all
+/// lanes, or from a block of shapes in structure-of-arrays layout.
 namespace raylane::simd {
 
-/// Parts of the kernels for a kind of shape: from its own file, where it is specialised.
-///   Numbers<Arch>           its floats; and, for what no ray of a frustum meets, spheres around
-///   it:
-///       enclosing() is one, or enclosing(end) one around each of its `ends`, which it is between;
-///       or it `encloses_itself`
+/// The kernels' classes for one kind of shape. Each shape's file specialises it.
+///   Numbers<Arch>           its floats, and its bounding spheres, by which frusta reject shapes:
+///       enclosing() returns one sphere; or enclosing(end) returns one for each of the shape's
+///       `ends`, and the shape lies between these; or `encloses_itself` is true for a sphere
 ///   Solver<Arch, textbook>  has crossings(rays, starts) and outward_normal(point, face): core's
-///       formulas, one shape per lane, in lanes of any numbers; by the textbooks' where there are
-///       better ones
-///   Filter<Arch>            float bounds on where rays cross it (filter.hpp)
-///   Finisher<D>             its certified crossing in double (finisher.hpp)
-/// Each is made of a reader, which gives the shape's floats one after the other. The solver in
-/// numbers with bounds is what widens, and what comes behind it is core's.
+///       formulas, one shape per lane, for lanes of any number type; if `textbook`, the textbook
+///       formulas where core has better ones
+///   Filter<Arch>            float bounds on a ray's crossing (filter.hpp)
+///   Finisher<D>             the certified first crossing in double (finisher.hpp)
+/// Each is constructed from a reader, which returns the shape's floats one after the other. To
+/// extend precision, the solver runs in numbers with bounds. The stages after that are in core.
 template <class Shape>
 struct ShapeKernels;
 
-/// ShapeKernels by its parts.
+/// ShapeKernels assembled from its parts.
 template <template <class> class NumbersOf, template <class> class FilterOf,
           template <class, bool> class SolverOf, template <class> class FinisherOf>
 struct ShapeKernelsOf {
@@ -36,7 +35,7 @@ struct ShapeKernelsOf {
     using Finisher = FinisherOf<D>;
 };
 
-/// Reads the floats of one shape after the other from a block: row k, from `lane` on.
+/// Reads the floats of consecutive shapes of a block, one row after the other, from `lane` on.
 template <class Arch>
 class BlockReader {
   public:
@@ -48,7 +47,7 @@ class BlockReader {
     int lane_;
 };
 
-/// The same for lane `lane` alone, to all lanes.
+/// Reads the floats of the one shape in lane `lane` into all lanes.
 template <class Arch>
 class BroadcastReader {
   public:
@@ -60,22 +59,22 @@ class BroadcastReader {
     int lane_;
 };
 
-/// In the order that the braces say. Where the numbers were named first, GCC 12 would keep a copy
-/// of them in memory.
+/// Reads three numbers in the order that braces guarantee. If they were variables first, GCC 12
+/// would keep a copy of them in memory.
 template <class Arch, class Reader>
 [[gnu::always_inline]] inline Vectors<Arch> next_vector(Reader& reader) {
     return {reader.next(), reader.next(), reader.next()};
 }
 
-/// Reads what a solver or filter has derived from its shape's floats, and shows by derived(visit):
-/// numbers of each shape that are the same for all rays.
+/// Reads the numbers that a solver or filter derives from its shape's floats and lists in
+/// derived(visit). They are the same for all rays.
 template <class Reader>
 struct Derived {
     Reader reader;
     auto next() { return reader.next(); }
 };
 
-/// Calls visit(number) for the numbers of some vectors and numbers.
+/// Calls visit(number) for each number in `values`, which are vectors and numbers.
 template <class Visit, class... Values>
 [[gnu::always_inline]] inline void visit_each(const Visit& visit, const Values&... values) {
     const auto one = [&](const auto& value) __attribute__((always_inline)) {
@@ -90,7 +89,7 @@ template <class Visit, class... Values>
     (one(values), ...);
 }
 
-/// Reads on behalf of another reader.
+/// A reader that reads from another one by reference, so that the other one advances.
 template <class Arch, class Reader>
 struct PassOn {
     Reader& reader;

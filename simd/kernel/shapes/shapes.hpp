@@ -14,14 +14,14 @@
 
 namespace raylane::simd {
 
-/// Calls visit.operator()<Shape>() with the type of shape that `kind` is.
+/// Calls visit.operator()<Shape>() with the shape type of `kind`.
 template <class Visit>
 void with_shape(core::Kind kind, const Visit& visit) {
     core::with_shape_type(
         kind, [&]<class Shape>(std::type_identity<Shape>) { visit.template operator()<Shape>(); });
 }
 
-/// The same with what the kernels have for it.
+/// Same with the kind's solver, and below with its filter or finisher, in place of the shape type.
 template <class Arch, bool textbook = false, class Visit>
 void with_solver(core::Kind kind, const Visit& visit) {
     with_shape(kind, [&]<class Shape>() {

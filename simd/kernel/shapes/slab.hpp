@@ -4,21 +4,23 @@
 
 namespace raylane::simd {
 
-/// Stay of a ray in a convex set: bounds on where it enters and leaves.
+/// The interval of a ray inside a convex set: bounds on where it enters and leaves.
 template <class Arch>
 struct Stay {
-    Floats<Arch> in_low;   ///< not inside before, for t > 0; may be < 0
-    Floats<Arch> out_high; ///< not inside behind; < 0 if never for t > 0
+    Floats<Arch> in_low;   ///< not inside at 0 < t < in_low; may be < 0
+    Floats<Arch> out_high; ///< not inside at t > out_high; < 0 if never inside at t > 0
     Floats<Arch> in_high;  ///< where definite: inside from here, >= 0 ...
-    Floats<Arch> out_low;  ///< ... to here, if that is not before
+    Floats<Arch> out_low;  ///< ... to here, if out_low >= in_high
     Mask<Arch> definite;
-    Mask<Arch> inside; ///< the origin is
+    Mask<Arch> inside; ///< the origin is certainly inside
 };
 
-/// |position + t slope| <= half for a position, slope and half that are off by `error` (of position
-/// and half together) and `slope_error`. `error` has to pay for 2 u (|position| + half) besides.
+/// Returns the interval where |position + t slope| <= half. `error` is the error of position and
+/// half together, and `slope_error` that of slope. `error` must also cover 2 u (|position| + half)
+/// for the roundings here.
 ///
-/// Coming closer by c = -position sign(slope), one division serves all bounds as in FlatCrossing.
+/// With c = -position sign(slope), by which the ray comes closer, one division serves all bounds,
+/// as in FlatCrossing.
 template <class Arch>
 [[gnu::always_inline]] inline Stay<Arch>
 cross_slab(const Floats<Arch>& position, const Floats<Arch>& half, const Floats<Arch>& error,
@@ -34,7 +36,7 @@ cross_slab(const Floats<Arch>& position, const Floats<Arch>& half, const Floats<
     const F outer = half + error, inner = half - error;
     const F distance = abs(position);
     const Mask<Arch> inside = distance < inner;
-    // Along the slab, either side may be the one that the ray leaves by.
+    // A ray along the slab may leave by either side.
     const F to_leave = select(clear, closer, negated(distance));
     return {(closer - outer) * least,
             select(clear, (closer + outer) * most, infinity),
@@ -44,7 +46,7 @@ cross_slab(const Floats<Arch>& position, const Floats<Arch>& half, const Floats<
             inside};
 }
 
-/// Inside both.
+/// Returns the interval inside both sets.
 template <class Arch>
 [[gnu::always_inline]] inline Stay<Arch> operator&(const Stay<Arch>& a, const Stay<Arch>& b) {
     return {max(a.in_low, b.in_low),   min(a.out_high, b.out_high), max(a.in_high, b.in_high),

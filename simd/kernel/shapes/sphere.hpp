@@ -17,42 +17,44 @@ struct SphereNumbers {
     explicit SphereNumbers(const SphereAround<Arch>& sphere)
         : center(sphere.center), radius(sphere.radius) {}
 
-    /// The enclosing sphere is the numbers themselves.
+    /// A sphere is its own bounding sphere.
     static constexpr bool encloses_itself = true;
-    static constexpr bool is_of_spheres = true; ///< may be of a packed table
+    static constexpr bool is_of_spheres = true; ///< the table may be packed
 };
 
 /// Filter of a sphere. With f = origin - center, tau = -f . d and q = f + tau d (the foot of the
 /// perpendicular), a ray with unit d crosses at tau -+ sqrt(r^2 - q^2).
 ///
-/// The point that the floats mean at t is within e = slack + u |f| + u t of the true one: at a
-/// crossing, |f + t d| = r -+ e. As a polynomial in t - tau this is Q + 2 b (t - tau) +
-/// |d|^2 (t - tau)^2, where sqrt(Q) is within u (|tau| + |q|) of |q|, |b| <= 3 u |f| + 2 u |tau|
-/// for the rounding of tau and for |d|^2 = 1 -+ 2 u. Here |f| <= |tau| + |q|, t <= |tau| + r and,
-/// where it matters, |q| <= r. So, with room for the rounding of the squares,
+/// The point at t given by the floats is within e = slack + u |f| + u t of the true one. So at a
+/// crossing, |f + t d| = r -+ e. The square of the left side, as a polynomial in t - tau, is
+/// Q + 2 b (t - tau) + |d|^2 (t - tau)^2. Here sqrt(Q) is within u (|tau| + |q|) of |q|, and
+/// |b| <= 3 u |f| + 2 u |tau|, for the rounding of tau and for |d|^2 = 1 -+ 2 u. Moreover
+/// |f| <= |tau| + |q|, t <= |tau| + r and, where it matters, |q| <= r. With a margin for the
+/// rounding of the squares, it follows that
 ///   (r -+ e)^2 - Q + b^2 is within (r -+ E)^2 - q^2 for E = slack + u (6 |tau| + 7 r),
-/// and tau -+ sqrt() is then off by |b| + u (2 |tau| + 4 r) < u (7 |tau| + 8 r).
+/// and that tau -+ sqrt() is off by |b| + u (2 |tau| + 4 r) < u (7 |tau| + 8 r).
 template <class Arch>
 struct SphereFilter : SphereNumbers<Arch> {
     using Numbers = SphereNumbers<Arch>;
     using Numbers::Numbers, Numbers::center, Numbers::radius;
-    /// True where a ray may meet the sphere, for less than its bounds.
+    /// True where a ray may meet the sphere. Costs less than bounds().
     [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const Vectors<Arch> from_center = rays.origin - center;
-        const F behind = fast_dot(from_center, rays.direction); // the ray's origin, of the foot
+        const F behind = fast_dot(from_center, rays.direction); // the foot is at t = -behind
         const Vectors<Arch> foot = fast_mul_add<Arch>(negated(behind), rays.direction, from_center);
         const F outer = radius * F(1 + 12 * half_ulp) +
                         fast_mul_add<Arch>(F(12 * half_ulp), abs(behind), rays.slack);
-        // A ray that has its foot behind it starts inside, if it meets the sphere at all: its
-        // distance from the centre, and so `behind`, is r + slack at most, and 6 u r for rounding.
-        // What overflows proves nothing.
+        // If a ray has its foot behind it and meets the sphere, it starts inside. Its distance from
+        // the centre, and so `behind`, is at most r + slack, and 6 u r for rounding. Values that
+        // overflow prove nothing.
         const Mask<Arch> missed = (outer * outer < fast_dot(foot, foot)) | (outer < behind);
         return is_number<Arch>(from_center.x) & ~missed;
     }
 
-    /// Without a root, unless what is left in doubt is asked about: a ray that starts more than a
-    /// radius before its foot enters behind its start and before the foot, if it meets the sphere.
+    /// Avoids the square root unless a lane in `asked` remains in doubt. If a ray starts more than
+    /// a radius before its foot and meets the sphere, it enters after its start and before the
+    /// foot.
     [[gnu::always_inline]] Obstacle<Arch> obstacle(const FilterRays<Arch>& rays,
                                                    std::uint32_t asked,
                                                    const Floats<Arch>& perhaps_before,
@@ -76,7 +78,7 @@ struct SphereFilter : SphereNumbers<Arch> {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
         const auto [there, tau, foot_squared, rounding, outer, inner] = near(rays);
-        const F outer_chord = outer * outer - foot_squared; // not fused: both overflow, or none
+        const F outer_chord = outer * outer - foot_squared; // not fused: both overflow, or neither
         const F outer_half = sqrt(outer_chord);
         const F entry = tau - outer_half - rounding;
         const F exit = tau + outer_half + rounding;
@@ -88,7 +90,7 @@ struct SphereFilter : SphereNumbers<Arch> {
         Bounds<Arch> result{there & ~missed, positive_part<Arch>(entry), meets & ahead,
                             tau - inner_half + rounding};
 
-        // Surely inside, it is the exit that counts.
+        // A ray that certainly starts inside first crosses at its exit.
         const Mask<Arch> inside =
             (inner > o) & (fast_mul_add<Arch>(tau, tau, foot_squared) < inner * inner);
         if (Lanes<Arch>::bits(inside) != 0) [[unlikely]] {
@@ -103,7 +105,7 @@ struct SphereFilter : SphereNumbers<Arch> {
     }
 
     static constexpr bool has_chord_around = false;
-    /// Of rays that meet it.
+    /// Returns the chords of rays that meet the sphere. Undefined for other rays.
     [[gnu::always_inline]] Chord<Arch> chord(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
@@ -117,12 +119,12 @@ struct SphereFilter : SphereNumbers<Arch> {
     }
 
   private:
-    /// A ray next to the centre.
+    /// A ray relative to the centre of the sphere.
     struct Near {
-        Mask<Arch> there;               ///< the sphere is
+        Mask<Arch> there;               ///< the lane holds a sphere
         Floats<Arch> tau, foot_squared; ///< t of the foot, and q^2
-        Floats<Arch> rounding;          ///< of t
-        Floats<Arch> outer, inner;      ///< the radius and E more, or less
+        Floats<Arch> rounding;          ///< error of t
+        Floats<Arch> outer, inner;      ///< radius + E and radius - E
     };
 
     [[gnu::always_inline]] Near near(const FilterRays<Arch>& rays) const {
@@ -138,7 +140,7 @@ struct SphereFilter : SphereNumbers<Arch> {
     }
 };
 
-/// core/shapes/sphere.hpp
+/// Same formulas as core/shapes/sphere.hpp, per lane.
 template <class Arch, bool textbook>
 struct SphereSolver : SphereNumbers<Arch> {
     using Numbers = SphereNumbers<Arch>;
@@ -154,21 +156,23 @@ struct SphereSolver : SphereNumbers<Arch> {
     }
 };
 
-/// The solver's formula, with one division and, as directions are unit vectors, none by
-/// |direction|^2.
+/// Uses the solver's formula with one division. Directions are unit vectors, so it does not divide
+/// by |direction|^2.
 ///
 /// The foot of the perpendicular from the centre, start + 0 direction, is off by `local.error`
-/// across the ray. Along the ray it is off by 2^-46 |f|, f = origin - center: 2^-47 |f| as
-/// |direction|^2 is not 1, and 5 u |f| for the dot product. With |foot| <= r and H = |shift| + 2 r
-/// >= |f| + |foot|, the discriminant r^2 - |foot|^2 errs by
-///   2 r (4.1 u |f| + u r) + (5 u |f|)^2   from across,
-///   2^-91 |f|^2                           from along, where |foot|^2 is at its least,
-///   6 u r^2                               from its own roundings,
-/// so by less than H (16 u r + 2^-90 H). Its root errs by that, divided by it; and t further by
-/// 2^-46 |f| and 2^-47 |root|, so by 2^-45 H. A start on the surface has t = 2 shift, which errs by
-/// 10 u |f| and, as |direction|^2 is not 1, by 2^-47 of itself.
+/// (LocalRays) across the ray. Along the ray it is off by 2^-46 |f|, f = origin - center: by
+/// 2^-47 |f| as |direction|^2 is not 1, and by 5 u |f| for the dot product. With |foot| <= r and
+/// H = |shift| + 2 r >= |f| + |foot|, the discriminant r^2 - |foot|^2 errs by
+///   2 r (4.1 u |f| + u r) + (5 u |f|)^2   for the error across the ray,
+///   2^-91 |f|^2                           for the error along it, where |foot|^2 has its minimum,
+///   6 u r^2                               for its own roundings,
+/// in total by less than H (16 u r + 2^-90 H). The root of the discriminant errs by this error
+/// divided by the root. t errs further by 2^-46 |f| and 2^-47 |root|, so by 2^-45 H. For a start on
+/// the surface t = 2 shift, which errs by 10 u |f| and, as |direction|^2 is not 1, by 2^-47 of
+/// itself.
 ///
-/// The offset from the centre errs by 4 u |f| and 8 u |t| |direction| by component, and with t.
+/// Each component of the offset from the centre errs by 4 u |f| and 8 u |t| |direction|, and by the
+/// error of t.
 template <class Arch>
 struct SphereFinisher {
     SphereNumbers<Arch> sphere;
@@ -229,8 +233,8 @@ struct SphereFinisher {
   private:
     using F = Floats<Arch>;
 
-    /// True where the line surely does not come near enough: as above, with |foot| in place of the
-    /// radius, which is less.
+    /// True where the line certainly misses the sphere. The error is the one above with |foot| in
+    /// place of the radius, which is smaller than |foot| there.
     Mask<Arch> passes(const F& shift, const Vectors<Arch>& foot) const {
         const F size = sum_of_sizes(foot), H = abs(shift) + (size + size);
         const F error = H * (F(0x1p-49) * size + F(0x1p-90) * H);

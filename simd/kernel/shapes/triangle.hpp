@@ -31,7 +31,7 @@ struct CornerNormals {
         : a(next_vector<Arch>(reader)), b(next_vector<Arch>(reader)), c(next_vector<Arch>(reader)) {
     }
 
-    /// core::shading_normal
+    /// Same as core::shading_normal, per lane.
     Vectors<Arch> interpolated(const TriangleNumbers<Arch>& triangle, const Vectors<Arch>& point,
                                const Vectors<Arch>& unit_flat) const {
         const Vectors<Arch> to_a = triangle.a - point, to_b = triangle.b - point,
@@ -48,14 +48,14 @@ struct CornerNormals {
 };
 
 /// Filter of a triangle. With edges e = b - a, g = c - a, normal n = e x g and s = a - origin, the
-/// point a + v e + w g is met at t if t d = s + v e + w g, so that (Moeller and Trumbore, "Fast,
+/// ray meets the point a + v e + w g at t if t d = s + v e + w g. So (Moeller and Trumbore, "Fast,
 /// Minimum Storage Ray/Triangle Intersection", 1997)
 ///   t (n . d) = n . s,  v (n . d) = g . (s x d),  w (n . d) = -e . (s x d).
 ///
-/// n is off by 4 u of absolute_cross(e, g), so n . s and n . d by 8 u of the sum of the absolute
-/// products. s x d is off by 4 u of absolute_cross(s, d), its products with edges by 8 u; moving
-/// the origin by slack moves them by slack |edge| or less. 11 u instead of 8 u pay for the sum that
-/// 1 - v - w is, too.
+/// n is off by 4 u of absolute_cross(e, g), so n . s and n . d are off by 8 u of the sum of the
+/// absolute products. s x d is off by 4 u of absolute_cross(s, d), and its products with edges by
+/// 8 u. Moving the origin by slack moves these products by slack |edge| or less. Taking 11 u
+/// instead of 8 u also covers the sum 1 - v - w.
 template <class Arch>
 struct TriangleFilter {
     Vectors<Arch> a, edge_e, edge_g, normal, normal_size;
@@ -155,11 +155,12 @@ struct SmoothTriangleSolver : TriangleSolver<Arch, false> {
     }
 };
 
-/// Barycentric coordinates, times normal . direction, from one cross product of start and
-/// direction (Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997).
-/// With U >= |b - a|, V >= |c - a|: the normal errs by 5 u U V, its products with vectors by 10 u U
-/// V times their lengths; the coordinates by U or V times that of the start and 10 u |start|, with
-/// room for 1.74^2, as the components of a cross product have each their own error.
+/// Finisher of a triangle. Barycentric coordinates, times normal . direction, follow from one cross
+/// product of start and direction (Moeller and Trumbore, "Fast, minimum storage ray/triangle
+/// intersection", 1997). With U >= |b - a| and V >= |c - a|, the normal errs by 5 u U V, and its
+/// products with vectors by 10 u U V times their lengths. The coordinates err by U or V times the
+/// error of the start and 10 u |start|, with a margin of 1.74^2, as each component of a cross
+/// product has its own error.
 template <class Arch>
 struct TriangleFinisher {
     TriangleNumbers<Arch> triangle;
@@ -179,7 +180,8 @@ struct TriangleFinisher {
         const F s = negated(dot(normal, local.start)) * inverse;
         const F error_s = F(1.25) * (U * V) * local.error_at(s, 12.0) * abs(inverse);
 
-        // The coordinates, times the determinant: of one sign within the triangle.
+        // The barycentric coordinates times the determinant. They have one sign within the
+        // triangle.
         const Vectors<Arch> moment = cross(local.start, local.direction);
         const F at_c = dot(moment, to_b), at_b = negated(dot(moment, to_c));
         const F at_a = determinant - at_b - at_c;
@@ -211,8 +213,8 @@ struct TriangleFinisher {
     using F = Floats<Arch>;
     using M = Mask<Arch>;
 
-    /// True where that shows: of direction . (to_b x to_c), each term has a factor 0. Differences
-    /// of floats are 0 only where they are so truly.
+    /// True where each term of direction . (to_b x to_c) has a factor 0, which proves that they are
+    /// parallel. Differences of floats are 0 only if they are exactly 0.
     static M is_parallel(const Vectors<Arch>& direction, const Vectors<Arch>& to_b,
                          const Vectors<Arch>& to_c) {
         const F o = zero<Arch>();
@@ -224,11 +226,11 @@ struct TriangleFinisher {
                vanishes(direction.z, to_b.x, to_c.y, to_b.y, to_c.x);
     }
 
-    /// Error of to_b x to_c: what was lost of the products, and of the edges where these were
-    /// rounded. Of corners that are floats, as a rule nothing was.
+    /// Returns the error of to_b x to_c: that of the products, and that of the edges if these were
+    /// rounded. With corners that are floats, usually neither occurs.
     Vectors<Arch> normal_error(const Vectors<Arch>& to_b, const Vectors<Arch>& to_c,
                                const Vectors<Arch>& normal) const {
-        // What a sum loses is a double, and this is it (Knuth's 2Sum).
+        // The rounding error of a sum is a double, and this is it (Knuth's 2Sum).
         const auto is_exact = [](const F& difference, const F& from, const F& to) {
             const F back = difference - to;
             return (to - (difference - back)) - (from + back) == zero<Arch>();
