@@ -26,10 +26,10 @@ namespace raylane::simd {
 ///   f . n   slack + u (3 start + 13 |f|)              M   15 u k
 ///   W       k (slack + u (3 start + 17 |f|)) + 3 u r0
 ///   W n - M m   k (2 slack + u (6 start + 53 |f|)) + 11 u r0
-/// The last one and that of f . n together, with 2 u of each for the squares, give
-/// `body` = (1 + 2.5 k) e + 16 u r0 for the discriminant. `body` also bounds the errors of m and W
-/// with those of their squares, so C is off by less than 2 body (|m| + |W| + body). B is off by
-/// |m| 11 u + |n| (error of m) + |M| (error of W) + |W| 17 u k < (1 + 2 k^2) e + (22 k + 4) u r0.
+/// W n - M m and f . n together, with 2 u of each for the squares, give the discriminant's `body`
+/// = (1 + 2.5 k) e + 16 u r0. It bounds the errors of m and W with their squares' too, so that
+/// C is off by less than 2 body (|m| + |W| + body). B is off by |m| 11 u + |n| (error of m) + |M|
+/// (error of W) + |W| 17 u k < (1 + 2 k^2) e + (22 k + 4) u r0.
 template <class Arch, bool tapers, bool capped>
 struct AxialFilter {
     using F = Floats<Arch>;

@@ -30,14 +30,14 @@ struct EllipsoidNumbers {
 /// position at tau + s maps to b + s a in the ball, for a = n d and b = n p, p = origin + tau
 /// d - center, where tau is near the minimum of |n p|. The ray crosses where |b + s a| = 1.
 ///
-/// Everything but t is in units of a power of two, in which the axes' components add up to less
-/// than 2, and to 1 or more. Let L be the length of all axes together. Since
-/// p = b_u u + b_v v + b_w w, |p| <= L |b|, and 1 <= L |a|. Let sigma be the length of all rows'
-/// parts of absolute_cross() / |volume|. A row errs by 3 u of its part. All rows err as the volume
-/// does, by r = u (8 S / |volume| + 8), where S is the sum of the absolute products. This makes the
-/// ball larger or smaller by the same share.
+/// All but t is in units of a power of two, in which the axes' components add up to less than 2,
+/// and to 1 or more. L is the length of all axes together: as p = b_u u + b_v v + b_w w, it is |p|
+/// <= L |b|, and 1 <= L |a|. A row errs by 3 u of its part of absolute_cross() / |volume|, sigma
+/// being the length of all these parts. All rows err as the volume does, by
+/// r = u (8 S / |volume| + 8), where S is the sum of the absolute products. This makes the ball
+/// larger or smaller by the same share.
 ///
-/// p errs by eta = slack + 4 u |tau| and 2 u |p|, so b errs by sigma (8 u |p| + eta), and a by 7 u
+/// p errs by eta = slack + 4 u |tau| and 2 u |p|, so b by sigma (8 u |p| + eta), and a by 7 u
 /// sigma. Where |b + s a| is X, |p| <= L X and |s| <= 2 X L, as b is next to the centre. So the
 /// true position is within sigma (22 u X L + eta) of it. Hence two such X, one of which is 1,
 /// differ by at most

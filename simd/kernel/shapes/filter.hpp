@@ -125,8 +125,7 @@ Vectors<Arch> fast_mul_add(const Floats<Arch>& s, const Vectors<Arch>& a, const 
             fast_mul_add<Arch>(s, a.z, b.z)};
 }
 
-/// Returns a . b + c. The error is at most 3 u of the sum of the products' absolute values (and u
-/// of c).
+/// a . b + c; off by at most 3 u of the sum of the products' absolute values (and u of c).
 template <class Arch>
 Floats<Arch> fast_dot(const Vectors<Arch>& a, const Vectors<Arch>& b, const Floats<Arch>& c) {
     return fast_mul_add<Arch>(a.x, b.x,
