@@ -2,27 +2,27 @@
 
 #include "simd/kernel/lanes/double_double.hpp"
 
-/// Lanes of core::Bounded: numbers and how far they may be from what real arithmetic would have
-/// given. A formula that is written for any numbers thereby carries the proof of its own accuracy,
-/// and so do the questions that it asks.
+/// Lanes of core::Bounded: numbers, each with a bound on its distance from the result of real
+/// arithmetic. So a formula that is written for any number type carries the proof of its accuracy.
+/// The same holds for its comparisons.
 namespace raylane::simd {
 
-/// Stands for `Number`, which is Double<...> or Wide<...>, but with bounds on errors.
+/// Names `Number`, which is Double<...> or Wide<...>, with bounds on errors.
 template <class Number>
 struct Certified {};
 
-/// Stands for D = Double<...>, but with twice its digits.
+/// Names D = Double<...> with twice its digits.
 template <class D>
 struct Wide {};
 
-/// Result of one operation, and its roundoff (core::Rounded).
+/// The result of one operation, with a bound on its roundoff (core::Rounded).
 template <class Number>
 struct RoundedLanes {
     typename Number::Value value;
     Floats<typename Number::D> error;
 };
 
-/// Arithmetic of Certified<Number>.
+/// The arithmetic of Certified<Number>.
 template <class Number>
 struct Digits;
 
@@ -52,7 +52,7 @@ struct Digits<Wide<Lesser>> {
     using Value = DoubleDoubles<D>;
     using Rounded = RoundedLanes<Digits>;
     static F in_double(const Value& value) { return value.high + value.low; }
-    /// Error of in_double().
+    /// Returns the error of in_double().
     static F lost_in_double(const Value& value) {
         return abs(Value::two_sum(value.high, value.low).low);
     }
@@ -85,7 +85,8 @@ struct Digits<Wide<Lesser>> {
         return is_short(quotient) & is_short(divisor) & (product.high == dividend.high) &
                (product.low == dividend.low) & (abs(dividend.high) > F(0x1p-900));
     }
-    /// Where it is 0 for a reason, not because it has underflown.
+    /// Sets the roundoff to 0 in `lanes` whose value is 0. There the value is exactly 0 and has not
+    /// underflowed.
     static Rounded without_roundoff(const M& lanes, const Rounded& rounded) {
         return {rounded.value,
                 select(lanes & (rounded.value.high == zero<D>()), zero<D>(), rounded.error)};
@@ -97,7 +98,7 @@ struct Digits<Wide<Lesser>> {
     }
 };
 
-/// The answer to a question, and whether it is known (Kleene's logic).
+/// The answer to a comparison, and whether it is known (Kleene's logic).
 template <class Number>
 struct Answers {
     using M = Mask<typename Digits<Number>::D>;
@@ -116,7 +117,7 @@ struct Answers {
     Answers operator|(const Answers& b) const {
         return {answer | b.answer, (known & b.known) | surely() | b.surely()};
     }
-    /// Known everywhere, where either answer will do.
+    /// Returns the answer as known in all lanes, for a choice where either answer is correct.
     friend Answers either_way(const Answers& a) { return {a.answer, M(true)}; }
 };
 
@@ -132,7 +133,7 @@ struct BoundedLanes {
     Value value;
     F error;
 
-    /// Exact.
+    /// Numbers without an error are exact.
     BoundedLanes() = default;
     explicit BoundedLanes(double exact) : value(F(exact)), error(0.0) {}
     explicit BoundedLanes(const F& exact) : value(exact), error(0.0) {}
@@ -141,7 +142,7 @@ struct BoundedLanes {
     F in_double() const { return Its::in_double(value); }
     F magnitude() const { return abs(in_double()); }
 
-    // The rules of core::Bounded, where they are said to bound errors.
+    // Same rules as core::Bounded, which explains why they bound errors.
     BoundedLanes operator+(const BoundedLanes& b) const {
         const auto sum = Its::sum(value, b.value);
         return {sum.value, rounded_up(sum.error + (error + b.error))};
@@ -169,7 +170,8 @@ struct BoundedLanes {
                            select(has_divisor, in_all, unbounded()));
     }
     friend BoundedLanes negated(const BoundedLanes& a) { return {-a.value, a.error}; }
-    /// Roots of numbers known not to be negative; what rounding makes negative counts as 0.
+    /// Returns the root of a number that is known not to be negative. Values that rounding makes
+    /// negative count as 0.
     friend BoundedLanes sqrt(const BoundedLanes& a) {
         const M positive = a.in_double() > zero<D>();
         const auto root = Its::root(select(positive, a.value, Value(F(1.0))));
@@ -183,7 +185,8 @@ struct BoundedLanes {
     friend BoundedLanes abs(const BoundedLanes& a) {
         return {select(a.in_double() < zero<D>(), -a.value, a.value), a.error};
     }
-    /// One of both where the answer is not known, and so within their difference of either.
+    /// Selects lane by lane. If the answer is not known, the error covers both, as the result is
+    /// within their difference of either.
     friend BoundedLanes select(const A& mask, const BoundedLanes& a, const BoundedLanes& b) {
         const BoundedLanes difference = a - b;
         const F either = difference.magnitude() + difference.error;
@@ -213,7 +216,7 @@ struct BoundedLanes {
                 select(is_zero, zero<D>(), rounded_up(error))};
     }
     M is_zero() const { return (error == zero<D>()) & (in_double() == zero<D>()); }
-    /// Or is 0 for sure.
+    /// True where the sign is known, or the number is certainly 0.
     M has_sign() const {
         const F size = magnitude();
         return (size > error) | ((error == zero<D>()) & (size == size));

@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// Lanes of core::DoubleDouble, `D` being lanes of doubles. Products are off by 5 u^2 at most,
+/// Lanes of core::DoubleDouble, where `D` are lanes of doubles. Products are off by 5 u^2 at most,
 /// u = 2^-53 (Joldes, Muller and Popescu, algorithm 10).
 template <class D>
 struct DoubleDoubles {
@@ -47,7 +47,7 @@ struct DoubleDoubles {
         const F last = (rest - b * DoubleDoubles(middle)).high / b.high;
         return fast_two_sum(first, middle) + DoubleDoubles(last);
     }
-    /// Roots of what is > 0.
+    /// Returns the root of a number > 0.
     friend DoubleDoubles sqrt(const DoubleDoubles& a) {
         const F root = sqrt(a.high);
         const DoubleDoubles rest = a - two_product(root, root);

@@ -2,13 +2,14 @@
 
 #include "simd/kernel/lanes/vectors.hpp"
 
-/// Lanes of doubles, half as many as of floats, with what it takes to fill them from arrays of
-/// floats and of 32-bit numbers.
+/// Lanes of doubles, half as many as of floats, with the operations that fill them from arrays of
+/// floats and of 32-bit integers.
 ///
-/// No multiply-add is fused: so every instruction set, and any scalar code, gives the same bits.
+/// No multiply-add is fused, so every instruction set, and any scalar code, gives the same bits.
 namespace raylane::simd {
 
-/// Numbers of a table, one per lane: base[offsets[lane]]; or, if there are any, doubles.
+/// Numbers of a table, one per lane: base[offsets[lane]], or the same of `doubles` if it is not
+/// null.
 template <class Arch>
 struct Spots {
     const float* base;
@@ -16,19 +17,21 @@ struct Spots {
     long long offsets[Floats<Double<Arch>>::size];
 };
 
-/// bits, from_bits: lane i of a mask as bit i.
-/// in_range: first <= value <= last for unsigned numbers in memory.
-/// from_numbers, to_numbers: numbers below 2^31 in memory.
-/// gather: the floats at some spots, `row` further on.
-/// pick: from[places[lane]].
-/// widen: half of a packet of floats, the lower (0) or the upper one (1).
-/// product_error: a b - product, exactly, for the rounded product of a and b.
-/// round_alike: whether a and b are the same when rounded to float.
-/// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
+/// Operations of a register of doubles:
+///   bits, from_bits           lane i of a mask as bit i
+///   in_range                  first <= value <= last, for unsigned integers in memory
+///   from_numbers, to_numbers  convert integers below 2^31 in memory
+///   gather                    the floats at some spots, `row` further on
+///   pick                      from[places[lane]]
+///   widen                     half of a packet of floats, the lower (0) or the upper one (1)
+///   product_error             a b - product, exactly, for the rounded product of a and b
+///   round_alike               whether a and b are the same when rounded to float
+///   compress_store            writes the wanted lanes, in their order, to `out`; may write a whole
+///                             register
 template <class Arch>
 struct DoubleLanes;
 
-/// product_error without fused operations, for operands below 2^995 (Dekker 1971).
+/// Returns product_error without fused operations, for operands below 2^995 (Dekker 1971).
 template <class Number>
 Number product_error_by_halves(const Number& a, const Number& b, const Number& product) {
     const Number split(0x1p27 + 1.0), scaled_a = split * a, scaled_b = split * b;
@@ -214,7 +217,7 @@ struct DoubleLanes<Avx2> {
     }
 
   private:
-    /// Order of lanes, by pairs of 32 bits.
+    /// Order of lanes, as pairs of 32-bit halves.
     struct alignas(32) Order {
         std::int32_t lanes[8];
     };
@@ -291,7 +294,7 @@ struct DoubleLanes<Avx512> {
         return F(_mm512_i32gather_pd(load(places), from, 8));
     }
     static void compress_store(double* out, const F& values, std::uint32_t wanted) {
-        // To memory directly it takes several times as long.
+        // Compressing directly to memory takes several times as long.
         _mm512_storeu_pd(out, _mm512_maskz_compress_pd(static_cast<__mmask8>(wanted), values));
     }
 
@@ -320,7 +323,7 @@ struct Lanes<Double<Arch>> : DoubleLanes<Arch> {
     static F mul_add(const F& a, const F& b, const F& c) { return a * b + c; }
 };
 
-/// Half of what a reader reads, in double.
+/// A reader of one half of the lanes of another reader, in double.
 template <class Arch, class Reader>
 class HalfReader {
   public:

@@ -3,10 +3,10 @@
 #include "core/numbers/elementary.hpp"
 #include "simd/kernel/lanes/doubles.hpp"
 
-/// `core::Elementary` of registers of doubles: the scalar functions' bits in every lane.
+/// `core::Elementary` for registers of doubles, with the scalar functions' bits in every lane.
 namespace raylane::simd {
 
-/// select() and sqrt(), where members of these names hide them.
+/// select() and sqrt(), for classes whose members of these names hide them.
 template <class Mask, class Number>
 Number selected(const Mask& mask, const Number& a, const Number& b) {
     return select(mask, a, b);

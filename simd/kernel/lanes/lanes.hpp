@@ -1,6 +1,6 @@
 #pragma once
 
-// xsimd 8.1's AVX-512 header calls an intrinsic that no compiler has.
+// xsimd 8.1's AVX-512 header calls an intrinsic that no compiler provides.
 #if defined(__AVX512F__) && !defined(_mm512_rsqrt23_ps)
 #define _mm512_rsqrt23_ps _mm512_rsqrt14_ps
 #endif
@@ -19,9 +19,10 @@
 #include "simd/kernel/lanes/neon/registers.hpp"
 #endif
 
-/// Vector registers: what xsimd does not give, or not in all of its versions.
-/// Everything in kernel/ is a template over the instruction set, so that no two kernel units share
-/// an inline function: the linker could keep the one that an older processor cannot run.
+/// Vector registers, with the operations that xsimd lacks in some or all of its versions.
+/// Everything in kernel/ is a template over the instruction set, so that two kernel units never
+/// share an inline function. Otherwise the linker could keep the copy that an older processor
+/// cannot run.
 namespace raylane::simd {
 
 using Sse42 = xsimd::sse4_2;
@@ -60,7 +61,7 @@ struct ArchOf<Isa::neon> {
 template <Isa isa>
 using ArchOf = typename detail::ArchOf<isa>::Type;
 
-/// Stands for Arch, but with numbers that are double. Its Lanes are in doubles.hpp.
+/// Names the same architecture as Arch, with lanes of doubles. Its Lanes are in doubles.hpp.
 template <class Arch>
 struct Double {};
 
@@ -90,7 +91,7 @@ using Floats = typename Registers<Arch>::Floats;
 template <class Arch>
 using Mask = typename Registers<Arch>::Mask;
 
-/// The same bits as lanes of another type of the same size.
+/// Returns the same bits as lanes of another type of the same size.
 template <class To, class From, class Arch>
 xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& from) {
 #if XSIMD_VERSION_MAJOR < 11
@@ -101,7 +102,7 @@ xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& from) {
 }
 
 #if XSIMD_VERSION_MAJOR >= 14
-/// SSE's, as in xsimd's older versions: b where one is not a number, and of two zeros.
+/// Returns b if an operand is NaN, and for two zeros, as SSE and older versions of xsimd do.
 template <class Number, class Arch>
 requires std::is_floating_point_v<Number> xsimd::batch<Number, Arch>
 min(const xsimd::batch<Number, Arch>& a, const xsimd::batch<Number, Arch>& b) {
@@ -114,22 +115,24 @@ max(const xsimd::batch<Number, Arch>& a, const xsimd::batch<Number, Arch>& b) {
 }
 #endif
 
-/// bits: lane i of a mask as bit i.
-/// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
-/// has_mul_add: true if the next is one instruction.
-/// mul_add: a * b + c, rounded once.
-/// least, greatest: of all lanes.
-/// narrow: doubles from memory, rounded to float.
-/// gather: floats at some places.
-/// in_range: first <= id <= last for ids, which are whole numbers in the bits of floats.
-/// add: whole numbers in the bits of floats, added.
-/// unpack_24: whole numbers of 24 bits each, as such bits; reads up to 64 bytes.
-/// look_up: floats at places of which the 4 lowest of such bits count.
+/// Operations of a register of floats. "Integers" are 32-bit integers in the bits of floats.
+///   bits             lane i of a mask as bit i
+///   compress_store   writes the wanted lanes, in their order, to `out`; may write a whole register
+///   has_mul_add      true if mul_add is one instruction
+///   mul_add          a * b + c, rounded once
+///   least, greatest  the minimum and the maximum of all lanes
+///   narrow           doubles from memory, rounded to float
+///   gather           floats at the given indices
+///   in_range         first <= id <= last, for integers
+///   add              the sum of integers
+///   unpack_24        24-bit integers from memory as integers; reads up to 64 bytes
+///   look_up          floats at integer indices, of which only the lowest 4 bits count
 template <class Arch>
 struct Lanes;
 
-/// a + b in double, rounded to odd: rounding that to float rounds as if once (Boldo and Melquiond,
-/// "Emulation of FMA and correctly rounded sums: proved algorithms using rounding to odd", 2008).
+/// Returns a + b in double, rounded to odd. Rounding the result to float gives the correctly
+/// rounded sum (Boldo and Melquiond, "Emulation of FMA and correctly rounded sums: proved
+/// algorithms using rounding to odd", 2008).
 template <class Number>
 Number sum_to_odd(const Number& a, const Number& b) {
     const Number sum = a + b;
@@ -138,11 +141,11 @@ Number sum_to_odd(const Number& a, const Number& b) {
     const Number zero(0.0);
     using Bits = decltype(bits_as<std::uint64_t>(sum));
     const Bits bits = bits_as<std::uint64_t>(sum), one(std::uint64_t{1});
-    // One step of the last bit towards the error, where the sum is even.
+    // If the sum is even, its last bit moves by one towards the error.
     const Bits shrinks = (bits_as<std::uint64_t>(error) ^ bits) >> 63;
     const Bits from_even = shrinks ^ (shrinks & bits);
     const Bits odd = (bits | one) - (from_even << 1);
-    // NaN compares unequal to itself alone, and infinite sums have NaN errors.
+    // Only NaN differs from itself, and infinite sums have NaN errors.
     const auto inexact = (error < zero) | (error > zero);
     return select(inexact, bits_as<double>(odd), sum);
 }
@@ -230,11 +233,11 @@ struct Lanes<Sse42> {
         _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(bytes, order));
     }
 
-    /// The solvers need it to have the scalar reference's bits, and so are as slow as that here;
-    /// the engine's filters and its double arithmetic do without fused operations and have the same
-    /// bits in pictures, at half of AVX2's speed.
+    /// Computes the product in double, where it is exact.
     ///
-    /// By way of double: the product is exact there.
+    /// The solvers need this to have the scalar reference's bits, and are therefore as slow as the
+    /// reference here. The engine's filters and double arithmetic need no fused operations. They
+    /// give the same bits in images, at half of AVX2's speed.
     static Floats<Sse42> mul_add(const Floats<Sse42>& a, const Floats<Sse42>& b,
                                  const Floats<Sse42>& c) {
         const __m128 low = by_double(a, b, c);
@@ -345,7 +348,7 @@ struct Lanes<Avx2> {
                                _mm256_cvtpd_ps(_mm256_loadu_pd(from)));
     }
 
-    // Both faster than the gather instruction where that is microcode.
+    // Faster than the gather instruction where that is microcode.
     static Floats<Avx2> gather(const float* from, const std::uint32_t* places) {
         const auto at = [&](int i) { return from[places[i]]; };
         return _mm256_setr_ps(at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7));
@@ -398,7 +401,7 @@ struct Lanes<Avx512> {
     }
 
     static void compress_store(float* out, const Floats<Avx512>& values, std::uint32_t wanted) {
-        // To memory directly it takes several times as long.
+        // Compressing directly to memory takes several times as long.
         _mm512_storeu_ps(out, _mm512_maskz_compress_ps(static_cast<__mmask16>(wanted), values));
     }
 

@@ -3,18 +3,18 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The part of xsimd that kernels use, by vectors of 16 bytes that compilers know without being
-/// told of an instruction set. Each operation gives the bits that SSE's gives.
+/// The part of xsimd that kernels use, implemented with vectors of 16 bytes, which compilers
+/// support without a particular instruction set. Each operation gives the same bits as SSE.
 namespace raylane::simd {
 
-/// Stands where xsimd's architectures do.
+/// Takes the place of xsimd's architectures.
 struct Portable {};
 
 template <class Number>
 class PortableMask {
   public:
     typedef Number Numbers __attribute__((vector_size(16)));
-    using Lanes = decltype(Numbers{} < Numbers{}); ///< whole numbers: 0 or -1
+    using Lanes = decltype(Numbers{} < Numbers{}); ///< integers: 0 or -1
     static constexpr std::size_t size = sizeof(Lanes) / sizeof(Number);
 
     PortableMask() = default;
@@ -32,7 +32,7 @@ class PortableMask {
             to[i] = lanes_[i] != 0;
     }
     const Lanes& lanes() const { return lanes_; }
-    /// Lane i as bit i.
+    /// Returns lane i as bit i.
     std::uint32_t bits() const {
         typedef std::uint64_t Words __attribute__((vector_size(16)));
         const Words words = __builtin_bit_cast(Words, lanes_ & place());
@@ -116,7 +116,7 @@ class PortableBatch {
     friend PortableBatch select(const Mask& mask, const PortableBatch& a, const PortableBatch& b) {
         return from_bits((mask.lanes() & a.bits()) | (~mask.lanes() & b.bits()));
     }
-    /// b where neither is less than the other.
+    /// Returns b if neither is less than the other.
     friend PortableBatch min(const PortableBatch& a, const PortableBatch& b) {
         return PortableBatch(a.lanes_ < b.lanes_ ? a.lanes_ : b.lanes_);
     }
@@ -132,7 +132,7 @@ class PortableBatch {
                 result.lanes_[i] = __builtin_sqrt(a.lanes_[i]);
         return result;
     }
-    /// Not the approximation that it is elsewhere.
+    /// Exact except for rounding, unlike the approximation of other architectures.
     friend PortableBatch rsqrt(const PortableBatch& a) {
         return PortableBatch(Number(1)) / sqrt(a);
     }
@@ -160,7 +160,7 @@ PortableBatch<To> bits_as(const PortableBatch<From>& from) {
     return PortableBatch<To>(__builtin_bit_cast(typename PortableBatch<To>::Lanes, from.lanes()));
 }
 
-/// Half of them, the lower (0) or the upper one (1).
+/// Returns one half of the lanes in double: the lower (0) or the upper one (1).
 inline PortableBatch<double> widened(const PortableBatch<float>& values, int half) {
     typedef float Two __attribute__((vector_size(8)));
     Two two;

@@ -2,20 +2,22 @@
 
 #include "simd/kernel/lanes/lanes.hpp"
 
-/// Lanes of 16 and of 8 bits: ray numbers, sets of children, distances for order, states.
+/// Lanes of 16 and of 8 bits: ray numbers, sets of children, distances to sort by, states.
 namespace raylane::simd {
 
-/// pick: those of `count` numbers whose masks have a bit, in their order, to `out`. Returns how
-/// many. May read and write 16 more.
-/// compress_keys: bits 15 to 30 of the wanted lanes, which are in the order of the values where
-/// these are positive; in their order, to `out`. May write as many as there are lanes, 8 at least.
-/// least_of_16: the first place that has the least of 16 numbers; and, 16 bits higher, that number.
-/// equal_16: which of 16 bytes have a value, as bits.
-/// raise_16: raises those of 16 bytes, by bits, that are less than a value to it.
+/// Operations of short lanes:
+///   pick            writes those of `count` numbers whose masks have a bit to `out`, in their
+///                   order; returns how many; may read and write 16 more
+///   compress_keys   writes bits 15 to 30 of the wanted lanes, in their order, to `out`; they sort
+///                   like the values where these are positive; may write as many numbers as there
+///                   are lanes, and at least 8
+///   least_of_16     the first index of the minimum of 16 numbers; and, 16 bits higher, the minimum
+///   equal_16        bit i is set if byte i of 16 equals the value
+///   raise_16        raises the bytes whose bits are set, of 16, to the value if they are less
 template <class Arch>
 struct ShortLanes;
 
-/// Short lanes by loops over memory.
+/// Short lanes implemented by loops over memory.
 template <>
 struct ShortLanes<Portable> {
     static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
@@ -52,7 +54,7 @@ struct ShortLanes<Portable> {
 };
 
 #ifdef __SSE4_2__
-/// Eight lanes by SSE4's instructions, which all its successors have.
+/// Eight lanes by SSE4 instructions, which AVX2 and AVX-512 include.
 template <class Arch>
 struct EightLanes {
     static __m128i load(const std::uint16_t* from) {
@@ -61,7 +63,7 @@ struct EightLanes {
 
     static std::uint32_t least_of_16(const std::uint16_t* keys) {
         const __m128i low = _mm_minpos_epu16(load(keys)), high = _mm_minpos_epu16(load(keys + 8));
-        // A number with its place above it, to the other way round.
+        // _mm_minpos_epu16 returns the index above the minimum. This swaps them.
         const __m128i low_first = _mm_shufflelo_epi16(low, 1);
         const __m128i high_first = _mm_add_epi32(_mm_shufflelo_epi16(high, 1), _mm_set1_epi32(8));
         return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_min_epu32(low_first, high_first)));
@@ -75,7 +77,7 @@ struct EightLanes {
 
     static void raise_16(std::uint8_t* bytes, std::uint32_t which, std::uint8_t least) {
         auto* const place = reinterpret_cast<__m128i*>(bytes);
-        // The low half of `which` eight times, then the high half, and of each one bit.
+        // The low half of `which` eight times, then the high half; then one bit of each copy.
         const __m128i halves = _mm_shuffle_epi8(_mm_cvtsi32_si128(static_cast<int>(which)),
                                                 _mm_set_epi32(0x01010101, 0x01010101, 0, 0));
         const __m128i bits = _mm_set1_epi64x(static_cast<long long>(0x8040201008040201ULL));
@@ -84,7 +86,7 @@ struct EightLanes {
         _mm_storeu_si128(place, _mm_max_epu8(_mm_loadu_si128(place), _mm_and_si128(wanted, value)));
     }
 
-    /// The wanted ones, in their order.
+    /// Writes the wanted numbers, in their order.
     static void compress_store(std::uint16_t* out, __m128i eight, std::uint32_t wanted) {
         const __m128i order =
             _mm_load_si128(reinterpret_cast<const __m128i*>(orders[wanted].bytes));

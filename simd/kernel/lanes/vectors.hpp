@@ -4,7 +4,8 @@
 
 #include <type_traits>
 
-/// Arithmetic on registers of floats, in the very order of core/numbers/vector.hpp: same bits.
+/// Arithmetic on registers of floats, in the same order as core/numbers/vector.hpp and so with the
+/// same bits.
 namespace raylane::simd {
 
 template <class Arch>
@@ -12,14 +13,14 @@ Floats<Arch> mul_add(const Floats<Arch>& a, const Floats<Arch>& b, const Floats<
     return Lanes<Arch>::mul_add(a, b, c);
 }
 
-/// -a, in the compiler's own way: it can make the sign a part of an FMA. In some versions of xsimd
-/// -a is 0 - a, which loses the sign of zeros.
+/// Returns -a by the compiler's operator, which can make the sign a part of an FMA. In some
+/// versions of xsimd -a is 0 - a, which loses the sign of zeros.
 template <class Number, class Arch>
 xsimd::batch<Number, Arch> negated(const xsimd::batch<Number, Arch>& a) {
     return -static_cast<typename xsimd::batch<Number, Arch>::register_type>(a);
 }
 
-/// Constant in all lanes, whether these are float or double.
+/// Returns a constant in all lanes of floats or doubles.
 template <class Arch>
 Floats<Arch> constant(float value) {
     return Floats<Arch>(static_cast<typename Floats<Arch>::value_type>(value));
@@ -29,14 +30,14 @@ Floats<Arch> zero() {
     return constant<Arch>(0.0F);
 }
 
-/// core::Divisor
+/// Same as core::Divisor, per lane.
 template <class Arch>
 class Divisor {
   public:
     explicit Divisor(const Floats<Arch>& value) : by_(value) {
         if constexpr (in_float) by_ = constant<Arch>(1.0F) / value;
     }
-    /// What it keeps, of which it can be made again.
+    /// Returns the stored number, from which of_kept() restores the divisor.
     Floats<Arch> kept() const { return by_; }
     static Divisor of_kept(const Floats<Arch>& kept) { return {kept, 0}; }
 
@@ -110,7 +111,7 @@ Vectors<Arch> normalized(const Vectors<Arch>& a) {
     return a / sqrt(squared_length(a));
 }
 
-/// The same but for rounding, with one division.
+/// Same as normalized() except for rounding, with one division.
 template <class Arch>
 Vectors<Arch> unit(const Vectors<Arch>& a) {
     return scaled(constant<Arch>(1.0F) / sqrt(squared_length(a)), a);

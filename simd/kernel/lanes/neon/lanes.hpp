@@ -44,7 +44,7 @@ struct Lanes<Neon> {
         return vreinterpretq_f32_u8(vqtbl1q_u8(vld1q_u8(from), order));
     }
     static F look_up(const float* from, const F& places) {
-        // Four bytes for each place.
+        // Each index becomes four byte indices.
         const uint32x4_t at = vandq_u32(vreinterpretq_u32_f32(places), vdupq_n_u32(15));
         const uint32x4_t bytes = vmlaq_u32(vdupq_n_u32(0x03020100), at, vdupq_n_u32(0x04040404));
         const uint8x16x4_t table = vld1q_u8_x4(reinterpret_cast<const std::uint8_t*>(from));

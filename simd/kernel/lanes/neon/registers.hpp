@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-/// What xsimd does by NEON, where that differs in its bits from what it does by SSE. Not templates,
-/// so that they are taken before xsimd's own.
+/// Operations whose bits differ between xsimd's NEON and SSE implementations. They are not
+/// templates, so that overload resolution prefers them to xsimd's.
 namespace raylane::simd {
 
 using Neon = xsimd::neon64;
@@ -15,8 +15,9 @@ using Neon = xsimd::neon64;
 
 namespace xsimd {
 
-/// xsimd 8.1 has a reciprocal here that is refined twice, as 32-bit processors need it: it is off
-/// in the last bits, and NaN for divisors that are infinite or whose reciprocal is.
+/// Divides by the NEON instruction. xsimd 8.1 multiplies by a twice refined reciprocal, as 32-bit
+/// processors need. This is off in the last bits, and NaN for divisors that are infinite or whose
+/// reciprocal is.
 template <>
 inline batch<float, neon64>& batch<float, neon64>::operator/=(const batch& other) noexcept {
     return *this = vdivq_f32(*this, other);
@@ -26,7 +27,8 @@ inline batch<float, neon64>& batch<float, neon64>::operator/=(const batch& other
 
 namespace raylane::simd {
 
-/// xsimd 8.1 looks these two up in tables of functions, some of which the compiler leaves in place.
+/// xsimd 8.1 looks these two up in tables of functions, and the compiler leaves some of these
+/// look-ups in place.
 template <class To, class From>
 xsimd::batch<To, Neon> bits_as(const xsimd::batch<From, Neon>& from) {
     using Result = typename xsimd::batch<To, Neon>::register_type;
@@ -44,8 +46,8 @@ inline xsimd::batch<double, Neon> select(const xsimd::batch_bool<double, Neon>& 
     return vbslq_f64(mask, a, b);
 }
 
-/// SSE's: b where one is not a number, and of two zeros. NEON's are NaN there, and the lesser zero
-/// is the negative one.
+/// Returns b if an operand is NaN, and for two zeros, as SSE does. NEON's minimum and maximum
+/// return NaN there, and treat -0 as less than 0.
 inline xsimd::batch<float, Neon> min(const xsimd::batch<float, Neon>& a,
                                      const xsimd::batch<float, Neon>& b) {
     return vbslq_f32(vcltq_f32(a, b), a, b);
@@ -63,16 +65,16 @@ inline xsimd::batch<double, Neon> max(const xsimd::batch<double, Neon>& a,
     return vbslq_f64(vcgtq_f64(a, b), a, b);
 }
 
-/// Correctly rounded, as xsimd 8.1's is in double alone.
+/// Correctly rounded, which xsimd 8.1's is in double only.
 inline xsimd::batch<float, Neon> sqrt(const xsimd::batch<float, Neon>& a) {
     return vsqrtq_f32(a);
 }
-/// Not the approximation that it is elsewhere: NEON's has 8 bits, and filters count on SSE's 11.
+/// Not an approximation, unlike elsewhere: NEON's has 8 bits, and filters rely on the 11 of SSE.
 inline xsimd::batch<float, Neon> rsqrt(const xsimd::batch<float, Neon>& a) {
     return vdivq_f32(vdupq_n_f32(1.0F), vsqrtq_f32(a));
 }
 
-/// -0 of -0, which xsimd 8.1 makes a whole number, and so 0.
+/// Returns -0 for -0. xsimd 8.1 converts to an integer and so returns 0.
 inline xsimd::batch<float, Neon> floor(const xsimd::batch<float, Neon>& a) {
     return vrndmq_f32(a);
 }
@@ -80,7 +82,8 @@ inline xsimd::batch<double, Neon> floor(const xsimd::batch<double, Neon>& a) {
     return vrndmq_f64(a);
 }
 
-/// Where each byte of the wanted lanes comes from, for all sets of `lanes` lanes of 16 bytes.
+/// The source of each byte of the wanted lanes, for all sets of `lanes` lanes of a 16-byte
+/// register.
 template <class Arch, unsigned lanes>
 struct Orders {
     struct alignas(16) Order {
@@ -98,7 +101,7 @@ struct Orders {
         return orders;
     }();
 
-    /// In their order, to `out`.
+    /// Writes the wanted lanes, in their order, to `out`.
     static void compress_store(void* out, uint8x16_t register_, std::uint32_t wanted) {
         vst1q_u8(static_cast<std::uint8_t*>(out),
                  vqtbl1q_u8(register_, vld1q_u8(all[wanted].bytes)));

@@ -33,7 +33,7 @@ struct ShortLanes<Neon> {
         const uint16x8_t low = vld1q_u16(keys), high = vld1q_u16(keys + 8);
         const std::uint32_t least = vminvq_u16(vminq_u16(low, high));
         const uint16x8_t all = vdupq_n_u16(static_cast<std::uint16_t>(least));
-        // Four bits for each key.
+        // Each key has four bits.
         const uint8x16_t equal =
             vcombine_u8(vmovn_u16(vceqq_u16(low, all)), vmovn_u16(vceqq_u16(high, all)));
         const std::uint64_t fours =
