@@ -4,14 +4,14 @@
 
 namespace raylane::simd {
 
-/// Spheres around the shapes of a block, where they are in memory: the block's own if that is what
-/// it holds; of cylinders and cones, spheres around both ends, with the shape between them.
+/// Bounding spheres of the shapes of a block, in memory. The spheres of a block of spheres are the
+/// block's rows. A cylinder or cone has a sphere around each end, and lies between them.
 template <class Arch>
 class BlockSpheres {
     using F = Floats<Arch>;
 
   public:
-    const float *center[2][3], *radius[2]; ///< by end, of 16 shapes
+    const float *center[2][3], *radius[2]; ///< by end, for 16 shapes
     int ends;
 
     void enclose(core::Kind kind, const float (*rows)[16]) {
@@ -22,7 +22,7 @@ class BlockSpheres {
     BlockSpheres(const BlockSpheres&) = delete; // refers to itself
     BlockSpheres& operator=(const BlockSpheres&) = delete;
 
-    /// The one around a shape that has one, to all lanes.
+    /// Returns the bounding sphere of a shape without ends, in all lanes.
     SphereAround<Arch> broadcast(int lane) const {
         return {{F(center[0][0][lane]), F(center[0][1][lane]), F(center[0][2][lane])},
                 F(radius[0][lane])};

@@ -4,25 +4,25 @@
 
 namespace raylane::simd {
 
-/// A ray against boxes.
+/// A ray to be tested against boxes.
 ///
-/// It meets a plane across an axis at (plane - o) / d, or, where that is one instruction, at
-/// plane / d - o / d. The planes are shifted by the slack of the origin, away from the box, and by
-/// 3 u |o|, as the sum of both and o / d are rounded. The result is off by 3 u and the direction by
-/// u more, relative to itself, which `allowance` grants.
+/// It meets a plane across an axis at (plane - o) / d, or, where mul_add is one instruction, at
+/// plane / d - o / d. The planes are shifted away from the box by the slack of the origin, and by
+/// 3 u |o| for the rounding of their sum and of o / d. The result is off by 3 u, and by another u
+/// for the direction, relative to itself. `allowance` covers this.
 struct BoxRay {
     static constexpr float allowance = 1 + 16 * half_ulp;
 
     float near_offset[3], far_offset[3]; ///< -o, or -o / d
     float inverse[3];                    ///< 1 / d
 
-    /// True if it goes from a box's upper plane to its lower one.
+    /// True if the ray goes from a box's upper plane to its lower one.
     template <class Arch>
     bool falls(int axis) const {
         return __builtin_bit_cast(std::int32_t, inverse[axis]) < 0;
     }
 
-    /// Offsets in a node, in floats, of the planes that it meets first, and last.
+    /// Offsets in a node, in floats, of the planes that the ray meets first and last.
     struct Rows {
         std::int32_t near[3], far[3];
     };
@@ -37,8 +37,8 @@ struct BoxRay {
         return rows;
     }
 
-    /// The boxes that are entered before t_most, as bits, and where. `near` is 0 going in. What is
-    /// not a number, as infinity - infinity, is no bound.
+    /// Returns the boxes that are entered before t_most, as bits, and in `near` where they are
+    /// entered. `near` must be 0 on input. NaN, as of infinity - infinity, bounds nothing.
     template <class Arch>
     [[gnu::always_inline]] std::uint32_t
     enter(const Floats<Arch> (&near_planes)[3], const Floats<Arch> (&far_planes)[3],
@@ -58,7 +58,7 @@ struct BoxRay {
         return Lanes<Arch>::bits(near <= far * F(allowance));
     }
 
-    /// The same for entries of a node, from one on.
+    /// Same for the entries of a node from `from` on.
     template <class Arch>
     [[gnu::always_inline]] std::uint32_t enter(const NodeView& node, const Rows& rows, int from,
                                                const Floats<Arch>& t_most,
@@ -76,7 +76,7 @@ struct BoxRay {
     }
 };
 
-/// 16 of them from a stream.
+/// 16 rays of a stream in the layout of BoxRay.
 template <class Arch>
 struct BoxRays {
     using S = Streams<Arch>;
@@ -88,13 +88,13 @@ struct BoxRays {
         for (std::size_t from = 0; from < 16; from += F::size) {
             const std::size_t i = begin + from;
             const F slack = S::load(rays.slack + i);
-            F reach(scene.reach); // of a ray: no further than 2^30 times that
+            F reach(scene.reach); // a ray goes no further than 2^30 times this
             for (const float* const origin : rays.origin)
                 reach = reach + abs(S::load(origin + i));
             const F drift = reach * F(0x1p-50F);
             for (int axis = 0; axis < 3; ++axis) {
-                // A component of 0 is as good as one that leads nowhere, and drifts by as much: no
-                // 0 * infinity then.
+                // A component near 0 is replaced by a tiny one, which moves the ray by at most
+                // `drift`. So 0 * infinity cannot occur.
                 const F tiny(0x1p-80F);
                 const F given = S::load(rays.direction[axis] + i);
                 const M leads = abs(given) > tiny;
@@ -108,7 +108,7 @@ struct BoxRays {
                 if constexpr (Lanes<Arch>::has_mul_add) {
                     at_near = at_near * slope;
                     at_far = at_far * slope;
-                    // Too far for float: the axis bounds nothing.
+                    // If float overflows, the axis bounds nothing.
                     const auto fits = abs(at_near) + abs(at_far) < S::infinity();
                     slope = select(fits, slope, zero<Arch>());
                     at_near = select(fits, at_near, zero<Arch>());

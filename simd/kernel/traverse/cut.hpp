@@ -3,11 +3,13 @@
 #include "simd/kernel/shapes/shapes.hpp"
 #include "simd/kernel/traverse/rays.hpp"
 
-/// Parts that a solid is cut by take their crossings from the others on their outer side. Where
-/// float arithmetic is sure of that, no ray has to stop there.
+/// Clipping of the parts of solids. The half-spaces of a cut (CutView) remove the crossings of the
+/// parts that they cut on their outer side. If float arithmetic is certain of this, no ray stops
+/// there.
 namespace raylane::simd {
 
-/// True if a method's filters know of cuts. Of what they do not know rays stop, and go on.
+/// True if a method's filters evaluate cuts. Otherwise rays stop at surfaces that are cut away, and
+/// go on from there.
 template <class Method>
 inline constexpr bool knows_cuts = Method::certifies&& Method::rounded_alone;
 
@@ -16,8 +18,8 @@ inline constexpr bool has_chord = requires(const Filter& filter, const Rays& ray
     filter.chord(rays);
 };
 
-/// True of filters whose shapes are crossed but once, those that are cut: of quadrics only planes
-/// are.
+/// True for filters whose shapes, where they are cut, are crossed only once. The only quadrics that
+/// are cut are planes.
 template <class Filter>
 inline constexpr bool crosses_once_where_cut = requires {
     Filter::is_quadric;
@@ -34,28 +36,29 @@ struct CutRays {
     }
 };
 
-/// Told of none of the half-spaces that rays cross within what they cut.
+/// Takes the place of a callback for crossed faces, if the caller needs none.
 struct NoCrossedFaces {
     static constexpr bool asks = false;
 };
 
-/// Where rays are surely on the side of a cut on which nothing is left, with what is convex.
+/// Whether the crossings of rays with a convex shape are certainly removed, as they are on the side
+/// of a cut on which nothing is left.
 ///
-/// A ray that starts on a plane, or on a box that is taken away, and then is surely where nothing
-/// is left has been there from the start.
+/// If a ray starts on a plane, or on a box that is subtracted, and then certainly is where nothing
+/// is left, it has been there from the start.
 ///
-/// With the normal and point of a plane rounded to float, a normal of length 1 -+ 2 u, and P the
-/// point at t, n . P - c is off by slack + u (5 |o|_1 + 15 t + 2 |c|) at most.
+/// Let the normal and point of a plane be rounded to float, with a normal of length 1 -+ 2 u, and
+/// let P be the point at t. Then n . P - c is off by slack + u (5 |o|_1 + 15 t + 2 |c|) at most.
 template <class Arch>
 class Removed {
     using F = Floats<Arch>;
     using M = Mask<Arch>;
 
   public:
-    M entry; ///< the first crossing surely is
-    M chord; ///< all of it, from the first crossing to the last
+    M entry; ///< the first crossing is certainly removed
+    M chord; ///< everything from the first crossing to the last is certainly removed
 
-    /// Calls crossed(slot, rays as bits) of each face that waits and that `possible` ones of them
+    /// Calls crossed(slot, rays as bits) for each face with a deferred test that `possible` rays
     /// may cross between the first crossing and the last.
     template <class Crossed = NoCrossedFaces>
     [[gnu::always_inline]] Removed(const CutView& cut, const CutRays<Arch>& of,
@@ -109,15 +112,16 @@ class Removed {
     };
 };
 
-/// True of a slot whose shape no method that knows of cuts has to ask about what it blocks.
+/// True if a shape only cuts others, so that occlusion queries of methods that evaluate cuts can
+/// skip it.
 template <class Arch, class Method>
 [[gnu::always_inline]] inline bool only_cuts(const SceneView& scene, std::uint32_t slot) {
     return knows_cuts<Method> && Streams<Arch>::only_cuts(scene, slot);
 }
 
-/// Where rays do not leave a convex shape before, which all is over at t = `end`: by the ray from
-/// there to where they start, whose origin is off by the roundings of end * direction and of the
-/// sum.
+/// Returns a t before which rays do not leave a convex shape. The shape must end at t = `end` or
+/// before. The bound is that of the reverse ray from there. Its origin is off by the roundings of
+/// end * direction and of the sum.
 template <class Arch, class Filter>
 [[gnu::noinline]] inline Floats<Arch> least_exit(const Filter& filter, const FilterRays<Arch>& rays,
                                                  const Floats<Arch>& end) {
@@ -131,9 +135,9 @@ template <class Arch, class Filter>
     return select(bounds.possible & bounds.certain, exit, zero<Arch>());
 }
 
-/// The bounds of a part that is cut: the first crossing that is not removed is not before that. Not
-/// all that is possible is certain then. Calls crossed(slot, rays as bits) of faces that wait and
-/// may be crossed within the part.
+/// Returns the bounds of a part that is cut. The first crossing that is not removed is not before
+/// `lower`. `certain` does not mean that any crossing remains. Calls crossed(slot, rays as bits)
+/// for faces with deferred tests that may be crossed within the part.
 template <class Arch, class Filter, class Crossed = NoCrossedFaces>
 [[gnu::always_inline]] inline Bounds<Arch>
 bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const CutView& cut,
@@ -145,7 +149,7 @@ bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const CutView& cu
         const Chord<Arch> chord = filter.chord(rays.rays);
         const F end = select(bounds.certain, bounds.upper, chord.exit_end);
         F begin = bounds.lower;
-        if constexpr (Crossed::asks) begin = min(begin, chord.entry); // of rays that start inside
+        if constexpr (Crossed::asks) begin = min(begin, chord.entry); // for rays that start inside
         const Removed<Arch> removed(cut, rays, {begin, end, chord.exit, chord.exit_end},
                                     bounds.possible, crossed);
         bounds.possible = bounds.possible & ~removed.chord;
@@ -166,7 +170,7 @@ bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const CutView& cu
     return bounds;
 }
 
-/// Whether rays may cross a part that is cut, or its inside where something cuts it, before a t.
+/// True where rays may cross a part that is cut, or a cut inside of it, before t.
 template <class Arch, class Filter>
 [[gnu::always_inline]] inline Mask<Arch> may_cross_cut(const Filter& filter,
                                                        const CutRays<Arch>& rays,
@@ -181,7 +185,7 @@ template <class Arch, class Filter>
     return possible;
 }
 
-/// How the block of a slot is cut; null where it is not.
+/// Returns the cut of a slot's block, or null if the block is not cut.
 template <class Method>
 [[gnu::always_inline]] inline const CutView* cut_of(const SceneView& scene, std::uint32_t slot) {
     if constexpr (!knows_cuts<Method>) return nullptr;

@@ -12,20 +12,20 @@ struct Best {
     std::uint32_t slot;
 };
 
-/// Record of one ray that goes through the hierarchy in a list.
+/// Record of one ray that traverses the hierarchy in a list.
 struct alignas(64) ListRecord {
     BoxRay box;
     Best best;
 };
 static_assert(sizeof(ListRecord) == list_record_bytes);
 
-/// Candidates among a block's shapes, and from which t on they may be crossed.
+/// The shapes of a block that may be crossed, with lower bounds of t.
 struct LeafHits {
     std::uint32_t lanes;
-    alignas(64) float t[16]; ///< in these lanes
+    alignas(64) float t[16]; ///< valid in these lanes
 };
 
-/// One ray against the shapes of a block, as PlainLanes or PackedLanes.
+/// Tests of one ray against the shapes of a block, which is given as PlainLanes or PackedLanes.
 template <class Arch, class Method>
 struct Leaf : Streams<Arch> {
     using S = Streams<Arch>;
@@ -41,14 +41,14 @@ struct Leaf : Streams<Arch> {
         candidates.slot[i] = best.slot;
     }
 
-    /// The shapes that the ray does not leave.
+    /// True for shapes that the ray does not start on.
     static M elsewhere(const F& ids, const RoundedRays& rays, std::size_t i) {
         return ~Lanes<Arch>::in_range(ids, S::broadcast_bits(rays.origin_first[i]),
                                       S::broadcast_bits(rays.origin_last[i]));
     }
 
-    /// The shapes that may be met, as bits, as far as that can be told for less than their bounds
-    /// cost.
+    /// Returns the shapes that may be met, as bits, as far as a test shows that costs less than
+    /// their bounds.
     template <class Filter, class Lanes16>
     [[gnu::always_inline]] static std::uint32_t may_meet(const Lanes16& block,
                                                          const RoundedRays& rays, std::size_t i) {
@@ -64,7 +64,7 @@ struct Leaf : Streams<Arch> {
         return some;
     }
 
-    /// Finds those that may be crossed before `second`, where they are not cut off.
+    /// Finds the shapes that may be crossed before `second`, where `cut` does not remove them.
     template <class Filter, class Lanes16>
     [[gnu::always_inline]] static void find(const Lanes16& block, const CutView* cut,
                                             const RoundedRays& rays, std::size_t i, float second,
@@ -95,7 +95,7 @@ struct Leaf : Streams<Arch> {
         return filter.bounds(ray);
     }
 
-    /// Takes account of what was found, which is something.
+    /// Updates the candidate with at least one hit.
     [[gnu::always_inline]] static void take(const LeafHits& hits, std::uint32_t first_slot,
                                             Best& best) {
         for (std::uint32_t lanes = hits.lanes; lanes != 0; lanes &= lanes - 1) {
@@ -104,7 +104,7 @@ struct Leaf : Streams<Arch> {
         }
     }
 
-    /// The same of one crossing.
+    /// Same for one crossing.
     [[gnu::always_inline]] static void take(float t, std::uint32_t slot, Best& best) {
         const bool nearer = t < best.first;
         const float behind = t < best.second ? t : best.second;

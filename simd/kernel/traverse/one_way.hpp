@@ -7,9 +7,9 @@
 
 namespace raylane::simd {
 
-/// TraceKernels of the precisions that exact is compared with: one way for each kind of scene,
-/// whatever the rays have in common. So the compiler has less to do, and a float method's answers
-/// do not depend on which rays are traced together.
+/// Implements TraceKernels for the precisions that `exact` is compared with. It has one traversal
+/// for each kind of scene, whatever the rays have in common. So there is less to compile, and the
+/// answers of a float method do not depend on which rays are traced together.
 template <class Arch, class Method>
 struct OneWay {
     static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Coherence*,

@@ -4,20 +4,21 @@
 
 namespace raylane::simd {
 
-/// True if a filter tells which rays of a packet are worth the cost of its bounds.
+/// True if rays are paired with the shapes of this filter: its bounds are costly, and it can reject
+/// rays at less cost.
 template <class Filter, class Method>
 inline constexpr bool packs_pairs =
     Method::rounded_alone&& sifts_packets<Filter, typename Method::Rays>;
 
-/// Bounds of pairs, with the masks as bits. Only what is there is possible, and none of what rays
-/// leave.
+/// Bounds of pairs, with masks as bits. `possible` is set only for pairs that exist, and never for
+/// a shape that the ray starts on.
 struct PairBounds {
     float lower[16], upper[16];
     std::uint32_t possible, certain;
 };
 
-/// Pairs of a ray and a shape that it may meet, one per lane: of the shapes in a block, a ray may
-/// meet one or two.
+/// Pairs of a ray and a shape that it may meet, one per lane. A ray may meet only one or two of the
+/// shapes in a block.
 template <class Arch, class Method>
 class Pairs : Streams<Arch> {
     using S = Streams<Arch>;
@@ -28,8 +29,8 @@ class Pairs : Streams<Arch> {
     std::uint32_t slot[16];
     int whose[16]; ///< the caller's number of the ray
 
-    /// Adds those of a ray and what it may meet in a block. Whenever there are 16, calls take() and
-    /// goes on without them.
+    /// Adds the pairs of a ray and the shapes in a block that it may meet. Whenever there are 16
+    /// pairs, calls take() and starts again with none.
     template <class Filter, class Take>
     [[gnu::always_inline]] void gather(const TableView& table, std::uint32_t number,
                                        const float* block, const RoundedRays& rays, std::size_t i,
@@ -41,7 +42,7 @@ class Pairs : Streams<Arch> {
             if (count_ == 16) flush(take);
         }
     }
-    /// Calls take() for what is left.
+    /// Calls take() for the remaining pairs.
     template <class Take>
     [[gnu::always_inline]] void flush(const Take& take) {
         if (count_ != 0) take();
@@ -50,7 +51,7 @@ class Pairs : Streams<Arch> {
 
     bool empty() const { return count_ == 0; }
 
-    /// A function to itself: it is the same for all who ask.
+    /// Returns the bounds of the pairs. Not inlined, as all callers share it.
     template <class Filter>
     [[gnu::noinline]] PairBounds bound() const {
         static_assert(Filter::values <= most_values);
@@ -95,13 +96,13 @@ class Pairs : Streams<Arch> {
     int count_ = 0;
 };
 
-/// Pairs of each kind. They wait for each other across blocks.
+/// Pairs of each kind, collected across blocks.
 template <class Arch, class Method>
 class PairsByKind {
   public:
     Pairs<Arch, Method>& of(core::Kind kind) { return pairs_[static_cast<int>(kind)]; }
 
-    /// Calls take.template operator()<Filter>(pairs) for those that are left of each kind.
+    /// Calls take.template operator()<Filter>(pairs) for the remaining pairs of each kind.
     template <class Take>
     [[gnu::always_inline]] void flush(const Take& take) {
         Streams<Arch>::for_each_kind((1U << core::kind_count) - 1, [&](core::Kind kind) {

@@ -4,17 +4,17 @@
 
 namespace raylane::simd {
 
-/// Addresses of children, to fetch them ahead without a branch for each ray.
+/// Addresses of children, for prefetching them without a branch for each ray.
 template <class Arch>
 struct Prefetcher {
-    /// Cache lines of a node, and of the smallest of blocks.
+    /// Cache lines of a node, and of the smallest block.
     static constexpr std::uint32_t most_lines = (sizeof(NodeView) + 63) / 64, least_lines = 4;
     struct Addresses {
         const char* from;
-        std::uint32_t bytes; ///< from one to the next
+        std::uint32_t bytes; ///< from one child to the next
         std::uint32_t
-            further[most_lines - least_lines]; ///< starts of other lines, as far as there are any
-    } of[32];                                  ///< by the bits of a child above its index
+            further[most_lines - least_lines]; ///< offsets of further lines, 0 if there are fewer
+    } of[32];                                  ///< indexed by the bits of a child above its index
 
     explicit Prefetcher(const SceneView& scene) {
         for (Addresses& table : of)

@@ -7,14 +7,14 @@
 
 namespace raylane::simd {
 
-/// RayKernels
+/// Implements RayKernels.
 template <class Arch>
 struct Prepare : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;
 
-    /// core::CameraRays, in double.
+    /// Same as core::CameraRays, in double.
     static void camera_rays(const CameraView& camera, std::size_t count, const double* across,
                             const double* upward, const double* lens_right, const double* lens_up,
                             double* const origin[3], double* const direction[3]) {
@@ -63,10 +63,10 @@ struct Prepare : Streams<Arch> {
         const F none = S::broadcast_bits(no_slot);
         const F unsolved = S::broadcast_bits(hit_doubtful | hit_none), nothing = zero<Arch>();
         std::size_t listed = 0;
-        std::uint32_t asked = 0; // of 16
+        std::uint32_t asked = 0; // doubtful ones of 16 lanes
         for (std::size_t i = 0; i < count; i += F::size) {
-            // Rounded to float, each is off by half an ulp, and so are their sum and the product,
-            // if these are no subnormal numbers.
+            // Rounding to float costs each of these half an ulp, and their sum and the product half
+            // an ulp more, unless they are subnormal.
             const F last =
                 (Lanes<Arch>::narrow(t + i) + Lanes<Arch>::narrow(error + i)) * F(1 + 0x1p-21F);
             const F most = min(S::load(candidates.second + i),
@@ -93,12 +93,12 @@ struct Prepare : Streams<Arch> {
     using D = Double<Arch>;
     using Number = Floats<D>;
 
-    /// Those that start further along are off by as much as they have been moved by in double, and
-    /// then by what rounding moves them.
+    /// Rounds a packet of rays. The slack covers the errors of moving rays further along in double,
+    /// and then those of rounding to float.
     template <bool moves>
     [[gnu::always_inline]] static void round_packet(const RoundedRays& rays, std::size_t i,
                                                     float least) {
-        double moved[F::size] = {}; // all coordinates together
+        double moved[F::size] = {}; // sum over the coordinates
         if constexpr (moves)
             for (std::size_t k = 0; k < F::size; k += Number::size) {
                 const Number before = Number::load_unaligned(rays.before + i + k);
@@ -130,7 +130,7 @@ struct Prepare : Streams<Arch> {
             Lanes<Arch>::narrow(rays.meant_direction[axis] + i)
                 .store_unaligned(rays.direction[axis] + i);
         }
-        // As FilterRays asks for.
+        // FilterRays requires this.
         (Lanes<Arch>::narrow(moved) * F(1 + 0x1p-15F) + F(least)).store_unaligned(rays.slack + i);
     }
 };

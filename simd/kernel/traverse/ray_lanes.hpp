@@ -21,7 +21,7 @@ struct RayLanes {
 
     CutRays<Arch> to_cut() const { return {rays, origin_first, origin_last}; }
 
-    /// Those that do not leave the shape.
+    /// True for rays that do not start on the shape.
     Mask<Arch> elsewhere(std::uint32_t id) const {
         return ~Lanes<Arch>::in_range(S::broadcast_bits(id), origin_first, origin_last);
     }
@@ -45,7 +45,7 @@ struct LaneCandidates {
         S::store_bits(slot, candidates.slot + i);
     }
 
-    /// Takes account of one shape; `crossed` as in bounds_of_cut().
+    /// Updates the candidates with one shape. `crossed` is as in bounds_of_cut().
     template <class Filter, class Method, class Crossed = NoCrossedFaces>
     [[gnu::always_inline]] void
     test(const Filter& filter, std::uint32_t id, std::uint32_t this_slot, const CutView* cut,
@@ -59,14 +59,14 @@ struct LaneCandidates {
         take(filter.bounds(packet.rays), packet.elsewhere(id), this_slot);
     }
 
-    /// Becomes what it was before, but in some lanes.
+    /// Restores the candidates `before`, except in lanes of `some`.
     void keep(const Mask<Arch>& some, const LaneCandidates& before) {
         first = select(some, first, before.first);
         second = select(some, second, before.second);
         slot = select(some, slot, before.slot);
     }
 
-    /// Takes in the bounds of one shape, where it counts.
+    /// Updates the candidates with the bounds of one shape, in lanes of `counts`.
     [[gnu::always_inline]] void take(const Bounds<Arch>& bounds, const Mask<Arch>& counts,
                                      std::uint32_t this_slot) {
         const F t = select(bounds.possible & counts, bounds.lower, S::infinity());
@@ -83,14 +83,14 @@ struct LaneOcclusions {
     using F = Floats<Arch>;
 
     F t_most, perhaps_before, surely_before;
-    std::uint32_t some = 0; ///< rays that something may be in the way of, as bits
-    std::uint32_t sure = 0; ///< and those that are blocked
+    std::uint32_t some = 0; ///< rays that may be blocked, as bits
+    std::uint32_t sure = 0; ///< rays that are certainly blocked, as bits
 
     LaneOcclusions(const Occlusions& occlusions, std::size_t i)
         : t_most(S::load(occlusions.t_most + i)), perhaps_before(t_most * F(perhaps_within)),
           surely_before(t_most * F(surely_within)) {}
 
-    /// Takes account of one shape, for those of the rays that are `asked` about.
+    /// Updates the occlusions with one shape, for the rays in `asked`.
     template <class Filter, class Method>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, bool plain,
                                      const CutView* cut, const RayLanes<Arch, Method>& packet,
@@ -112,7 +112,7 @@ struct LaneOcclusions {
         if (plain) sure |= Lanes<Arch>::bits(obstacle.possible & obstacle.certain) & asked;
     }
 
-    /// Stores the first `count` lanes at most. Returns whether all of these are blocked.
+    /// Stores at most the first `count` lanes. Returns whether all of these are blocked.
     bool store(std::uint8_t* state, std::size_t count) const {
         bool all_blocked = true;
         for (std::size_t lane = 0; lane < count && lane < F::size; ++lane) {

@@ -6,11 +6,11 @@
 
 namespace raylane::simd {
 
-/// A ray's t_most times these: what may be before it, and what surely is. It has been rounded, and
-/// so is the product.
+/// Factors of a ray's t_most. Crossings below the first product may be before the limit, and those
+/// below the second certainly are. Both t_most and the product are rounded.
 inline constexpr float perhaps_within = 1 + 4 * half_ulp, surely_within = 1 - 4 * half_ulp;
 
-/// The 16 shapes of a block: where they are in memory, or are unpacked to.
+/// The 16 shapes of a block in memory, where they are stored or have been unpacked to.
 template <class Arch>
 struct PlainLanes {
     const float (*rows)[16];
@@ -22,7 +22,7 @@ struct PlainLanes {
     Floats<Arch> ids(int from) const { return Floats<Arch>::load_unaligned(rows[values] + from); }
 };
 
-/// The same of packed spheres, in registers.
+/// Same for packed spheres, which are unpacked in registers.
 template <class Arch>
 struct PackedLanes {
     using Packed = PackedSpheres<Arch>;
@@ -36,13 +36,13 @@ struct PackedLanes {
     }
 };
 
-/// Room for a block that is unpacked.
+/// Memory for an unpacked block.
 template <class Arch>
 struct alignas(64) BlockRoom {
     float rows[PackedSpheres<Arch>::rows][16];
 };
 
-/// Access to the streams of trace_kernels.hpp.
+/// Access to the arrays of trace_kernels.hpp.
 template <class Arch>
 struct Streams {
     using F = Floats<Arch>;
@@ -72,25 +72,25 @@ struct Streams {
         return Lanes<Arch>::least(result);
     }
 
-    /// The first `count` lanes.
+    /// Returns the mask of the first `count` lanes.
     static M first_lanes(std::size_t count) {
         static constexpr float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
         return load(numbers) < F(static_cast<float>(count < lanes ? count : lanes));
     }
 
-    /// The entries of a node that are not empty, as bits from `from` on. No comparison of their
-    /// bounds says so for rays that are infinitely far.
+    /// Returns the entries of a node that are not empty, as bits, from `from` on. Comparisons with
+    /// their bounds do not show this for rays that are infinitely far away.
     static std::uint32_t filled(const NodeView& node, int from) {
         static_assert(no_child == no_slot);
         return Lanes<Arch>::bits(filled(load_bits(node.children + from)));
     }
-    /// The ids that are some shape's.
+    /// True for ids that belong to a shape.
     static M filled(const F& ids) {
         const F empty = broadcast_bits(no_slot);
         return ~Lanes<Arch>::in_range(ids, empty, empty);
     }
 
-    /// The lanes of the slot's block that block whatever hits them, as bits.
+    /// Returns the lanes of the slot's block whose shapes block every ray that hits them, as bits.
     static std::uint32_t plain_lanes(const SceneView& scene, std::uint32_t slot) {
         return scene.plain_lanes == nullptr ? 0xFFFF : scene.plain_lanes[slot / 16];
     }
@@ -98,8 +98,8 @@ struct Streams {
         return (plain_lanes(scene, slot) >> slot % 16 & 1) != 0;
     }
 
-    /// Those of its lanes that need not be asked what they block, as bits; and whether a slot is
-    /// one.
+    /// Returns the lanes of the slot's block that occlusion queries can skip, as bits. only_cuts()
+    /// is true if the slot is one of these.
     static std::uint32_t only_cut_lanes(const SceneView& scene, std::uint32_t slot) {
         return scene.only_cut_lanes == nullptr ? 0 : scene.only_cut_lanes[slot / 16];
     }
@@ -107,7 +107,8 @@ struct Streams {
         return (only_cut_lanes(scene, slot) >> slot % 16 & 1) != 0;
     }
 
-    /// Whether a slot's shape waits for what it cuts.
+    /// True if the test of a slot's shape is deferred until a ray crosses it within a part that it
+    /// cuts.
     static bool waits(const SceneView& scene, std::uint32_t slot) {
         return scene.waiting_lanes != nullptr &&
                (scene.waiting_lanes[slot / 16] >> slot % 16 & 1) != 0;
@@ -125,11 +126,11 @@ struct Streams {
         for (; kind_bits != 0; kind_bits &= kind_bits - 1)
             visit(static_cast<core::Kind>(__builtin_ctz(kind_bits)));
     }
-    /// Of a table that is not packed, as in scenes without a tree none is.
+    /// Returns a block of a table that is not packed. In scenes without a tree no table is packed.
     static const float* block_of(const TableView& table, std::uint32_t block) {
         return table.blocks + static_cast<std::size_t>(block) * table.block_floats;
     }
-    /// Of any table: where the block is, or what it is unpacked to.
+    /// Returns a block of any table: as it is stored, or unpacked to `room`.
     [[gnu::always_inline]] static const float* block_of(const TableView& table, std::uint32_t block,
                                                         BlockRoom<Arch>& room) {
         if (!table.is_packed()) [[likely]]
@@ -137,7 +138,8 @@ struct Streams {
         PackedSpheres<Arch>::unpack_apart(table.packed, block, room.rows);
         return room.rows[0];
     }
-    /// The same for those whose filter is of one kind, whose tables may be packed or not.
+    /// Same for callers with one type of filter, which tells at compile time whether tables may be
+    /// packed.
     template <class Filter>
     [[gnu::always_inline]] static const float*
     block_for(const TableView& table, std::uint32_t block, BlockRoom<Arch>& room) {
@@ -146,8 +148,9 @@ struct Streams {
         else
             return block_of(table, block);
     }
-    /// Visits the lanes of a block, for one ray: unpacked in registers where that can be, and in
-    /// memory for solvers, whose code is long and would be there twice.
+    /// Calls visit() with the lanes of a block, for one ray. Packed spheres are unpacked in
+    /// registers if possible. For solvers they are unpacked in memory, as their code is long and
+    /// would be instantiated twice.
     template <class Filter, class Visit>
     [[gnu::always_inline]] static auto with_lanes(const TableView& table, std::uint32_t number,
                                                   const Visit& visit) {
@@ -166,7 +169,7 @@ struct Streams {
         }
         return visit(PlainLanes<Arch>(table, block_of(table, number)));
     }
-    /// The same for those who ask for its ids alone.
+    /// Same for callers that need only the ids.
     template <class Filter, class Visit>
     [[gnu::always_inline]] static auto with_ids(const TableView& table, std::uint32_t number,
                                                 const Visit& visit) {
@@ -175,7 +178,8 @@ struct Streams {
                 return visit(PackedLanes<Arch>{table.packed, table.packed.blocks[number]});
         return visit(PlainLanes<Arch>(table, block_of(table, number)));
     }
-    /// Fetches what of a packed block is not in it, once that is there.
+    /// Prefetches the rows of a packed block that are stored outside of it. The block itself must
+    /// be loaded.
     template <class Filter>
     [[gnu::always_inline]] static void fetch_whole_rows(const TableView& table,
                                                         std::uint32_t number) {
@@ -195,9 +199,9 @@ struct RaysInFloat : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using Rays = FilterRays<Arch>;
-    static constexpr bool rounded_alone = true; ///< the rays before rounding are not asked for
+    static constexpr bool rounded_alone = true; ///< rays before rounding are not needed
 
-    /// Those from one on, one per lane.
+    /// Returns the rays from i on, one per lane.
     static Rays packet(const RoundedRays& rays, std::size_t i) {
         const auto load = [&](float* const(&from)[3]) {
             return Vectors<Arch>{S::load(from[0] + i), S::load(from[1] + i), S::load(from[2] + i)};
@@ -205,7 +209,7 @@ struct RaysInFloat : Streams<Arch> {
         return {load(rays.origin), load(rays.direction), S::load(rays.slack + i)};
     }
 
-    /// One of them in all lanes.
+    /// Returns ray i in all lanes.
     [[gnu::always_inline]] static Rays broadcast(const RoundedRays& rays, std::size_t i) {
         return {{F(rays.origin[0][i]), F(rays.origin[1][i]), F(rays.origin[2][i])},
                 {F(rays.direction[0][i]), F(rays.direction[1][i]), F(rays.direction[2][i])},

@@ -5,20 +5,21 @@
 
 namespace raylane::simd {
 
-/// Queue of what a ray is still to visit: children, and where it enters them. The next is the one
-/// of the last 16 that it enters first. Where it enters is held in 16 bits, which is as much as
-/// order needs: of two that it enters within 1/256 of each other, any may be the next.
+/// Queue of the children that a ray has yet to visit, with the t at which it enters them. The next
+/// child is the one that the ray enters first, out of the last 16. t is held in 16 bits, which
+/// suffices for ordering: if the ray enters two children within 1/256 of each other, either may be
+/// the next.
 template <class Arch>
 struct TraversalQueue {
     using S = Streams<Arch>;
     using F = Floats<Arch>;
     static constexpr int window = 16;
 
-    std::uint16_t* key; ///< behind 16 that are no child's
+    std::uint16_t* key; ///< after 16 keys without a child
     std::uint32_t* child;
     int size;
 
-    /// Places the queue in the room of one ray.
+    /// Places the queue in the memory for one ray.
     void place(const Pending& pending, int ray, std::uint32_t levels) {
         const std::size_t room = pending_entries(levels) * static_cast<std::size_t>(ray);
         key = pending.key + room + window;
@@ -27,7 +28,7 @@ struct TraversalQueue {
             key[i] = 0xFFFF;
     }
 
-    /// Starts with a child that any ray enters.
+    /// Starts with one child, which every ray enters.
     void start(std::uint32_t only) {
         key[0] = 0;
         child[0] = only;
@@ -46,7 +47,7 @@ struct TraversalQueue {
         }
     }
 
-    /// Adds some of a register's worth of children, entered at `near` >= 0.
+    /// Adds the wanted ones of a register's worth of children, entered at `near` >= 0.
     [[gnu::always_inline]] void add(const F& near, const std::uint32_t* children,
                                     std::uint32_t wanted) {
         ShortLanes<Arch>::compress_keys(key + size, near, wanted);
@@ -55,16 +56,16 @@ struct TraversalQueue {
         size += __builtin_popcount(wanted);
     }
 
-    /// The next child, unless all are entered too far behind the first crossing.
+    /// Returns the next child, or no_child if all are entered too far beyond the first crossing.
     [[gnu::always_inline]] std::uint32_t pop(float first) {
         return pop_before(first * culling_slack * BoxRay::allowance);
     }
 
-    /// The one that was added last, unless there is none.
+    /// Returns the child that was added last, or no_child if the queue is empty.
     std::uint32_t pop_last() { return size == 0 ? no_child : child[--size]; }
 
-    /// The next child, unless all are entered behind a limit. Nothing in it branches for what
-    /// depends on the ray, but for what is beyond the last 16.
+    /// Returns the next child, or no_child if all are entered beyond `limit`. No branch depends on
+    /// the ray, except when the last 16 children are all beyond the limit.
     [[gnu::always_inline]] std::uint32_t pop_before(float limit) {
         const float positive = limit > 0 ? limit : 0;
         const std::uint32_t last = __builtin_bit_cast(std::uint32_t, positive) >> 15;

@@ -10,21 +10,21 @@
 
 namespace raylane::simd {
 
-/// TraceKernels. This is where it is decided how rays are traced: coherent rays by frusta; rays
-/// that are near each other by lists, and many that are not; others in flight; and shape by shape
-/// where there is no hierarchy.
+/// Implements TraceKernels and chooses the traversal: frusta for coherent rays; lists for rays that
+/// are near each other, and for many that are not; interleaved single rays (in flight) for others;
+/// and each shape in turn in scenes without a hierarchy.
 template <class Arch, class Method>
 struct Trace : Streams<Arch> {
     using Rays = Frustum<Arch>;
     template <bool nearest_first>
     using Walk = FrustumWalk<Arch, Method, nearest_first>;
 
-    /// Rays may go any way, and in another order: the answer to one does not depend on that, nor on
-    /// more than the ray is in float.
+    /// Rays may be traced by any traversal and in any order, as the answer for a ray depends on
+    /// nothing but the ray in float.
     static_assert(Method::certifies && Method::rounded_alone);
 
-    /// Shapes that a frustum of rays to a light, and one that looks for the nearest, may have
-    /// before it: with more, its rays are faster by another way.
+    /// The number of shapes that a frustum may list before it gives up: for rays to a light, and
+    /// for nearest hits. With more shapes its rays are faster by another traversal.
     static constexpr int most_occluders = 512;
     static constexpr int most_candidates = 2048;
 
@@ -95,7 +95,7 @@ struct Trace : Streams<Arch> {
             const bool done = Walk<false>(scene, frustum, workspace, counters, most_occluders)
                                   .go(kind_bits, found);
             found.hand_back(occlusions, begin, end);
-            if (!done) { // nor will those that follow be, as a rule
+            if (!done) { // usually, the frusta that follow would give up, too
                 occluded_of_any(scene, kind_bits, begin, count, rays, occlusions, workspace,
                                 counters);
                 return;
@@ -104,7 +104,7 @@ struct Trace : Streams<Arch> {
         }
     }
 
-    /// Streams from one ray on.
+    /// Returns the streams from ray `begin` on.
     static RoundedRays from_ray(const RoundedRays& rays, std::size_t begin) {
         RoundedRays result = rays;
         for (int axis = 0; axis < 3; ++axis) {
@@ -119,12 +119,12 @@ struct Trace : Streams<Arch> {
         return result;
     }
 
-    /// True if random rays go by lists.
+    /// True if random rays are traced by lists.
     static bool makes_lists(const SceneView& scene, std::size_t count) {
         return scene.small || (!scene.large && count >= long_list);
     }
 
-    /// Rays that have no more in common than `coherence` says, which is loose or null.
+    /// Traces rays that have only `coherence` in common, which is loose or null.
     static void nearest_of_any(const SceneView& scene, std::uint32_t kind_bits,
                                const Coherence* coherence, std::size_t begin, std::size_t end,
                                const RoundedRays& rays, const Candidates& candidates,

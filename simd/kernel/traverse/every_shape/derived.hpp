@@ -4,14 +4,15 @@
 
 namespace raylane::simd {
 
-/// True if making one of these from a shape's floats takes more than to read what it derives.
+/// True if constructing a Made from a shape's floats costs more than reading the numbers that it
+/// derives.
 template <class Arch, class Made>
 concept Derives = requires(const Made& made) {
     made.derived([](const Floats<Arch>&) {});
 };
 
-/// What filters or solvers derive from shapes, of kinds that have up to 16, by way of their blocks.
-/// `With::with(kind, visit)` calls visit with their type.
+/// The numbers that filters or solvers derive from shapes, for kinds with a single block, which has
+/// up to 16 shapes. `With::with(kind, visit)` calls visit with the type of the filter or solver.
 template <class Arch, class With>
 class DerivedNumbers : Streams<Arch> {
     using S = Streams<Arch>;
@@ -31,7 +32,7 @@ class DerivedNumbers : Streams<Arch> {
         });
     }
 
-    /// Null: there are none.
+    /// Returns the rows of a kind, or null if it has none.
     Rows of(core::Kind kind) const { return of_kind_[static_cast<int>(kind)]; }
 
   private:
@@ -47,7 +48,7 @@ class DerivedNumbers : Streams<Arch> {
         of_kind_[static_cast<int>(kind)] = rows_ + first;
     }
 
-    static constexpr int most = 24; // of a shape
+    static constexpr int most = 24; // per shape
     alignas(64) float rows_[most * core::kind_count][16];
     Rows of_kind_[core::kind_count] = {};
     int used_ = 0;

@@ -6,16 +6,17 @@
 
 namespace raylane::simd {
 
-/// Every shape against packets of rays: for scenes of a few shapes, and for unbounded ones. The
-/// rays stay in registers while the shapes go by.
+/// Tests every shape against packets of rays, for scenes of a few shapes, and for unbounded shapes.
+/// The rays stay in registers while the shapes are read one after the other.
 template <class Arch, class Method>
 struct EveryShape : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;
 
-    /// Spheres around the shapes whose filters cost most, so that packets which pass them by need
-    /// not be tested further. By block, in the order of the kinds; what has no room has no sphere.
+    /// Bounding spheres of the shapes whose filters cost most, so that packets which miss them need
+    /// no further test. They are stored by block, in the order of the kinds. Blocks that do not fit
+    /// have no spheres.
     struct Spheres {
         static constexpr int most_blocks = 12;
         BlockSpheres<Arch> around[most_blocks];
@@ -33,7 +34,7 @@ struct EveryShape : Streams<Arch> {
             });
         }
 
-        /// True if a ray may meet the sphere before t_most. The roundings are some 20 u of the
+        /// True if a ray may meet the sphere before t_most. The roundings are about 20 u of the
         /// distance, squared or not; `grace` is 32 u.
         bool may_meet(int block, int lane, const FilterRays<Arch>& rays, const F& t_most) const {
             if (block >= blocks) return true;
@@ -44,7 +45,7 @@ struct EveryShape : Streams<Arch> {
             const F squared = fast_dot(to_center, to_center);
             const F radius = fast_mul_add<Arch>(
                 grace, abs(tau), fast_mul_add<Arch>(F(4.0F), rays.slack, sphere.radius));
-            // What overflows proves nothing.
+            // Values that overflow prove nothing.
             const M beside = (squared < S::infinity()) &
                              (squared - tau * tau - grace * squared > radius * radius);
             const M misses =
@@ -61,7 +62,7 @@ struct EveryShape : Streams<Arch> {
     };
     using Numbers = DerivedNumbers<Arch, WithFilter>;
 
-    /// True if a filter is costly, and cannot tell for less that there is nothing to meet.
+    /// True if a filter is costly and cannot reject rays at less cost.
     template <class Filter>
     static constexpr bool is_slow = requires {
         Filter::is_costly;
@@ -70,7 +71,7 @@ struct EveryShape : Streams<Arch> {
 
     using Packet = RayLanes<Arch, Method>;
 
-    /// What all packets ask of the shapes.
+    /// Data of the shapes that all packets need.
     struct Shapes {
         const SceneView& scene;
         Spheres spheres;
@@ -96,9 +97,9 @@ struct EveryShape : Streams<Arch> {
         found.test(filter, id, S::is_plain(scene, slot), cut_of<Method>(scene, slot), packet);
     }
 
-    /// Tests a packet against all shapes of a kind that some of its rays may meet. By itself, as
-    /// only so what belongs to the rays stays in registers. Returns how many shapes these are, and
-    /// counts the blocks that have spheres.
+    /// Tests a packet against all shapes of a kind that some of its rays may meet. A separate
+    /// function, as only then do the packet's values stay in registers. Returns the number of these
+    /// shapes. Counts the blocks that have spheres.
     template <class Filter, class Found>
     [[gnu::noinline, gnu::flatten]] static std::uint64_t
     test_kind(const Shapes& shapes, core::Kind kind, const Packet& of_packet, Found& of_found,

@@ -5,12 +5,12 @@
 
 namespace raylane::simd {
 
-/// Every shape against packets of rays, as a method in float has it that certifies nothing: each
-/// crossing is solved once, and the nearest stays in registers until it is a hit.
+/// Tests every shape against packets of rays, for float methods that certify nothing. Each crossing
+/// is solved once, and the nearest stays in registers until it is the hit.
 template <class Arch, bool textbook>
 class SolvedOnce : Streams<Arch> {
   public:
-    /// MethodKernels::nearest_of_few
+    /// Implements MethodKernels::nearest_of_few.
     static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Found& found,
                         const Candidates& candidates, TraceCounters& counters) {
         std::uint64_t shapes = 0;
@@ -51,7 +51,7 @@ class SolvedOnce : Streams<Arch> {
     struct Packet {
         MeasuredRays<Arch> rays;
         F origin_first, origin_last;
-        bool leave_any; ///< some leave a shape
+        bool leave_any; ///< some rays start on a shape
 
         Packet(const Found& found, std::size_t i)
             : rays(Rays<Arch>{narrow(found.origin, i), narrow(found.direction, i)}),
@@ -67,10 +67,10 @@ class SolvedOnce : Streams<Arch> {
         }
     };
 
-    /// What is known of a packet's hits.
+    /// The nearest crossings of a packet so far.
     struct Nearest {
         F t, second, slot;
-        F code = zero<Arch>(); ///< face, and hit_entering
+        F code = zero<Arch>(); ///< face, plus hit_entering if entering
 
         Nearest(const Candidates& candidates, std::size_t i)
             : t(S::load(candidates.first + i)), second(S::load(candidates.second + i)),
@@ -92,7 +92,7 @@ class SolvedOnce : Streams<Arch> {
             return select(code < F(float{hit_entering}), code, code - F(float{hit_entering}));
         }
 
-        /// Candidates are stored where there are several, for who has to choose.
+        /// Stores candidates only if several have the same t, so that the caller can choose.
         void store(const Candidates& candidates, const Found& found, std::size_t i) const {
             if (Lanes<Arch>::bits((t == second) & (t < S::infinity())) != 0) [[unlikely]] {
                 t.store_unaligned(candidates.first + i);
@@ -107,7 +107,7 @@ class SolvedOnce : Streams<Arch> {
         }
     };
 
-    /// Takes account of all shapes of a table. Returns how many there are.
+    /// Tests all shapes of a table. Returns how many there are.
     template <class Solver, bool leave_any>
     [[gnu::noinline, gnu::flatten]] static std::uint64_t
     test_all(const TableView& table, Rows derived, const Packet& of_packet, Nearest& of_nearest) {
@@ -143,7 +143,7 @@ class SolvedOnce : Streams<Arch> {
         return count;
     }
 
-    /// Reads the floats of a shape per lane.
+    /// Reads the floats of one shape per lane.
     struct Reader {
         const float* base;
         const std::uint32_t* places;
@@ -155,7 +155,7 @@ class SolvedOnce : Streams<Arch> {
         }
     };
 
-    /// Points and normals, kind by kind.
+    /// Stores t and normals, one kind after the other.
     static void finish(const SceneView& scene, const Numbers& derived, const Packet& packet,
                        const Nearest& nearest, const Found& found, std::size_t i) {
         const std::size_t rest = found.count - i;
@@ -175,7 +175,7 @@ class SolvedOnce : Streams<Arch> {
             const auto block_floats = static_cast<std::uint32_t>(table.block_floats);
             const std::uint32_t alike =
                 left & in_range(nearest.slot, first_slot, first_slot + count - 1);
-            std::uint32_t places[F::size]; // of a few shapes, so that they are no larger
+            std::uint32_t places[F::size]; // 32 bits suffice for a few shapes
             for (std::size_t lane = 0; lane < F::size; ++lane) {
                 const std::uint32_t place = slots[lane] - first_slot;
                 const std::uint32_t there = place < count ? place : 0;

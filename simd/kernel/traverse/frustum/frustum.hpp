@@ -7,13 +7,13 @@ namespace raylane::simd {
 
 /// Frustum: bounds of up to 256 rays through one point, or in one direction.
 ///
-/// One coordinate k counts along the rays. With w = p - apex, a point on a ray has w_a - u w_k =
-/// offset, for each other coordinate a, with slopes u and offsets of the ray's: through a point,
-/// the offsets are 0, in one direction, the slopes are the same. The frustum is what lies between
-/// the least and the greatest of these; so is each of its sixteen packets of 16 consecutive rays,
-/// which are lanes here.
+/// Coordinate k counts along the rays. With w = p - apex, a point on a ray has w_a - u w_k = offset
+/// for each other coordinate a, where u and offset are the ray's slope and offset for a. Rays
+/// through a point have offset 0, and rays in one direction have equal slopes. The frustum lies
+/// between the smallest and the largest of these. So does each of its sixteen packets of 16
+/// consecutive rays, which are lanes here.
 ///
-/// Roundings are a few u of |w_a| + |u w_k| + |offset|; `grace` grants 16 u of the sizes of w, and
+/// Roundings are a few u of |w_a| + |u w_k| + |offset|. `grace` allows 16 u of the sizes of w and,
 /// as slopes are at most 4, twice that of the rest.
 template <class Arch>
 struct Frustum : Streams<Arch> {
@@ -24,7 +24,8 @@ struct Frustum : Streams<Arch> {
     static constexpr std::size_t most_rays = 256;
     static constexpr float steepest = 4.0F;
 
-    /// Side of the rays: w_a - slope w_k > offset is outside, or < for the other side.
+    /// One side of the frustum: w_a - slope w_k > offset is outside, or < offset for the opposite
+    /// side.
     struct Side {
         float slope, offset, norm;
         alignas(64) float slopes[16], offsets[16], norms[16]; // of the packets
@@ -34,17 +35,17 @@ struct Frustum : Streams<Arch> {
     float slack;
     int along;          ///< k
     int across[2];      ///< the other coordinates
-    float sense;        ///< of the rays along k: 1 or -1
-    float least_w;      ///< of sense * w_k: what comes before is behind all rays
-    float greatest_w;   ///< and what comes after this is beyond them
+    float sense;        ///< sign of the rays along k: 1 or -1
+    float least_w;      ///< of sense * w_k: anything before is behind all rays
+    float greatest_w;   ///< of sense * w_k: anything after is beyond all rays
     float fastest;      ///< the largest |d_k|
-    float t_per_w;      ///< less than its inverse
+    float t_per_w;      ///< less than 1 / fastest
     float latest_start; ///< sense * w_k of the last origin
     Side above[2], below[2];
     std::size_t packets;
 
-    /// Encloses rays from or to `apex`; of rays in one direction it is any point near them. Returns
-    /// whether the rays are coherent enough.
+    /// Encloses rays that start or end at `apex`, which for rays in one direction is any point near
+    /// them. Returns whether the rays are coherent enough.
     bool enclose(const RoundedRays& rays, std::size_t begin, std::size_t end, Coherence coherence,
                  const float* t_most) {
         packets = (end - begin + 15) / 16;
@@ -65,12 +66,13 @@ struct Frustum : Streams<Arch> {
         return Lanes<Arch>::least(extent.slowest) > 0.0F && is_slender();
     }
 
-    /// Roundings, added up, at a distance of w along and across.
+    /// Returns the tolerance for all roundings, at a distance of w along and across the rays.
     F grace(const F& w_along, const F& w_across) const {
         return F(grace_factor) * (abs(w_along) + abs(w_across)) + F(8 * steepest * slack);
     }
 
-    /// The boxes of a node that the frustum may meet, and the least t at which.
+    /// Returns the boxes of a node that the frustum may meet, as bits, and in `near` the smallest t
+    /// at which it does.
     std::uint32_t enter(const NodeView& node, int from, const F& t_most, F& near) const {
         const F apex_along(apex[along]);
         const F lower_k = S::load(node.lower[along] + from) - apex_along;
@@ -96,10 +98,10 @@ struct Frustum : Streams<Arch> {
         return Lanes<Arch>::bits(meets & (near <= t_most)) & S::filled(node, from);
     }
 
-    /// Lower bound of t, given how far along.
+    /// Returns a lower bound of t at the distance w along the rays.
     F near_t(const F& w) const { return max((w - F(latest_start)) * F(t_per_w), zero<Arch>()); }
 
-    /// One side's plane, or as many as there are packets.
+    /// The plane of one side: of all rays, or of each packet.
     struct Plane {
         F slope, norm, offset;
 
@@ -109,15 +111,16 @@ struct Frustum : Streams<Arch> {
             : slope(S::load(of_packets.slopes + from)), norm(S::load(of_packets.norms + from)),
               offset(S::load(of_packets.offsets + from)) {}
 
-        /// w_across - slope w_along + radius norm
+        /// Returns w_across - slope w_along + radius norm.
         F outmost(const F& w_along, const F& w_across, const F& radius) const {
             return fast_mul_add<Arch>(radius, norm,
                                       fast_mul_add<Arch>(negated(w_along), slope, w_across));
         }
     };
 
-    /// Reach of what is between two spheres: a part may be on each side of a plane where one of
-    /// them has some there. Here: in front of the ends, and inside of the four sides.
+    /// The half-spaces that a shape between two spheres may reach: those that at least one of the
+    /// spheres reaches. The half-spaces are those in front of both ends and inside of the four
+    /// sides.
     struct Reach {
         M along[2], inside_high[2], inside_low[2];
 
@@ -135,11 +138,11 @@ struct Frustum : Streams<Arch> {
         }
     };
 
-    /// A block's spheres, or those around one end of its shapes, as the frustum sees them.
+    /// A block's spheres, or those around one end of its shapes, in coordinates of the frustum.
     struct alignas(64) Seen {
-        float near[16];                ///< the least t
+        float near[16];                ///< the smallest t
         float along[16];               ///< w_k
-        float low[2][16], high[2][16]; ///< w_a, with grace
+        float low[2][16], high[2][16]; ///< w_a less and plus `grace`
         float radius[16];
     };
     struct SeenBlock {
@@ -147,7 +150,8 @@ struct Frustum : Streams<Arch> {
         int ends;
     };
 
-    /// The inside of the sides: of spheres and all rays, or of one and the rays of packets.
+    /// Sets the sides of `reach`: for spheres and all rays, or for one sphere and the rays of
+    /// packets.
     template <class Load, class PlaneOf>
     [[gnu::always_inline]] void reach_sides(const Seen& seen, const Load& load,
                                             const PlaneOf& plane_of, Reach& reach) const {
@@ -161,7 +165,8 @@ struct Frustum : Streams<Arch> {
         }
     }
 
-    /// Shapes with a part everywhere, as bits, by the Reach of each end.
+    /// Returns the shapes that reach all half-spaces, as bits. reach_of() returns the Reach of one
+    /// end.
     template <class ReachOf>
     [[gnu::always_inline]] static std::uint32_t reached(int ends, const ReachOf& reach_of) {
         Reach reach = reach_of(0);
@@ -171,15 +176,15 @@ struct Frustum : Streams<Arch> {
         return reach.all();
     }
 
-    /// The furthest w of a ray at t_most: near_t's inverse.
+    /// Returns the largest w of a ray at t_most. Inverse of near_t().
     float furthest_w(float t_most) const {
         const float way = t_most * fastest;
         const float w = latest_start + way + 16 * half_ulp * (size(latest_start) + way);
         return least(greatest_w, w == w ? w : __builtin_inff());
     }
 
-    /// Fills `seen` from one on. Returns the shapes that the frustum may meet, as bits, of which
-    /// none is further along than `furthest`.
+    /// Fills `seen` from `from` on. Returns the shapes that the frustum may meet and that are not
+    /// beyond `furthest`, as bits.
     [[gnu::always_inline]] std::uint32_t meet(const BlockSpheres<Arch>& spheres, int from,
                                               float furthest, SeenBlock& seen) const {
         const F grace_apart(8 * steepest * slack), factor(grace_factor);
@@ -212,7 +217,7 @@ struct Frustum : Streams<Arch> {
         return reached(spheres.ends, reach_of);
     }
 
-    /// The packets, from one on, that one shape may meet before t_most, as bits.
+    /// Returns the packets, from `from` on, that may meet one shape before t_most, as bits.
     [[gnu::always_inline]] std::uint32_t
     packets_that_meet(const SeenBlock& seen, int lane, std::size_t from, const F& t_most) const {
         const auto reach_of = [&](int end) __attribute__((always_inline)) {
@@ -227,16 +232,19 @@ struct Frustum : Streams<Arch> {
     }
 
   private:
-    /// Extent of all rays, as they are read, along k: in each lane's share of them.
+    /// Extent of all rays along k, collected while they are read. Each lane holds that of its share
+    /// of the rays.
     struct Extent {
         F slowest = S::infinity(),
-          fastest = zero<Arch>(); ///< sense * d_k, towards the apex or away
+          fastest = zero<Arch>(); ///< d_k, positive in the direction of the rays
         F first_start = S::infinity(), last_start = negated(S::infinity()); ///< sense * w_k
-        F last_end = zero<Arch>();                                          ///< of rays with limits
+        /// for rays with limits
+        F last_end = zero<Arch>();
         F slack = zero<Arch>();
     };
 
-    /// Rays that converge on the apex, or go by it in one direction, start anywhere.
+    /// True if the rays' starts have to be read: for rays in one direction, and for rays that start
+    /// beyond the apex.
     static bool start_anywhere(const Coherence& coherence) {
         return coherence.parallel || coherence.beyond;
     }
@@ -274,7 +282,7 @@ struct Frustum : Streams<Arch> {
         for (int side = 0; side < 2; ++side) {
             const float low = Lanes<Arch>::least(low_slope[side]);
             const float high = Lanes<Arch>::greatest(high_slope[side]);
-            // Seen against the coordinate's sense the greater slope bounds from below.
+            // If `sense` is -1, the larger slope is the lower bound.
             set(above[side], packet, sense > 0.0F ? high : low,
                 coherence.parallel ? Lanes<Arch>::greatest(high_offset[side]) : 0.0F);
             set(below[side], packet, sense > 0.0F ? low : high,
@@ -282,7 +290,7 @@ struct Frustum : Streams<Arch> {
         }
     }
 
-    /// Extends by the lanes from ray i on.
+    /// Extends the extent by the lanes from ray i on.
     [[gnu::always_inline]] void extend(Extent& extent, const RoundedRays& rays, std::size_t i,
                                        std::size_t end, const Coherence& coherence,
                                        const float* t_most, const F& direction, const F& w) const {
@@ -299,7 +307,7 @@ struct Frustum : Streams<Arch> {
                                                           d * S::load(t_most + i), zero<Arch>()));
     }
 
-    /// A packet without rays is outside of all, unless that is infinite.
+    /// Sets the sides of an absent packet so that it meets only infinite spheres.
     void leave_out(std::size_t packet) {
         for (int side = 0; side < 2; ++side) {
             set(above[side], packet, above[side].slopes[0], -__builtin_inff());
@@ -307,8 +315,8 @@ struct Frustum : Streams<Arch> {
         }
     }
 
-    /// Bounds the rays along k, from the first start to the last end, as far as these are known.
-    /// Towards the apex, what is far from it is near.
+    /// Bounds the rays along k from the first start to the last end, as far as these are known. If
+    /// the rays go towards the apex, points far from it are near the rays' starts.
     void bound_along(const Extent& extent, const Coherence& coherence, bool have_limits) {
         const bool anywhere = start_anywhere(coherence);
         least_w = coherence.converging || !anywhere ? 0.0F : __builtin_inff();
@@ -331,7 +339,7 @@ struct Frustum : Streams<Arch> {
         return slender;
     }
 
-    /// The last packet's lanes that are no ray's become like the last ray.
+    /// Fills the unused lanes of the last packet with copies of the last ray.
     static void pad(const RoundedRays& rays, std::size_t end) {
         for (std::size_t i = end; i % 16 != 0; ++i) {
             for (int axis = 0; axis < 3; ++axis) {
@@ -346,7 +354,7 @@ struct Frustum : Streams<Arch> {
     static float greatest(float a, float b) { return a > b ? a : b; }
     static float size(float a) { return __builtin_fabsf(a); }
 
-    /// The largest component of the first direction that all rays share.
+    /// Chooses k as the largest component of the middle ray's direction.
     void choose_axes(const RoundedRays& rays, std::size_t begin, std::size_t end, bool towards) {
         const std::size_t middle = begin + (end - begin) / 2;
         along = 0;
@@ -364,7 +372,7 @@ struct Frustum : Streams<Arch> {
         side.norms[packet] = norm_above(slope);
     }
 
-    /// Norm, at least sqrt(1 + slope^2).
+    /// Returns a number that is at least sqrt(1 + slope^2).
     static float norm_above(float slope) { return 1.0F + 0.5F * slope * slope; }
 
     void enclose_packets(int side) {

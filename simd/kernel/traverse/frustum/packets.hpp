@@ -5,7 +5,8 @@
 
 namespace raylane::simd {
 
-/// Sixteen rays of a frustum, side by side: in streams, each value has an address to be looked up.
+/// Sixteen rays of a frustum in contiguous memory. In streams, each value needs its address looked
+/// up.
 template <class Arch, class Method>
 struct alignas(64) Packet : Streams<Arch> {
     using S = Streams<Arch>;
@@ -26,7 +27,7 @@ struct alignas(64) Packet : Streams<Arch> {
         }
     }
 
-    /// Those from one on, one per lane.
+    /// Returns the rays from k on, one per lane.
     [[gnu::always_inline]] RayLanes<Arch, Method> packet(std::size_t k) const {
         const auto load = [&](const float(&rows)[3][size]) {
             return Vectors<Arch>{S::load(rows[0] + k), S::load(rows[1] + k), S::load(rows[2] + k)};
@@ -37,11 +38,12 @@ struct alignas(64) Packet : Streams<Arch> {
     }
 };
 
-/// Faces that waited for rays of a frustum which cross them within what they cut, and these rays.
+/// Faces with deferred tests that rays of a frustum cross within a part that they cut, with these
+/// rays.
 template <class Arch>
 class CrossedFaces {
   public:
-    /// Rays of a packet from one on, as bits.
+    /// Records that rays of a packet, given as bits, cross a face.
     void note(std::uint32_t slot, std::size_t packet, std::uint32_t rays) {
         int face = 0;
         while (face < count_ && slots_[face] != slot)
@@ -71,7 +73,8 @@ class CrossedFaces {
     std::uint16_t rays_[most][16];
 };
 
-/// Candidates for the nearest hits that a frustum looks for, as FrustumWalk asks for them.
+/// Candidates for the nearest hits of a frustum's rays, with the interface that FrustumWalk
+/// requires.
 template <class Arch, class Method>
 class FrustumCandidates : Streams<Arch> {
     using S = Streams<Arch>;
@@ -86,7 +89,7 @@ class FrustumCandidates : Streams<Arch> {
     Rays packets_[16];
     CrossedFaces<Arch> crossed_;
 
-    /// Notes faces that rays of a packet from one on cross.
+    /// Records the faces that rays of a packet, from k on, cross.
     struct Notes {
         static constexpr bool asks = true;
         CrossedFaces<Arch>& to;
@@ -106,7 +109,7 @@ class FrustumCandidates : Streams<Arch> {
             packet.gather(rays, i);
             for (std::size_t k = 0; k < 16; k += S::lanes) {
                 LaneCandidates<Arch> found(candidates, i + k);
-                // Rays that are not there have hit at 0.
+                // Absent rays get a hit at t = 0.
                 const std::size_t here = i + k < end ? end - i - k : 0;
                 found.first = select(S::first_lanes(here), found.first, zero<Arch>());
                 found.store(packet.found(), k);
@@ -114,7 +117,7 @@ class FrustumCandidates : Streams<Arch> {
         }
     }
 
-    /// One shape against one packet.
+    /// Tests one shape against one packet.
     template <class Filter>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, std::uint32_t slot,
                                      std::size_t which) {
@@ -128,7 +131,8 @@ class FrustumCandidates : Streams<Arch> {
         }
     }
 
-    /// The faces that have waited, and are to be tested against the rays that cross them.
+    /// Returns the faces with deferred tests, which are to be tested against the rays that cross
+    /// them.
     const CrossedFaces<Arch>& crossed() const { return crossed_; }
     template <class Filter>
     [[gnu::always_inline]] void test_crossed(const Filter& filter, std::uint32_t id, int face) {
@@ -150,7 +154,7 @@ class FrustumCandidates : Streams<Arch> {
         }
     }
 
-    /// The t from which on nothing matters to a packet.
+    /// Returns the t beyond which crossings do not matter to a packet.
     float limit_of(std::size_t which) const {
         return S::greatest_of_16(packets_[which].first) * culling_slack;
     }
@@ -163,7 +167,7 @@ class FrustumCandidates : Streams<Arch> {
     }
 };
 
-/// Occlusions that a frustum looks for, as FrustumWalk asks for them.
+/// Occlusions of a frustum's rays, with the interface that FrustumWalk requires.
 template <class Arch, class Method>
 class FrustumOcclusions : Streams<Arch> {
     using S = Streams<Arch>;
@@ -182,7 +186,7 @@ class FrustumOcclusions : Streams<Arch> {
         : scene_(scene) {
         for (std::size_t which = 0; which < 16; ++which) {
             const std::size_t i = begin + 16 * which;
-            blocked_[which] = 0xFFFF; // what is not there
+            blocked_[which] = 0xFFFF; // absent rays
             if (i >= end) continue;
             packets_[which].gather(rays, i);
             for (std::size_t k = 0; k < 16; k += S::lanes)
@@ -193,7 +197,7 @@ class FrustumOcclusions : Streams<Arch> {
         }
     }
 
-    /// One shape against one packet.
+    /// Tests one shape against one packet.
     template <class Filter>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, std::uint32_t slot,
                                      std::size_t which) {
@@ -209,7 +213,7 @@ class FrustumOcclusions : Streams<Arch> {
         }
     }
 
-    /// Limit of t: to a packet of which all rays are blocked nothing matters.
+    /// Returns the limit of t for a packet: negative if all of its rays are blocked.
     float limit_of(std::size_t which) const {
         return blocked_[which] == 0xFFFF ? -1.0F : __builtin_inff();
     }
@@ -223,7 +227,7 @@ class FrustumOcclusions : Streams<Arch> {
     }
 
   private:
-    /// Calls visit(states) for 16, of which `count` are there at most; the others are blocked.
+    /// Calls visit(states) for 16 states, of which at most `count` exist. The others are blocked.
     template <class Visit>
     static void with_states(std::uint8_t* state, std::size_t count, const Visit& visit) {
         if (count >= 16) return visit(state);

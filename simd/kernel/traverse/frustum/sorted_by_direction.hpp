@@ -4,9 +4,9 @@
 
 namespace raylane::simd {
 
-/// Rays that end at one point, in an order in which those of a packet come there from nearly the
-/// same direction, however far apart they start, as far as that is worth the work. Packets of which
-/// that is so already may stay what they are; the rays of the others come behind them, in the order
+/// Rays that end at one point, in an order in which the rays of a packet arrive from nearly the
+/// same direction, however far apart they start. They are sorted only as far as this pays: packets
+/// that are narrow already may stay as they are. The rays of the other packets follow, in the order
 /// of their directions along a Morton curve.
 template <class Arch>
 struct SortedByDirection : Streams<Arch> {
@@ -19,7 +19,7 @@ struct SortedByDirection : Streams<Arch> {
 
     static constexpr std::size_t columns = 13;
     static constexpr std::size_t column_of(std::size_t count) { return (count + 31) / 16 * 16; }
-    /// Fewer are not worth the work.
+    /// Sorting does not pay for fewer rays.
     static constexpr std::size_t least_count = 64;
     static bool has_room(std::size_t count, const Workspace& workspace) {
         return count >= least_count && count <= workspace.capacity &&
@@ -64,7 +64,7 @@ struct SortedByDirection : Streams<Arch> {
         gather(asked.state, count, occlusions.state);
     }
 
-    /// Writes what has been found to where it was asked for.
+    /// Writes the results to the caller's arrays, in the caller's order.
     void hand_back(const Occlusions& asked, std::size_t count) const {
         if (kept_ == count) return;
         for (std::size_t k = 0; k < kept_; k += 16)
@@ -74,7 +74,7 @@ struct SortedByDirection : Streams<Arch> {
     }
 
   private:
-    /// A column in the new order.
+    /// Copies a column in the new order.
     template <class Value>
     void gather(const Value* from, std::size_t count, Value* __restrict to) const {
         const std::uint32_t* const number = number_;
@@ -84,11 +84,11 @@ struct SortedByDirection : Streams<Arch> {
             to[k] = from[number[k]];
     }
 
-    static constexpr unsigned cells = 32; ///< a side
-    /// Steeper rays are no part of a frustum.
+    static constexpr unsigned cells = 32; ///< per side
+    /// Steeper rays cannot be part of a frustum.
     static constexpr float steepest = Frustum<Arch>::steepest;
 
-    /// Bits of x with one between each.
+    /// Returns x with a 0 bit between each two bits.
     static unsigned spread(unsigned x) {
         x = (x | x << 4) & 0x10F;
         x = (x | x << 2) & 0x133;
@@ -107,7 +107,7 @@ struct SortedByDirection : Streams<Arch> {
             const F w = S::load(from.direction[along] + i);
             for (int side = 0; side < 2; ++side) {
                 const F any = S::load(from.direction[(along + 1 + side) % 3] + i) / w;
-                // What is not a number ends up at one end.
+                // NaN is clamped to one of the ends.
                 const F slope = max(min(any, F(steepest)), F(-steepest));
                 slope.store_unaligned((side == 0 ? u_ : v_) + i);
                 low[side] = min(low[side], select(here, slope, low[side]));
@@ -120,7 +120,7 @@ struct SortedByDirection : Streams<Arch> {
         }
     }
 
-    /// True if some ray of a packet is further than `most` from the first.
+    /// True if a ray of a packet is further than `most` from the packet's first ray.
     bool is_wide(std::size_t packet, float most) const {
         const F u(u_[packet]), v(v_[packet]);
         std::uint32_t apart = 0;
@@ -130,9 +130,10 @@ struct SortedByDirection : Streams<Arch> {
         return apart != 0;
     }
 
-    /// Numbers the rays of whole packets that are no wider than `wide` times what they would be if
-    /// all together filled a rectangle without overlapping, and lists the others. Returns how many
-    /// rays these are: all if nearly all are, and none if too few are.
+    /// Numbers the rays of narrow packets and lists the other packets. A packet is narrow if it is
+    /// whole, and at most `wide` times as wide as if all packets filled a rectangle without
+    /// overlapping. Returns the number of rays in narrow packets, or `count` if nearly all are, or
+    /// 0 if too few are.
     std::size_t keep_narrow(std::size_t count) {
         const float packets = static_cast<float>((count + 15) / 16);
         const float most = wide * (extent_[0] + extent_[1]) / __builtin_sqrtf(packets);
@@ -153,7 +154,7 @@ struct SortedByDirection : Streams<Arch> {
         return 0;
     }
 
-    /// Numbers the other rays by their cells in the plane of slopes.
+    /// Numbers the rays of the other packets by their cells in the plane of slopes.
     void sort_others(std::size_t count) {
         const float extent = extent_[0] > extent_[1] ? extent_[0] : extent_[1];
         const float scale = (static_cast<float>(cells) - 0.01F) / (extent + 0x1p-60F);

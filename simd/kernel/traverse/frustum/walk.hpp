@@ -6,9 +6,9 @@
 
 namespace raylane::simd {
 
-/// A frustum's way through the scene: a node or a block is visited once for all of its rays, and a
-/// shape is tested against those packets of 16 that may meet it. Nodes are visited in the order of
-/// their distance; or, where that is of no use, what is below one before its neighbours.
+/// A frustum's traversal of the scene. Each node or block is visited once for all rays. A shape is
+/// tested against the packets of 16 rays that may meet it. Nodes are visited in the order of their
+/// distance, or depth first if `nearest_first` is false.
 template <class Arch, class Method, bool nearest_first>
 struct FrustumWalk : Streams<Arch> {
     using S = Streams<Arch>;
@@ -19,10 +19,10 @@ struct FrustumWalk : Streams<Arch> {
     const Rays& frustum;
     const Workspace& workspace;
     TraceCounters& counters;
-    /// Shapes that are still worth a look. Where the frustum is so wide that there are more, its
-    /// rays are better off one by one.
+    /// The number of shapes that is still worth testing. If a frustum is so wide that it meets
+    /// more, its rays are faster one by one.
     const int most_shapes;
-    alignas(64) float limits[16]; ///< by packet: the t from which on nothing matters to it
+    alignas(64) float limits[16]; ///< by packet: crossings beyond this t do not matter
     float largest_limit;
 
     FrustumWalk(const SceneView& scene_view, const Rays& rays, const Workspace& space,
@@ -30,15 +30,15 @@ struct FrustumWalk : Streams<Arch> {
         : scene(scene_view), frustum(rays), workspace(space), counters(trace_counters),
           most_shapes(shapes) {}
 
-    /// Calls, for each shape that packets may meet,
-    ///   found.test(filter, id, slot, which)  for each of the packets, by number, and now and then
-    ///   found.limit_of(which)                the t from which on nothing matters to it
-    /// The shapes come in the order of their nodes' distances, as far as that is known. Returns
-    /// whether the budget was enough.
+    /// Calls for each shape that packets may meet
+    ///   found.test(filter, id, slot, which)  for each of these packets, by number, and sometimes
+    ///   found.limit_of(which)                for the t beyond which crossings do not matter to it.
+    /// Shapes come in the order of their nodes' distances, as far as these are known. Returns
+    /// whether the budget sufficed.
     template <class Found>
     bool go(std::uint32_t kind_bits, Found& found) {
         for (float& limit : limits)
-            limit = -1.0F; // of what is not there
+            limit = -1.0F; // for absent packets
         update_limits((1U << frustum.packets) - 1, found);
         S::for_each_kind(kind_bits, [&](core::Kind kind) {
             for (std::uint32_t block = 0; block < S::table_of(scene, kind).block_count; ++block) {
@@ -48,7 +48,7 @@ struct FrustumWalk : Streams<Arch> {
             }
         });
         if (workspace.key == nullptr) return test_crossed(found);
-        int budget = most_shapes; // what is listed has to be tested whatever the way
+        int budget = most_shapes; // shapes outside of the tree need a test by any traversal
         const Prefetcher<Arch> prefetcher(scene);
         TraversalQueue<Arch> queue;
         queue.place(workspace, 0, scene.tree_depth);
@@ -73,7 +73,7 @@ struct FrustumWalk : Streams<Arch> {
     }
 
   private:
-    /// The faces that have waited. Returns whether there was room for them.
+    /// Tests the faces whose tests were deferred. Returns whether there was room for all of them.
     template <class Found>
     bool test_crossed(Found& found) const {
         if constexpr (requires { found.crossed(); }) {
@@ -110,9 +110,9 @@ struct FrustumWalk : Streams<Arch> {
         }
     }
 
-    /// All shapes that the frustum may meet are listed before it is seen which of its packets do,
-    /// and all these pairs before any is tested: what waits for the last result, and what branches,
-    /// is done once for several blocks. Returns how many shapes these are.
+    /// Lists all shapes that the frustum may meet, then all pairs of these and the packets that may
+    /// meet them, and then tests the pairs. So dependent operations and branches occur once for
+    /// several blocks. Returns the number of shapes.
     template <class Found>
     int at_blocks(const std::uint32_t* blocks, int block_count, Found& found) {
         BlockSpheres<Arch> spheres;
@@ -165,8 +165,8 @@ struct FrustumWalk : Streams<Arch> {
         largest_limit = S::greatest_of_16(limits);
     }
 
-    /// Tests pairs from one on, as far as they are with shapes of one kind. Returns where these
-    /// end.
+    /// Tests pairs from `begin` on while their shapes are of one kind. Returns the end of these
+    /// pairs.
     template <class Found>
     int test_run(const std::uint32_t* blocks, const float* const* floats,
                  const std::uint32_t* pairs, int begin, int count, Found& found) {
@@ -190,13 +190,13 @@ struct FrustumWalk : Streams<Arch> {
         return end;
     }
 
-    /// True if making a filter again is faster than asking whether it would be the same.
+    /// True if constructing a filter again is faster than checking whether it would be the same.
     template <class Filter>
     static constexpr bool is_cheap =
         Method::certifies&& Method::rounded_alone && !sifts_packets<Filter, typename Method::Rays>;
 
-    /// Writes the wanted ones of a register's worth of numbers, with others above them. Returns how
-    /// many.
+    /// Writes the wanted ones of a register's worth of numbers, with `above` in their higher bits.
+    /// Returns how many these are.
     static int list(const std::uint32_t* of, std::uint32_t above, std::uint32_t wanted,
                     std::uint32_t* to) {
         Lanes<Arch>::compress_store(reinterpret_cast<float*>(to),
@@ -204,7 +204,7 @@ struct FrustumWalk : Streams<Arch> {
         return __builtin_popcount(wanted);
     }
 
-    /// Blocks that are looked at together.
+    /// The number of blocks that are processed together.
     static constexpr int batch = 4;
     static constexpr std::uint32_t numbers[] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                 8, 9, 10, 11, 12, 13, 14, 15};

@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// All that many rays may cross, in flight: RefineKernels::list_all.
+/// All shapes that many interleaved rays may cross. Implements RefineKernels::list_all.
 template <class Arch, class Method>
 class InFlightAll : InFlight<Arch, Method> {
     using S = Streams<Arch>;
@@ -13,8 +13,8 @@ class InFlightAll : InFlight<Arch, Method> {
 
     struct Lister : Base::Traveller {
         float t_most;
-        std::uint32_t* bottom; ///< no_child
-        std::uint32_t* top;    ///< behind the last of the children that are still to be visited
+        std::uint32_t* bottom; ///< holds no_child
+        std::uint32_t* top;    ///< one past the last child that is yet to be visited
     };
 
     const SceneView& scene_;
@@ -99,7 +99,8 @@ class InFlightAll : InFlight<Arch, Method> {
     static void land(const Lister&) {}
 
   private:
-    /// Of the kinds that are not in the hierarchy, or of all if there is none.
+    /// Adds shapes of the kinds that are not in the hierarchy, or of all kinds in scenes without a
+    /// hierarchy.
     void add_listed(std::uint32_t kind_bits) {
         S::for_each_kind(kind_bits, [&](core::Kind kind) {
             Method::with_filter(kind, [&]<class Filter>() { add_table<Filter>(kind); });

@@ -5,20 +5,20 @@
 
 namespace raylane::simd {
 
-/// Many rays at a time through the wide hierarchy, each by itself: while one waits for memory, or
-/// for its own last result, others go on. In a round, all take the next of what they are still to
-/// visit, then those that are at nodes look into them, then those that are at blocks; what would
-/// branch for each ray on its own sorts them into lists.
+/// Traces many single rays through the wide hierarchy, interleaved: while one waits for memory, or
+/// for its last result, others proceed. In each round all rays take their next child. Then those at
+/// nodes are tested against their boxes, and then those at blocks against their shapes. Rays are
+/// sorted into lists where a single ray would branch.
 template <class Arch, class Method>
 struct InFlight : Streams<Arch> {
     using S = Streams<Arch>;
 
-    /// A ray on its way.
+    /// A ray that is being traced.
     struct Traveller {
         BoxRay box;
         BoxRay::Rows rows;
         std::uint32_t child; ///< to visit next
-        std::size_t i;       ///< in the stream
+        std::size_t i;       ///< index in the stream
 
         void set_out(const BoxRays<Arch>& rays, std::size_t number) {
             i = number;
@@ -28,11 +28,11 @@ struct InFlight : Streams<Arch> {
         }
     };
 
-    /// Takes all rays that `travels` starts to their ends. Of `travellers`, `travels` knows
-    /// - start(traveller): makes it the next ray, at the root, if there is one
-    /// - next(traveller): the child to visit, or no_child
+    /// Traces all rays that `travels` starts to their ends. `travels` has these functions:
+    /// - start(traveller): makes it the next ray, at the root, and returns whether there is one
+    /// - next(traveller): returns the child to visit, or no_child
     /// - at_node(traveller, node)
-    /// - at_blocks(which, count): those of the travellers that are at blocks
+    /// - at_blocks(which, count): for the travellers that are at blocks
     /// - land(traveller)
     template <class Traveller, class Travels>
     [[gnu::always_inline]] static void go(const SceneView& scene, Traveller* travellers,
@@ -80,9 +80,9 @@ struct InFlight : Streams<Arch> {
         }
     }
 
-    /// Calls visit.template all<Filter>(traveller, table) for those at blocks that may meet
-    /// something there, those of a kind in turn; or, where these are few but costly,
-    /// visit.template some<Filter>(pairs), with the travellers' numbers.
+    /// Calls visit.template all<Filter>(traveller, table) for the travellers at blocks that may
+    /// meet a shape there, one kind after the other. For filters that are costly and meet few
+    /// shapes, it calls visit.template some<Filter>(pairs) instead, with the travellers' numbers.
     template <class Traveller, class Visit>
     static void for_each_at_block(const SceneView& scene, const RoundedRays& stream,
                                   const int* which, int count, Traveller* rays, Visit& visit) {
@@ -106,7 +106,8 @@ struct InFlight : Streams<Arch> {
             });
         }
     }
-    /// A function to itself: in one for all kinds, compilers run out of patience for inlining.
+    /// A separate function, as compilers reach their limits of inlining in one function for all
+    /// kinds.
     template <class Filter, class Traveller, class Visit>
     [[gnu::noinline, gnu::flatten]] static void
     for_each_of_kind(const RoundedRays& stream, const TableView& table, const int* which, int count,

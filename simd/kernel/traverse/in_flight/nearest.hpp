@@ -5,7 +5,7 @@
 
 namespace raylane::simd {
 
-/// The nearest hits of many rays in flight at a time.
+/// The nearest hits of many interleaved rays.
 template <class Arch, class Method>
 class InFlightNearest : InFlight<Arch, Method> {
     using S = Streams<Arch>;
@@ -73,7 +73,7 @@ class InFlightNearest : InFlight<Arch, Method> {
         }
     }
 
-    /// Finds what may be crossed in the block that a ray is at.
+    /// Finds the shapes that may be crossed in the block that a ray is at.
     template <class Filter>
     [[gnu::always_inline]] void all(Flight& flight, const TableView& table) const {
         const std::uint32_t number = flight.child & child_index;
@@ -83,7 +83,7 @@ class InFlightNearest : InFlight<Arch, Method> {
                                                       flight.best.second, flight.hits);
         });
     }
-    /// Takes account of what may be crossed of some pairs.
+    /// Updates the candidates with the pairs that may be crossed.
     template <class Filter>
     [[gnu::always_inline]] void some(const Pairs<Arch, Method>& pairs) {
         const PairBounds bounds = pairs.template bound<Filter>();

@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// Occlusion of many rays in flight at a time. One that is blocked is done.
+/// Occlusion of many interleaved rays. A ray ends when it is blocked.
 template <class Arch, class Method>
 class InFlightOccluded : InFlight<Arch, Method> {
     using S = Streams<Arch>;
@@ -14,8 +14,8 @@ class InFlightOccluded : InFlight<Arch, Method> {
     struct Shadow : Base::Traveller {
         float t_most;
         std::uint8_t state;
-        std::uint32_t* bottom; ///< no_child
-        std::uint32_t* top;    ///< behind the last of the children that are still to be visited
+        std::uint32_t* bottom; ///< holds no_child
+        std::uint32_t* top;    ///< one past the last child that is yet to be visited
     };
 
     const SceneView& scene_;
@@ -43,7 +43,7 @@ class InFlightOccluded : InFlight<Arch, Method> {
         Base::go(scene, all.shadows_, all, counters);
     }
 
-    /// Those that are blocked already are passed over.
+    /// Starts the next ray that is not blocked already.
     bool start(Shadow& shadow) {
         while (next_ < count_ && occlusions_.state[next_] == blocked)
             ++next_;
@@ -82,7 +82,7 @@ class InFlightOccluded : InFlight<Arch, Method> {
         Base::for_each_at_block(scene_, rays_, which, count, shadows_, *this);
     }
 
-    /// Looks for what is in the way in the block that a ray is at.
+    /// Tests a ray against the block that it is at.
     template <class Filter>
     [[gnu::always_inline]] void all(Shadow& shadow, const TableView& table) const {
         const std::uint32_t number = shadow.child & child_index;
@@ -91,7 +91,7 @@ class InFlightOccluded : InFlight<Arch, Method> {
                      scene_, table, number, block, rays_, shadow.i, shadow.t_most);
              }));
     }
-    /// The same of some pairs.
+    /// Same for pairs.
     template <class Filter>
     [[gnu::always_inline]] void some(const Pairs<Arch, Method>& pairs) {
         const PairBounds bounds = pairs.template bound<Filter>();
@@ -100,7 +100,7 @@ class InFlightOccluded : InFlight<Arch, Method> {
             Shadow& shadow = shadows_[pairs.whose[k]];
             const std::uint32_t slot = pairs.slot[k];
             if (only_cuts<Arch, Method>(scene_, slot)) continue;
-            // What is cut inside of it may be nearer.
+            // A cut inside of the shape may be nearer.
             if (!(bounds.lower[k] < shadow.t_most * perhaps_within) &&
                 (cut_of<Method>(scene_, slot) == nullptr || S::is_plain(scene_, slot)))
                 continue;

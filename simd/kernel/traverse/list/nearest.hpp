@@ -5,25 +5,26 @@
 
 namespace raylane::simd {
 
-/// Many rays at a time down the wide hierarchy as one list: a node is loaded once for all that come
-/// to it, and each of its children gets the list of those that enter it. Rays whose directions have
-/// the same signs go together, so that all in a list see a node's children in one order.
+/// Traces many rays down the wide hierarchy as one list (a ray stream). A node is loaded once for
+/// all rays that come to it, and each of its children gets the list of the rays that enter it. Rays
+/// whose directions have the same signs go together, so that a node's children have the same order
+/// for all rays of a list.
 template <class Arch, class Method>
 class ListNearest : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;
-    using Number = std::uint16_t; ///< of a ray
+    using Number = std::uint16_t; ///< number of a ray
     using Record = ListRecord;
 
-    /// Rays whose bounds a block finds at a time.
+    /// The number of rays whose bounds with a block are computed together.
     static constexpr int batch = 64;
 
     const SceneView& scene_;
     const RoundedRays& rays_;
     TraceCounters& counters_;
     Record* records_;
-    Number* free_; ///< room for further lists
+    Number* free_; ///< free memory for further lists
     int octant_ = 0;
     PairsByKind<Arch, Method> pairs_;
 
@@ -100,7 +101,8 @@ class ListNearest : Streams<Arch> {
         free_ = masks;
     }
 
-    /// The children that each ray enters, as bits. Returns those that any ray does.
+    /// Finds the children that each ray enters, as bits in `masks`. Returns those that any ray
+    /// enters.
     std::uint32_t enter(const NodeView& node, const Number* list, int count, Number* masks) const {
         switch (octant_) {
         case 0:
@@ -155,12 +157,13 @@ class ListNearest : Streams<Arch> {
             kind, [&]<class Filter>() { test<Filter>(kind, child & child_index, list, count); });
     }
 
-    /// Those that wait for others to be tested with.
+    /// Tests the pairs that are still waiting for others to be tested with.
     void flush_pairs() {
         pairs_.flush([&]<class Filter>(const Pairs<Arch, Method>& pairs) { take<Filter>(pairs); });
     }
 
-    /// A function to itself: in one for all kinds, compilers run out of patience for inlining.
+    /// A separate function, as compilers reach their limits of inlining in one function for all
+    /// kinds.
     template <class Filter>
     [[gnu::noinline, gnu::flatten]] void test(core::Kind kind, std::uint32_t number,
                                               const Number* list, int count) {
