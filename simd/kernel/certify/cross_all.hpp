@@ -8,8 +8,8 @@
 
 namespace raylane::simd {
 
-/// All crossings of rays with shapes, by the solvers' formulas in numbers with bounds, of twice the
-/// digits: RefineKernels::cross_all.
+/// Finds all crossings of rays with shapes, by the solvers' formulas in double-doubles with bounds.
+/// Implements RefineKernels::cross_all.
 template <class Arch>
 class CrossAll {
   public:
@@ -43,7 +43,7 @@ class CrossAll {
         std::size_t count = 0;
     };
 
-    /// Pairs of a ray that are not worth the sifting.
+    /// The number of pairs of a ray up to which sifting does not pay.
     static constexpr std::size_t few = 16;
 
     void add(Packet& packet, std::size_t pair) {
@@ -59,7 +59,7 @@ class CrossAll {
         return S::kind_of(scene_, pairs_.slot[packet.pair[0]]);
     }
 
-    /// A packet's rays, by some of their directions, and shapes.
+    /// A packet's rays with the directions given to load(), and a reader of their shapes.
     struct Loaded {
         SlotReader<D> reader;
         Rays<D> rays;
@@ -69,7 +69,7 @@ class CrossAll {
         Loaded loaded{SlotReader<D>(table), {}};
         double numbers[6][width];
         for (std::size_t lane = 0; lane < width; ++lane) {
-            // Those that are not in use do what the first one does.
+            // Unused lanes repeat the first one.
             const std::size_t pair = packet.pair[lane < packet.count ? lane : 0];
             loaded.reader.set(lane, pairs_.slot[pair]);
             for (int axis = 0; axis < 3; ++axis) {
@@ -85,8 +85,8 @@ class CrossAll {
         return loaded;
     }
 
-    /// Leaves out what double knows to be missed. (The finishers' bounds grant directions the error
-    /// of bringing them to unit length.)
+    /// Removes pairs that certainly miss by double arithmetic. (The finishers' bounds cover the
+    /// error of bringing directions to unit length.)
     void sift(Packet& packet) {
         if (packet.count == 0) return;
         const core::Kind kind = kind_of(packet);

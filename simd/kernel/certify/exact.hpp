@@ -5,15 +5,16 @@
 
 namespace raylane::simd {
 
-/// Methods: how shapes are tested, one for each core::Precision. Each has
-///   Rays       what a packet of rays is to its filters, at least FilterRays
-///   certifies  whether its answers are the same however rays go together
-///   rounded_alone  whether it asks nothing of rays but what they are in float
-///   packet     the rays of a stream from one on, one per lane
-///   broadcast  one of them in all lanes
+/// A method defines how shapes are tested. There is one for each core::Precision. Each has
+///   Rays           a packet of rays as its filters need them, at least FilterRays
+///   certifies      whether its answers do not depend on how rays are grouped
+///   rounded_alone  whether it needs the rays in float only
+///   packet         returns the rays of a stream from i on, one per lane
+///   broadcast      returns ray i in all lanes
 ///   with_filter(kind, visit)  calls visit.operator()<its filter for the kind>()
 ///
-/// This one is core::Precision::exact: bounds in float, and what they leave in double.
+/// This method is core::Precision::exact: bounds in float, and double for the shapes that they do
+/// not reject.
 template <class Arch>
 struct ExactMethod : RaysInFloat<Arch> {
     static constexpr bool certifies = true;

@@ -6,7 +6,7 @@
 
 namespace raylane::simd {
 
-/// Reads the numbers of one shape for all lanes.
+/// Reads the numbers of one shape into all lanes.
 template <class Arch>
 class OneShapeReader {
   public:
@@ -25,7 +25,7 @@ class OneShapeReader {
     long long next_;
 };
 
-/// Reads the numbers of a shape per lane.
+/// Reads the numbers of one shape per lane.
 template <class Arch>
 class GatherReader {
   public:
@@ -47,7 +47,7 @@ class GatherReader {
     int row_ = 0;
 };
 
-/// MethodKernels::finish, or finish_all.
+/// Implements MethodKernels::finish and finish_all.
 template <class Arch, Wanted wanted>
 class Finish {
   public:
@@ -96,8 +96,9 @@ class Finish {
                         table.first_slot + 16 * table.block_count - 1);
     }
 
-    /// The lanes `active` of packet i, which all found shapes of one table; and where these are all
-    /// lanes, the packets behind it for which that is so, too. Where the rest starts.
+    /// Finishes the lanes `active` of packet i, all of which found shapes of one table. If these
+    /// are all lanes, also finishes the packets that follow, as long as this holds for them.
+    /// Returns the ray at which the rest starts.
     template <class Finisher>
     [[gnu::noinline, gnu::flatten]] std::size_t finish_run(const TableView& table, std::size_t i,
                                                            std::uint32_t active) const {
@@ -114,7 +115,8 @@ class Finish {
         while (true) {
             const std::uint32_t slot = found_.slot[i + first_of(active)];
             if (is_in(active, i, slot)) {
-                // What depends on the shape alone is done once for all that are of the same.
+                // Values that depend on the shape alone are computed once for consecutive packets
+                // of one shape.
                 const long long only = place(slot, 0);
                 for (long long& offset : spots.offsets)
                     offset = only;
@@ -137,12 +139,12 @@ class Finish {
         }
     }
 
-    /// True if all of some lanes of packet i found one shape.
+    /// True if all `active` lanes of packet i found the shape in `slot`.
     bool is_in(std::uint32_t active, std::size_t i, std::uint32_t slot) const {
         return (active & ~in_range(found_.slot + i, slot, slot)) == 0;
     }
 
-    /// One packet of finish_run.
+    /// Finishes one packet of finish_run.
     template <class Finisher>
     [[gnu::always_inline]] void finish_packet(const Finisher& finisher, const TableView& table,
                                               const Spots<Arch>& spots, std::size_t i,
@@ -156,7 +158,7 @@ class Finish {
         if (found_.holds_points)
             finished.certain = finished.certain & holds_point(rays, finished.t, finished.error);
         if (found_.start != nullptr) {
-            const F start = load(found_.start + i); // off by less than this
+            const F start = load(found_.start + i); // its error is less than the factor below
             finished.certain =
                 finished.certain & (finished.t - finished.error > start * F(1 + 0x1p-50));
         }
@@ -171,8 +173,9 @@ class Finish {
         }
     }
 
-    /// Finishers take a start on the surface for a point of it, so that what is perpendicular there
-    /// is as long as they expect. The origin of a ray for others need not be one.
+    /// Brings normals to unit length. Finishers take the origin of a ray that starts on the surface
+    /// for a point of the surface, so that the normal there has the expected length. The origin of
+    /// a caller's ray need not be such a point.
     static void make_unit(Finished<D>& finished, const M& lanes) {
         const F inverse = select(lanes, F(1.0) / sqrt(squared_length(finished.normal)), F(1.0));
         const Vectors<D>& error = finished.normal_error;

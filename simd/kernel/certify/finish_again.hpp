@@ -10,12 +10,12 @@
 
 namespace raylane::simd {
 
-/// Rays that the finishers have left in doubt, most of them rays that just miss a shape, that start
-/// beside its surface or touch it. Here the solvers' formulas themselves are asked, in numbers with
-/// bounds, which takes several times as long: in double, and then with twice as many digits.
+/// Solves rays again that the finishers left in doubt. Most of these just miss a shape, start
+/// beside its surface or touch it. The solvers' own formulas run in numbers with bounds, which
+/// takes several times as long: first in double, then with twice as many digits.
 ///
-/// Rays are what their doubles say, or those that they stand for. (The finishers' bounds grant
-/// directions the error of bringing them to unit length.)
+/// Rays are exactly their doubles, or the exact rays that these stand for. (The finishers' bounds
+/// cover the error of bringing directions to unit length.)
 template <class Arch>
 class FinishAgain {
   public:
@@ -30,7 +30,7 @@ class FinishAgain {
             finish<Wide<D>>(packet);
     }
 
-    /// RefineKernels::widen
+    /// Implements RefineKernels::widen.
     void widen(const std::size_t* places, std::size_t count, const WideCrossings& wide) {
         for (std::size_t k = 0; k < count; ++k) {
             wide.error[k] = __builtin_inf();
@@ -55,7 +55,7 @@ class FinishAgain {
     /// Rays that found shapes of one kind.
     struct Packet {
         std::size_t rays[width];
-        std::size_t of[width]; ///< their index to the caller
+        std::size_t of[width]; ///< the caller's indices of these
         std::size_t count = 0;
     };
 
@@ -85,7 +85,7 @@ class FinishAgain {
     template <class Number>
     using ExactReader = CertifiedSlotReader<D, Number>;
 
-    /// A packet's rays, as they are meant, and shapes.
+    /// The exact rays of a packet, with the readers of their shapes.
     struct Loaded {
         Reader reader;
         Rays<D> rays;
@@ -101,7 +101,7 @@ class FinishAgain {
             stand_for_others ? found_.meant_direction : found_.direction;
         double numbers[8][width];
         for (std::size_t lane = 0; lane < width; ++lane) {
-            // Those that are not in use do what the first one does.
+            // Unused lanes repeat the first one.
             const std::size_t ray = packet.rays[lane < packet.count ? lane : 0];
             loaded.reader.set(lane, found_.slot[ray]);
             for (int axis = 0; axis < 3; ++axis) {
@@ -157,7 +157,8 @@ class FinishAgain {
         return first_ahead<C>(crossings, none<C>());
     }
 
-    /// Not known at the limit itself, where that is any.
+    /// Returns whether t is after the limit. The answer is unknown if t is certainly at a
+    /// limit > 0.
     template <class C>
     static Mask<C> is_after(const Floats<C>& t, const F& t_after) {
         const Floats<C> limit(t_after);
@@ -175,7 +176,7 @@ class FinishAgain {
         packet.count = 0;
     }
 
-    /// Stores crossings that are those that were found.
+    /// Stores the crossings whose face and direction match the ones that were found.
     template <class Solver>
     [[gnu::noinline]] void store(const Loaded& loaded, const Packet& packet,
                                  const WideCrossings& wide) const {
@@ -215,19 +216,19 @@ class FinishAgain {
                                      crossing.face);
     }
 
-    /// In double, and what that may be off by.
+    /// Stores a normal in double, with its error.
     template <class Number>
     static void store(const Vectors<Certified<Number>>& normal, Finished<D>& finished) {
         const auto error = [](const Floats<Certified<Number>>& component) {
             const F off = component.error + Digits<Number>::lost_in_double(component.value);
-            // This sum is rounded, and those of the number and it.
+            // This sum is rounded, and so are the sums of the component and it.
             return select(off == zero<D>(), off, off + F(0x1p-50) * (off + component.magnitude()));
         };
         finished.normal = {normal.x.in_double(), normal.y.in_double(), normal.z.in_double()};
         finished.normal_error = {error(normal.x), error(normal.y), error(normal.z)};
     }
 
-    /// Of some lanes of the packet.
+    /// Stores the normals of `lanes` of the packet.
     static void store_normals(const Vectors<Certified<Wide<D>>>& normal, const Packet& packet,
                               std::uint32_t lanes, const WideCrossings& wide) {
         Finished<D> finished;
@@ -249,8 +250,8 @@ class FinishAgain {
         }
     }
 
-    /// First crossing of rays that do not start on the shape; and its normal, where those who ask
-    /// want floats.
+    /// Returns the first crossing of rays that do not start on the shape. Unless `holds_points`,
+    /// also returns its normal.
     template <class Solver, class Number>
     [[gnu::noinline]] static Finished<D> first_crossing(const Loaded& loaded, bool holds_points) {
         const F& length = loaded.length;
@@ -262,7 +263,7 @@ class FinishAgain {
         M certain = first.exists.surely() & (first.face.error == zero<D>()) & first.entering.known &
                     is_result<D>(t, error);
         if (holds_points) certain = certain & holds_point(loaded.rays, t, error);
-        // Of rays that stand for others the length is off by a few ulps, and so is the product.
+        // If rays stand for others, their length is off by a few ulps, and so is the product.
         const F unit_t = t * length, rounding = select(length == F(1.0), zero<D>(), F(0x1p-50));
         Finished<D> finished = {certain,
                                 unit_t,

@@ -4,13 +4,13 @@
 
 namespace raylane::simd {
 
-/// Rays as they were before they were rounded, half a packet each.
+/// Rays before rounding, in halves of a packet.
 template <class Arch>
 struct DoubleRays : FilterRays<Arch> {
     Rays<Double<Arch>> halves[2];
 };
 
-/// A solver's first crossing in double.
+/// Filter that returns a solver's first crossing in double.
 template <class Arch, class Solver>
 struct DoubleFilter {
     using D = Double<Arch>;
@@ -39,8 +39,9 @@ struct DoubleFilter {
     }
 };
 
-/// core::Precision::plain_double. The filters' bounds are no wider than float, in which candidates
-/// are kept, asks for: those that it cannot tell apart are for the caller to compare in double.
+/// Method of core::Precision::plain_double. The filters' bounds are only as wide as float, in which
+/// candidates are stored, requires. Candidates that float cannot separate are left for the caller
+/// to compare in double.
 template <class Arch>
 struct DoubleMethod {
     using D = Double<Arch>;

@@ -7,7 +7,7 @@
 
 namespace raylane::simd {
 
-/// All that one ray may cross first: RefineKernels::list_candidates.
+/// Lists all shapes that one ray may cross first. Implements RefineKernels::list_candidates.
 template <class Arch, class Method>
 struct ListCandidates : Streams<Arch> {
     using S = Streams<Arch>;
@@ -45,7 +45,7 @@ struct ListCandidates : Streams<Arch> {
     }
 
   private:
-    /// Candidates that are not worth the sifting.
+    /// The number of candidates below which sifting does not pay.
     static constexpr std::size_t few = 16;
 
     static bool visit(const SceneView& scene, core::Kind kind, std::uint32_t block,
@@ -96,7 +96,8 @@ struct ListCandidates : Streams<Arch> {
         return true;
     }
 
-    /// The lanes of a block from one on, as bits, but those that the ray surely misses.
+    /// Returns the lanes in `bits` of a block, from `from` on, without those that the ray certainly
+    /// misses.
     template <class Finisher>
     [[gnu::noinline]] static std::uint32_t sifted(const TableView& table, std::uint32_t number,
                                                   int from, const RoundedRays& rays, std::size_t i,

@@ -6,7 +6,7 @@
 
 namespace raylane::simd {
 
-/// A solver's first crossing as if it were certain.
+/// Filter that takes a solver's first crossing for certain.
 template <class Arch, class Solver>
 struct PlainFilter {
     static constexpr bool is_of_spheres = of_spheres<Solver>();
@@ -24,7 +24,7 @@ struct PlainFilter {
     }
 };
 
-/// core::Precision::robust and, by the textbooks, fast.
+/// Method of core::Precision::robust or, if `textbook`, fast.
 template <class Arch, bool textbook>
 struct PlainMethod : RaysInFloat<Arch> {
     static constexpr bool certifies = false;

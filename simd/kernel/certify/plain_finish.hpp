@@ -10,7 +10,7 @@
 
 namespace raylane::simd {
 
-/// The crossing, which is none if its t overflows.
+/// Returns the crossing, which does not exist if its t overflows.
 template <class Number>
 Crossing<Number> at_finite_t(Crossing<Number> crossing) {
     crossing.exists = crossing.exists & (crossing.t < constant<Number>(__builtin_inff()));
@@ -18,7 +18,7 @@ Crossing<Number> at_finite_t(Crossing<Number> crossing) {
 }
 
 /// MethodKernels::finish by the solvers' formulas alone, in lanes of `Number`, which is an
-/// instruction set or a Double<> of one. Nothing is doubtful.
+/// instruction set or a Double<> of one. No result is doubtful.
 template <class Number, bool textbook>
 class PlainFinish {
   public:
@@ -53,12 +53,12 @@ class PlainFinish {
 
     struct Reader {
         SlotReader<Number> slots;
-        bool one_shape = true; ///< they are all the same
+        bool one_shape = true; ///< all lanes have the same shape
 
         F next() { return one_shape ? slots.next_of(0) : slots.next(); }
     };
 
-    /// The lanes `active` from ray i on, which all found shapes of one table.
+    /// Finishes the lanes `active` from ray i on, all of which found shapes of one table.
     template <class Solver>
     void finish_packet(const TableView& table, std::size_t i, std::uint32_t active) const {
         const auto first_lane = static_cast<std::size_t>(__builtin_ctz(active));
@@ -116,7 +116,7 @@ class PlainFinish {
                 F::load_unaligned(inward) > zero<Number>(), F::load_unaligned(face)};
     }
 
-    /// Numbers from and to columns of doubles.
+    /// Load and store numbers in columns of doubles.
     static F load(const double* from) {
         if constexpr (std::is_same_v<Value, double>)
             return F::load_unaligned(from);

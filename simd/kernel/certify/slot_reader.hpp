@@ -8,7 +8,7 @@
 
 namespace raylane::simd {
 
-/// Reads the numbers of a shape per lane, all of one table, as lanes of double or of float.
+/// Reads the numbers of one shape per lane, all of one table, as lanes of double or of float.
 template <class Number>
 struct SlotReader {
     using F = Floats<Number>;
@@ -16,7 +16,8 @@ struct SlotReader {
     static constexpr std::size_t width = F::size;
 
     const TableView& table;
-    /// Of a slot: where its first number is; in a packed table, the slot's number there.
+    /// For each lane: the offset of its slot's first number, or the slot's number in a packed
+    /// table.
     long long place[width];
     int row = 0;
 
@@ -34,7 +35,7 @@ struct SlotReader {
         ++row;
         return F::load_unaligned(values);
     }
-    /// The same of what is in one lane, to all.
+    /// Same for the shape of one lane, in all lanes.
     F next_of(std::size_t lane) {
         const Value value = at(lane);
         ++row;
@@ -53,14 +54,14 @@ struct SlotReader {
     }
 };
 
-/// The same as numbers with bounds.
+/// Same in numbers with bounds.
 template <class D, class Number>
 struct CertifiedSlotReader {
     SlotReader<D> reader;
     Floats<Certified<Number>> next() { return Floats<Certified<Number>>(reader.next()); }
 };
 
-/// Rays that are exactly what their doubles say.
+/// Returns rays in numbers with bounds, which are exactly the rays in double.
 template <class Number, class D>
 Rays<Certified<Number>> certified(const Rays<D>& rays) {
     using C = Certified<Number>;

@@ -6,14 +6,14 @@
 
 namespace raylane::simd {
 
-/// Slots in the tables. A template, as all in kernel/.
+/// Access to shapes by their slots. A template, like everything in kernel/.
 template <class Arch>
 struct Slots {
     static bool holds(const TableView& table, std::uint32_t slot) {
         return slot - table.first_slot < 16 * table.block_count;
     }
 
-    /// Kind of a slot that some table holds.
+    /// Returns the kind of a slot, which must be in one of the tables.
     static core::Kind kind_of(const SceneView& scene, std::uint32_t slot) {
         int kind = 0;
         while (!holds(scene.tables[kind], slot))
@@ -32,7 +32,8 @@ struct Slots {
         return __builtin_bit_cast(std::uint32_t, ids[offset(table, slot)]);
     }
 
-    /// Offset from the table's first float to the slot's first one, if it is not packed.
+    /// Returns the offset of a slot's first float from the table's first one. The table must not be
+    /// packed.
     [[gnu::always_inline]] static long long offset(const TableView& table, std::uint32_t slot) {
         const std::uint32_t place = slot - table.first_slot;
         return static_cast<long long>(place / 16) * table.block_floats + place % 16;
