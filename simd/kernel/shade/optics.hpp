@@ -5,7 +5,7 @@
 
 namespace raylane::simd {
 
-/// core::Refraction, and the reflected fraction, per lane (core/optics/optics.hpp).
+/// core::Refraction and the reflected fraction, per lane (core/optics/optics.hpp).
 template <class Arch>
 struct Refractions {
     using F = Floats<Arch>;

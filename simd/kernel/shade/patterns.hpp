@@ -4,7 +4,7 @@
 #include "simd/kernel/lanes/vectors.hpp"
 #include "simd/shade_kernels.hpp"
 
-/// core/scene/pattern.hpp
+/// Same patterns as core/scene/pattern.hpp, per lane.
 namespace raylane::simd {
 
 template <class Arch>

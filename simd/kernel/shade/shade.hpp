@@ -7,8 +7,8 @@
 
 namespace raylane::simd {
 
-/// The shading formula at core::Material, for packets of surfaces of one material. `Arch` is one
-/// of double lanes. There is code for media and for fog only where a scene has them.
+/// The shading formula of core::Material, for packets of surfaces of one material. `Arch` has lanes
+/// of doubles. Code for media and fog is compiled only into the kernels for scenes that have them.
 template <class Arch, bool with_media, bool with_fog>
 struct Shading {
     using F = Floats<Arch>;
@@ -27,7 +27,7 @@ struct Shading {
     }
     static V product(const V& a, const V& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
-    /// A column at the places of a packet's lanes; the last packet repeats its last lane.
+    /// Reads a column at the places of a packet's lanes. The last packet repeats its last lane.
     struct Gather {
         std::uint32_t places[lanes];
         bool in_a_row;
@@ -70,7 +70,7 @@ struct Shading {
                 normal = scaled(side, gather(paths.shading_normal));
                 normal = select<Arch>(dot<Arch>(normal, flat) < F(0.0), -normal, normal);
             }
-            // core::ReferenceTracer::surface_at
+            // Same as core::ReferenceTracer::surface_at.
             const M beside = dot<Arch>(flat, direction) > F(0x1p-20);
             flat = select<Arch>(beside, -direction, flat);
             normal = select<Arch>(beside, -direction, normal);
@@ -124,7 +124,7 @@ struct Shading {
 
     static F clamped(const F& value) { return min(max(value, F(0.0)), F(1.0)); }
 
-    /// Beer and Lambert's law.
+    /// Returns the transmittance by Beer and Lambert's law.
     static V let_through(const V& absorption, const F& distance) {
         const M some = (absorption.x > F(0.0)) | (absorption.y > F(0.0)) | (absorption.z > F(0.0));
         if (Lanes<Arch>::bits(some) == 0) return {F(1.0), F(1.0), F(1.0)};
@@ -188,7 +188,7 @@ struct Shading {
         }
     }
 
-    /// Blinn's, of light from a direction.
+    /// Returns Blinn's highlight for light from a direction.
     static V highlight(const MaterialView& material, const V& normal, const V& to_light,
                        const V& incident) {
         const F zero(0.0);
@@ -203,7 +203,7 @@ struct Shading {
         return {share, share, share};
     }
 
-    /// Compilers make registers of this loop.
+    /// Compilers vectorise this loop.
     static void light_points(std::size_t count, const std::uint64_t* keys,
                              const std::uint32_t* numbers, std::uint32_t more, double* u,
                              double* v) {
@@ -306,7 +306,7 @@ struct Shading {
         return (most > F(0.0)) & (most >= F(min_weight));
     }
 
-    /// Kernels that do not depend on media or fog are made once.
+    /// Kernels that do not depend on media or fog are instantiated once.
     static constexpr ShadeKernels table() {
         return {surfaces, Shading<Arch, false, false>::light,
                 Shading<Arch, false, false>::light_points, Shading<Arch, false, false>::soft_light,

@@ -8,7 +8,7 @@
 
 namespace raylane::simd {
 
-/// StreamKernels: a caller's rays in and out, 16 at a time.
+/// Implements StreamKernels: takes in a caller's rays, 16 at a time, and hands over the answers.
 template <class Arch>
 class CallerStream {
   public:
@@ -25,9 +25,9 @@ class CallerStream {
         return none;
     }
 
-    /// Rays through one point or in one direction are coherent if they are near each other in the
-    /// order in which they come; those that end at one point are put in order. Rays that are near
-    /// each other and no more are loosely so.
+    /// Finds the common properties of rays. Rays through one point or in one direction are coherent
+    /// if consecutive ones are near each other. Rays that end at one point are always coherent, as
+    /// they are sorted later. Rays that are only near each other are loosely coherent.
     static bool find_coherence(std::size_t count, const StreamRays& rays, float radius,
                                Coherence& coherence) {
         coherence = {};
@@ -61,7 +61,7 @@ class CallerStream {
                 store(select(answers.hit, answers.t, S::infinity()), hits.t + i, here);
             for (int axis = 0; axis < 3; ++axis)
                 if (hits.normal[axis] != nullptr)
-                    // 0 has one sign.
+                    // Adding 0 turns -0 into 0.
                     store(select(answers.hit,
                                  Lanes<Arch>::narrow(found.normal[axis] + i) + zero<Arch>(),
                                  zero<Arch>()),
@@ -98,10 +98,10 @@ class CallerStream {
     using Number = Floats<D>;
     static constexpr std::size_t half = Number::size;
 
-    /// Least number of rays that are worth a look.
+    /// The smallest number of rays that is worth an examination.
     static constexpr std::size_t fewest = 16;
-    /// Mean steps from one ray to the next that are small: of directions, and of origins in radii
-    /// of the scene.
+    /// Mean steps from one ray to the next that count as small: of directions, and of origins in
+    /// radii of the scene.
     static constexpr double most_turn = 0.25, most_move = 0.05;
 
     static std::size_t least(std::size_t a, std::size_t b) { return a < b ? a : b; }
@@ -109,7 +109,7 @@ class CallerStream {
         return hits.normal[0] != nullptr || hits.normal[1] != nullptr || hits.normal[2] != nullptr;
     }
 
-    /// The last of a caller's rays, with others behind them that are none.
+    /// The last of a caller's rays, padded with invalid rays.
     template <class Real>
     struct PaddedRays {
         Real origin[3][16] = {}, direction[3][16] = {}, t_min[16] = {}, t_max[16] = {};
@@ -136,13 +136,13 @@ class CallerStream {
 
     static M is_finite(const F& value) { return abs(value) < S::infinity(); }
 
-    /// The float above one that is not negative.
+    /// Returns the next float above one that is not negative.
     static F next_above(const F& value) {
         const auto bits = bits_as<std::uint32_t>(value);
         return bits_as<float>(bits + decltype(bits)(std::uint32_t{1}));
     }
 
-    /// Takes the first `count` of 16 rays in. Returns how many are none.
+    /// Takes in the first `count` of 16 rays. Returns how many are invalid.
     [[gnu::always_inline]] static std::size_t take_16(const CallerRays<float>& rays,
                                                       std::size_t from, std::size_t count,
                                                       const StreamRays& taken, std::size_t to) {
@@ -221,7 +221,7 @@ class CallerStream {
     }
 
     static constexpr float largest_float = 0x1.fffffep127F;
-    /// Doubles are taken in the range that floats have, where no solver loses one.
+    /// Doubles must be in the range of floats, where no solver overflows or underflows.
     static constexpr double least_double = 0x1p-149, too_large = 0x1p128;
     static constexpr double least_of_largest = 0x1p-276;
     static constexpr std::uint32_t all_lanes = (std::uint64_t{1} << F::size) - 1;
@@ -235,13 +235,13 @@ class CallerStream {
         return ((size >= least) & (size < Number(too_large))) | (size == zero<D>());
     }
 
-    /// Takes some rays in, in double.
+    /// Takes in a register's worth of rays in double.
     [[gnu::always_inline]] static void take_half(const Vectors<D>& origin,
                                                  const Vectors<D>& direction, const Number& largest,
                                                  const Mask<D>& is_ray, const StreamRays& taken,
                                                  std::size_t at) {
-        // Of a number that is not subnormal, infinity's bits are those of its exponent, and the
-        // reciprocal's of the power of two are these, taken from twice those of 1.
+        // If a number is not subnormal, the bits of infinity mask its exponent, which is a power of
+        // two. Subtracted from twice the bits of 1, these bits give the reciprocal of the power.
         using Bits = decltype(bits_as<std::uint64_t>(largest));
         const Number unit =
             select(is_ray,
@@ -265,8 +265,8 @@ class CallerStream {
         (unit * inverse).store_unaligned(taken.per_unit + at);
     }
 
-    /// Takes limits of floats in, by the floats' neighbours: what counts is the float nearest to t,
-    /// ties to even.
+    /// Takes in limits that are floats. They are compared with the float nearest to t, ties to
+    /// even. So their bounds on t depend on the floats next to them.
     [[gnu::always_inline]] static void take_limits(const F& t_min, const F& t_max, bool has_t_min,
                                                    std::uint32_t valid, const StreamRays& taken,
                                                    std::size_t to) {
@@ -303,7 +303,7 @@ class CallerStream {
         S::store_bits(zero<Arch>(), taken.bits + to);
     }
 
-    /// Limits of some rays that have been taken in, in the caller's units.
+    /// Stores the limits, in the caller's units, of rays that have been taken in.
     [[gnu::always_inline]] static void store_limits(const Number& after, const Number& most,
                                                     const Mask<D>& is_ray, const StreamRays& taken,
                                                     std::size_t at) {
@@ -317,7 +317,7 @@ class CallerStream {
             .store_unaligned(taken.t_most + at);
     }
 
-    /// Steps from each ray to the next, along the coordinates, added up.
+    /// Sums of the steps from each ray to the next, over the coordinates.
     struct Steps {
         double turn, move;
 
@@ -360,7 +360,7 @@ class CallerStream {
         return most;
     }
 
-    /// True if all rays have an end, and these are one point, as far as rounding to float tells.
+    /// True if all rays have an end, and all ends are one point within the accuracy of float.
     static bool ends_at_one_point(std::size_t count, const StreamRays& rays, Coherence& coherence) {
         std::size_t first = 0;
         while (first + 1 < count && rays.t_most[first] < 0.0)
@@ -383,7 +383,7 @@ class CallerStream {
             const Mask<D> are_there = first_lanes(count - i) & (t >= zero<D>());
             off = max(off, select(are_there, here, zero<D>()));
             longest = max(longest, select(are_there, t, zero<D>()));
-            // Most rays end anywhere.
+            // Most rays do not end at one point.
             if (i == 0 && !is_one_point(off, longest)) return false;
         }
         if (!is_one_point(off, longest)) return false;
@@ -440,7 +440,7 @@ class CallerStream {
         return {t, hit, Lanes<Arch>::bits(hit), Lanes<Arch>::bits(any & ~certain)};
     }
 
-    /// Lanes whose t is surely not after t_most, or surely is.
+    /// Lanes whose t is certainly not after t_most, and lanes whose t certainly is.
     struct Sides {
         M before, beyond;
     };
@@ -468,7 +468,7 @@ class CallerStream {
         __builtin_memcpy(to, all, count * sizeof(float));
     }
 
-    /// `table` is where one of these may be.
+    /// Stores the ids of shapes. `table` is the first one to search for a slot, and is updated.
     static void store_shapes(const SceneView& scene, const std::uint32_t* slots, std::uint32_t hit,
                              std::size_t count, std::uint32_t* to, const TableView*& table) {
         for (std::size_t lane = 0; lane < count; ++lane)
