@@ -21,7 +21,7 @@ namespace raylane::simd {
 
 /// Results that the caller of a finisher needs.
 enum class Wanted {
-    crossings, ///< certain ones
+    crossings, ///< certain crossings
     all,       ///< also certain misses, and the error of normals
 };
 

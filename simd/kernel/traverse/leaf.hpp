@@ -47,8 +47,7 @@ struct Leaf : Streams<Arch> {
                                       S::broadcast_bits(rays.origin_last[i]));
     }
 
-    /// Returns the shapes that may be met, as bits, as far as a test shows that costs less than
-    /// their bounds.
+    /// Returns the shapes that may be met, as bits, by a test that costs less than their bounds.
     template <class Filter, class Lanes16>
     [[gnu::always_inline]] static std::uint32_t may_meet(const Lanes16& block,
                                                          const RoundedRays& rays, std::size_t i) {

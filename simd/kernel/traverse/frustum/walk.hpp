@@ -30,7 +30,7 @@ struct FrustumWalk : Streams<Arch> {
         : scene(scene_view), frustum(rays), workspace(space), counters(trace_counters),
           most_shapes(shapes) {}
 
-    /// Calls for each shape that packets may meet
+    /// Visits the shapes that packets may meet. For each of them it calls
     ///   found.test(filter, id, slot, which)  for each of these packets, by number, and sometimes
     ///   found.limit_of(which)                for the t beyond which crossings do not matter to it.
     /// Shapes come in the order of their nodes' distances, as far as these are known. Returns
