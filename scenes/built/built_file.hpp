@@ -8,19 +8,19 @@
 
 namespace raylane::scenes {
 
-/// Writes a scene as it is in memory: what takes time to build of it need not be built again.
-/// Throws BadInput for one with solids that are made of others, and SystemRefused.
+/// Writes a scene in its in-memory layout, so that reading it need not repeat the work of building
+/// it. Throws BadInput for a scene with constructed solids, and SystemRefused.
 void write_built(AtomicFile& file, const core::Scene& scene);
 
-/// Such a scene again, whose shapes stay in the file, mapped into memory, if it is one that can be:
-/// processes that have the same file share them. All of it is checked first, by its checksum and as
-/// whatever it is that it holds. Throws BadInput for what write_built did not write, and
+/// Returns a scene that write_built() wrote. Its shapes stay in the file, which is mapped into
+/// memory if possible: processes that read the same file share them. First verifies the checksum
+/// and that all content is valid. Throws BadInput for a file that write_built() did not write, and
 /// SystemRefused.
 core::Scene read_built(InputFile& file, core::Workers* workers);
-/// Gives bytes that were changed the checksum that they have: for tests of what is behind it.
+/// Recomputes the checksum of a modified file, so that tests reach the checks behind the checksum.
 void seal(std::string& built_file);
 
-/// True if a file begins as one of a built scene.
+/// Returns true if a file begins like a built scene.
 bool looks_built(std::string_view head);
 
 } // namespace raylane::scenes

@@ -9,8 +9,9 @@
 #include <span>
 #include <vector>
 
-/// Of a file of a built scene: what its header says, so that a byte that is another is found. By
-/// xxHash's XXH3, 64 bits of each piece of 1 MiB, and of all of these; against accidents alone.
+/// Checksums of built scenes, stored in the header so that a changed byte is detected. They use
+/// xxHash's XXH3: 64 bits of each piece of 1 MiB, and of the list of these. They protect against
+/// accidents only, not against tampering.
 namespace raylane::scenes {
 
 /// The checksum of bytes that come one after the other.
@@ -31,10 +32,11 @@ class Checksum {
     std::vector<std::uint64_t> pieces_;
 };
 
-/// The same of bytes that are there, by all workers.
+/// Returns the checksum of bytes that are all in memory, computed by all workers.
 std::uint64_t checksum_of(std::span<const std::byte> bytes, core::Workers& workers);
 
-/// What a header is to have, whose file has that checksum behind it.
+/// Returns the checksum for a header, where `behind` is the checksum of all bytes behind the
+/// header.
 std::uint64_t checksum_of(layout::Header header, std::uint64_t behind);
 
 } // namespace raylane::scenes

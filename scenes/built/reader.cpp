@@ -44,7 +44,7 @@ class Directory {
                      header.section_count};
     }
 
-    /// Those of a section; none if it is not there.
+    /// Returns the elements of a section, or an empty array if the file lacks the section.
     template <class T>
     core::BigArray<T> array(const std::string& name) const {
         const layout::Section* const section = find(name);

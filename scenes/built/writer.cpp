@@ -52,7 +52,7 @@ class Writer {
     }
 
   private:
-    /// Of what is behind the header, one after the other.
+    /// Calls visit() for each piece of the file behind the header, in order.
     template <class Visit>
     void each_piece(const Visit& visit) const {
         visit(std::span(reinterpret_cast<const char*>(sections_.data()),
@@ -65,7 +65,7 @@ class Writer {
     }
 
     std::vector<layout::Section> sections_;
-    std::vector<std::string_view> contents_; // of each
+    std::vector<std::string_view> contents_; // of each section
 };
 
 std::vector<double> numbers_of(const core::Scene& scene) {

@@ -8,20 +8,21 @@
 
 namespace raylane::scenes {
 
-/// Writes a scene, in the format that the file's ending names, in any case: .json (raylane's own),
-/// .nff (of the Standard Procedural Databases), .pov (POV-Ray 3.7's), or .rl (as it is in memory,
-/// see scenes/built). The file appears whole or not at all.
+/// Writes a scene in the format that the file's ending selects, in any case: .json (raylane's own),
+/// .nff (of the Standard Procedural Databases), .pov (POV-Ray 3.7's), or .rl (the in-memory layout,
+/// see scenes/built). The file appears complete or not at all.
 ///
-/// JSON holds all that is seen of a scene, to the bit, and what goes with its camera, unless that
-/// has been moved where JSON has no word for it; but not which triangles make up a flat polygon. Of
-/// what the others have no word for, shapes are refused, and the rest is left out. That, and what
-/// programs make of the rest that is not what raylane makes of it, is returned, in words.
+/// JSON keeps everything visible of a scene, to the bit, and the camera's staging, unless that has
+/// been changed to something that JSON cannot express. It loses which triangles make up a flat
+/// polygon. The other formats refuse shapes that they cannot express, and omit other features that
+/// they cannot express. Returns a phrase for each omitted feature, and for each feature that other
+/// programs interpret differently from raylane.
 ///
-/// Throws BadInput for another ending, for a shape that the format does not have or solids that are
-/// nested deeper than raylane reads them, and SystemRefused.
+/// Throws BadInput for another ending, for a shape that the format lacks, and for solids that are
+/// nested deeper than raylane reads them. Throws SystemRefused.
 std::vector<std::string> export_scene(const std::filesystem::path& path, const core::Scene& scene);
 
-/// Throws BadInput for an ending that export_scene does not know.
+/// Throws BadInput if export_scene() does not know the ending.
 void require_scene_ending(const std::filesystem::path& path);
 
 } // namespace raylane::scenes

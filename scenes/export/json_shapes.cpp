@@ -94,7 +94,7 @@ void write_shape(JsonObject& object, const core::EllipsoidOf<double>& s) {
     object.vectors("axes", {s.axis_u, s.axis_v, s.axis_w});
 }
 
-/// Without the box of a quadric, which is a half-space there.
+/// Omits the box of a quadric: as a part of a solid, a quadric is an unbounded half-space.
 void write_part(JsonObject& object, const core::QuadricOf<double>& s) {
     write_form(object, s);
 }
@@ -103,7 +103,7 @@ void write_part(JsonObject& object, const Shape& shape) {
     write_shape(object, shape);
 }
 
-/// Levels of objects and lists that it is written with.
+/// Returns the levels of objects and lists with which the solid is written.
 std::size_t levels_of(const core::Solid& solid) {
     if (solid.made == core::Made::of_shape)
         return std::visit(

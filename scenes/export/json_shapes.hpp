@@ -6,11 +6,11 @@
 
 namespace raylane::scenes {
 
-/// All shapes, in the order of their ids. Throws core::InvalidValue for a solid that is nested
-/// deeper than any that is read.
+/// Writes all shapes, in the order of their ids. Throws core::InvalidValue for a solid that is
+/// nested deeper than the reader accepts.
 void write_objects(JsonObject& root, TextFile& file, const core::Scene& scene,
                    const MaterialNames& names);
-/// Solids that are made of others, alone.
+/// Writes only constructed solids.
 void write_solids(JsonObject& root, TextFile& file, const core::Scene& scene,
                   const MaterialNames& names);
 

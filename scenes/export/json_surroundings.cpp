@@ -139,7 +139,7 @@ void write_settings(JsonObject& root, TextFile& file, const core::Settings& sett
         if (settings.max_see_through != core::Settings::see_through_limit)
             limits.number("max_see_through", settings.max_see_through);
     }
-    // Also of lines that are not there, for whoever asks for some.
+    // Keeps the color and creases of a disabled outline, for users who enable it.
     const core::Outline &outline = settings.outline, usual{};
     if (outline.any() || outline.color != usual.color || outline.creases != usual.creases) {
         root.key("outline");
@@ -238,7 +238,8 @@ MaterialNames MaterialNames::own(const core::Scene& scene) {
     MaterialNames names;
     names.names_.resize(scene.materials().size());
     std::set<std::string> taken;
-    std::map<std::string, std::size_t> last; // number of a name that several materials have
+    std::map<std::string, std::size_t>
+        last; // the last suffix of each name that several materials share
     const auto take = [&](std::size_t index, const std::string& wanted) {
         std::string name = wanted;
         while (!taken.insert(name).second)

@@ -9,11 +9,11 @@
 namespace raylane::scenes {
 
 void write_settings(JsonObject& root, TextFile& file, const core::Settings& settings);
-/// Camera, background, spectrum and fog. What of it follows from `staging` is left for the reader
-/// to find.
+/// Writes camera, background, spectrum and fog. If camera and fog follow from `staging`, writes the
+/// staging instead, from which the reader derives them.
 void write_surroundings(JsonObject& root, TextFile& file, const core::Scene& scene,
                         const core::Staging& staging);
-/// Without those that the camera brings along, if the reader is to find them.
+/// Writes the lights. If `staging` has the camera's own lights, omits these for the reader to add.
 void write_lights(JsonObject& root, TextFile& file, const core::Scene& scene,
                   const core::Staging& staging);
 /// The names of materials in a JSON file, quoted. All differ.

@@ -54,7 +54,7 @@ class NffWriter {
     }
 
   private:
-    /// About that of what the camera looks at, with the camera.
+    /// Returns the approximate size of the visible scene, including the camera.
     static double size_of(const core::Scene& scene) {
         double size = static_cast<double>(core::length(scene.camera().at - scene.camera().from));
         const core::Bounds& bounds = scene.hierarchy().bounds;
@@ -65,7 +65,8 @@ class NffWriter {
         return size;
     }
 
-    /// Writes the view, its angle from the middle of the first row to the middle of the last.
+    /// Writes the view. NFF's angle spans from the middle of the first row to the middle of the
+    /// last.
     void write_view() {
         const core::Camera& camera = scene_.camera();
         if (camera.projection != core::Projection::perspective)
@@ -132,7 +133,7 @@ class NffWriter {
             file_.list(normal, " ") << "\n";
         }
     }
-    /// Its faces, seen from outside counter-clockwise.
+    /// Writes the box's faces, counter-clockwise as seen from outside.
     void write_shape(const core::BoxOf<double>& s) {
         const Vec3d all = s.edge_u + s.edge_v + s.edge_w;
         const bool left_handed = core::dot(core::cross(s.edge_u, s.edge_v), s.edge_w) < 0.0;
@@ -149,7 +150,7 @@ class NffWriter {
         for (const Vec3d& v : {corner, corner + a, corner + a + b, corner + b})
             file_.list(v, " ") << "\n";
     }
-    /// A square about as far as can be seen.
+    /// Writes a square of half-width `reach_`, about as far as the camera sees.
     void write_shape(const core::PlaneOf<double>& s) {
         differences_.insert("the far ends of planes");
         const Vec3d normal = core::normalized(s.normal);
@@ -169,7 +170,7 @@ class NffWriter {
     TextFile& file_;
     const core::Scene& scene_;
     Differences& differences_;
-    double reach_;           ///< of what has no end
+    double reach_;           ///< half-width of the squares that replace planes
     bool is_inside_ = false; ///< true if the shapes being written are seen from inside alone
 };
 

@@ -20,14 +20,14 @@ namespace {
 
 using core::Vec3d, core::Vec3f;
 
-/// Levels of solids that raylane reads of it.
+/// Deepest nesting of solids that raylane's reader of POV-Ray scenes accepts.
 constexpr int most_depth = 125;
 
 using pov::is_digit, pov::is_letter;
 
-/// Returns the identifier for a material's name, or "" if the name has other characters than an
-/// identifier. POV-Ray's own words, of which later versions have more, have no capitals, and never
-/// begin with m and an underscore or a digit.
+/// Returns the identifier for a material's name, or "" if the name has characters that identifiers
+/// cannot have. POV-Ray's reserved words, including those that later versions add, have no
+/// capitals, and never begin with m and an underscore or a digit.
 std::string identifier_of(std::string_view name) {
     constexpr std::size_t longest = 32;
     const bool is_identifier =
@@ -44,7 +44,8 @@ std::string identifier_of(std::string_view name) {
 std::vector<std::string> identifiers_of(const core::Scene& scene) {
     std::vector<std::string> identifiers(scene.materials().size());
     std::set<std::string> taken;
-    std::map<std::string, std::size_t> last; // number of a name that several materials have
+    std::map<std::string, std::size_t>
+        last; // the last suffix of each name that several materials share
     const auto take = [&](std::size_t index, const std::string& wanted) {
         std::string name = wanted;
         while (!taken.insert(name).second)
@@ -70,7 +71,7 @@ class PovWriter {
 
     void write() {
         const core::Settings& settings = scene_.settings();
-        // Without a gamma, or by one of its own, there are other colours.
+        // Without assumed_gamma, or with POV-Ray's default, the colours would differ.
         const bool is_srgb = settings.transfer == core::Transfer::srgb;
         file_ << "// povray +W" << settings.width << " +H" << settings.height
               << " +A0.3\n#version 3.7;\nglobal_settings { assumed_gamma "
@@ -119,13 +120,14 @@ class PovWriter {
     }
 
   private:
-    /// True for what is part of a body's surface, and not the whole of it.
+    /// Returns true if a shape is a part of a body's surface, and not all of it.
     template <class Shape>
     static bool is_open(const Shape&) {
         return core::is_bounded<Shape> && !core::is_solid<Shape>;
     }
 
-    /// What an opaque body has an index for there: the camera in it would be in that.
+    /// POV-Ray needs an index for Fresnel reflection even of an opaque body. A camera inside that
+    /// body is then in a medium of that index.
     static constexpr const char* misled = "opaque bodies with Fresnel reflection around the camera "
                                           "(a sky), in whose index all is there";
     bool misleads(core::MaterialIndex index) const {
@@ -153,7 +155,8 @@ class PovWriter {
             solid.shape);
     }
 
-    /// Of the material that is given, where it has none of its own, or with parts of others.
+    /// Returns true if the solid or one of its parts lets light pass. Parts without a material have
+    /// `material`.
     bool lets_light_pass(const core::Solid& solid, core::MaterialIndex material) const {
         return scene_.materials()[material].lets_light_pass() ||
                std::any_of(solid.parts.begin(), solid.parts.end(), [&](const core::Solid& part) {
@@ -162,7 +165,8 @@ class PovWriter {
                });
     }
 
-    /// Which of two bodies is behind a surface of both is not certain there.
+    /// Notes surfaces that two bodies share: in POV-Ray it is uncertain which body is behind such a
+    /// surface.
     void note_surfaces(const core::Solid& solid, core::ShapeId id) {
         for (const core::Solid& part : solid.parts)
             note_surfaces(part, id);
@@ -173,7 +177,7 @@ class PovWriter {
             differences_.insert("surfaces that two transmissive bodies share (as lenses that are "
                                 "cemented)");
     }
-    /// Its kind and numbers: the same from either side, and whatever its bounds.
+    /// Identifies a surface by its kind and numbers, regardless of its orientation and its bounds.
     using Surface = std::vector<double>;
     template <class Shape>
     static Surface surface_of(const Shape& shape) {
@@ -221,7 +225,8 @@ class PovWriter {
         const core::CameraRays<double> rays(camera, settings);
         const bool perspective = camera.projection == core::Projection::perspective;
         if (camera.lens_radius > 0.0F) differences_.insert("the camera's lens");
-        // Of a direction of length 1, and to the left, as coordinates are right-handed here.
+        // POV-Ray's direction has length 1. `right` points left, as the coordinates are
+        // right-handed.
         const double height = 2.0 * settings.height * core::length(rays.up());
         const double width = 2.0 * settings.width * core::length(rays.right());
         file_ << "camera { " << (perspective ? "perspective" : "orthographic") << " right <"
@@ -250,7 +255,7 @@ class PovWriter {
             color(light.color) << " }\n";
             return;
         case core::LightKind::directional: {
-            // By a power of two, so that it is no other direction.
+            // Scales by a power of two, which keeps the direction exact.
             const Vec3d direction = core::convert<double>(light.direction);
             const double far = std::ldexp(1.0, 20 - std::ilogb(core::length(direction)));
             file_ << "light_source { ";
@@ -259,7 +264,8 @@ class PovWriter {
             return;
         }
         case core::LightKind::sphere: {
-            // It fades by 2 / (1 + (d / fade_distance)^2) there, and by (radius / d)^2 here.
+            // POV-Ray's light fades by 2 / (1 + (d / fade_distance)^2), raylane's by (radius /
+            // d)^2.
             constexpr float fade = 1.0F / 1024;
             file_ << "light_source { ";
             vector(light.position) << " ";
@@ -291,7 +297,8 @@ class PovWriter {
             color(pattern.colors[0]);
             break;
         case core::PatternKind::checker: {
-            // It always goes by all three axes: cells are made too long to see in the others.
+            // POV-Ray's checker always uses all three axes. Along unused axes, cells are too long
+            // to see.
             Vec3f size, offset;
             for (int axis = 0; axis < 3; ++axis) {
                 const bool counts = (pattern.axes >> axis & 1) != 0;
@@ -328,7 +335,8 @@ class PovWriter {
         file_ << " }";
     }
 
-    /// What is seen through is a level as well; there are no more than 256.
+    /// Returns max_trace_level. In POV-Ray a transparent surface is a level as well, and 256 is the
+    /// most.
     int trace_level() const {
         const std::vector<core::Material>& materials = scene_.materials();
         const bool most = std::any_of(materials.begin(), materials.end(),
@@ -336,7 +344,7 @@ class PovWriter {
         return most ? 256 : scene_.settings().max_depth + 1;
     }
 
-    /// The share of what is behind that a pigment transmits.
+    /// Returns the share of the light from behind that a pigment transmits.
     static float shows_behind(const core::Material& material) {
         return material.transmits() ? material.transmission : 1.0F - material.opacity;
     }
@@ -344,8 +352,8 @@ class PovWriter {
     void write_material(std::size_t index, const core::Material& material) {
         file_ << "#declare " << identifiers_[index] << " = material { texture { ";
         write_pigment(material);
-        // They are weighed there by what the pigment does not transmit, highlights and reflections
-        // are not.
+        // POV-Ray multiplies ambient and diffuse light by the share that the pigment does not
+        // transmit. It does not do so for highlights and reflections.
         const float opacity = 1.0F - shows_behind(material);
         const float covered = material.transmits() ? 1.0F : material.opacity;
         const bool lit = material.ambient > 0.0F || material.diffuse > 0.0F;
@@ -364,7 +372,7 @@ class PovWriter {
             file_ << " reflection { " << covered * material.reflectivity << " }";
         const bool bends = material.transmits() || (is_fresnel && !material.is_see_through());
         file_ << " } }";
-        // All else that the camera is in, such as a sky, would bend the rays there.
+        // Any other body around the camera, such as a sky, would refract the rays in POV-Ray.
         if (bends) file_ << " interior { ior " << material.index << " }";
         file_ << " }\n";
         if (material.transmits() && material.is_see_through())
@@ -462,12 +470,12 @@ class PovWriter {
     }
     void write_shape(const core::QuadricOf<double>& s) { write_form(s, /*is_clipped=*/true); }
 
-    /// A form by itself: its half-space.
+    /// Writes a quadric without its box: the half-space of its inside.
     void write_part(const core::QuadricOf<double>& s) { write_form(s, /*is_clipped=*/false); }
     void write_part(const auto& shape) { write_shape(shape); }
 
-    /// `transparent`: inner walls of unions would be seen there. So they would where it is cut
-    /// open.
+    /// `transparent`: writes unions as merges, since POV-Ray would show the inner walls of a union.
+    /// Inner walls would also be visible in a solid that is cut open.
     void write_solid(const core::Solid& solid, bool transparent) {
         switch (solid.made) {
         case core::Made::of_shape:
@@ -502,7 +510,7 @@ class PovWriter {
     Differences& differences_;
     std::vector<std::string> identifiers_; // of materials
     core::Somewhere eye_;
-    std::map<Surface, core::ShapeId> surfaces_; // the first solid that each is of
+    std::map<Surface, core::ShapeId> surfaces_; // id of the first solid with each surface
 };
 
 } // namespace

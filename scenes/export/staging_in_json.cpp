@@ -11,7 +11,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// In all bits: zeros have signs.
+/// Compares all bits: zeros have signs.
 bool is_same(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
@@ -20,7 +20,7 @@ bool is_same(const core::Vec3f& a, const core::Vec3f& b) {
     return is_same(a.x, b.x) && is_same(a.y, b.y) && is_same(a.z, b.z);
 }
 
-/// Of a projection's own numbers the other has none in a file.
+/// Compares only the numbers that a file holds for the projection: the angle or the height.
 bool is_same(const core::Camera& a, const core::Camera& b) {
     const bool perspective = a.projection == core::Projection::perspective;
     return a.projection == b.projection && is_same(a.from, b.from) && is_same(a.at, b.at) &&
@@ -46,7 +46,7 @@ std::span<const core::Light> brought_lights(const core::Scene& scene) {
     return std::span(scene.lights()).subspan(scene.own_light_count());
 }
 
-/// True for what scenes/json/surroundings.cpp takes.
+/// Returns true if scenes/json/surroundings.cpp accepts the framing.
 bool is_read(const core::Framing& framing) {
     const bool perspective = framing.projection == core::Projection::perspective;
     const auto across =
@@ -56,7 +56,7 @@ bool is_read(const core::Framing& framing) {
            (!perspective || (framing.field_of_view >= 0.01F && framing.field_of_view <= 179.0F));
 }
 
-/// None where nothing has bounds by which a camera could find its place.
+/// Returns nothing if the camera is to find its place by the shapes, and no shape has bounds.
 std::optional<core::View> found_by(const core::Scene& scene, const core::Staging& staging) {
     core::Frame frame = core::empty_frame(scene, staging, scene.settings());
     core::include_shapes(scene, frame);
@@ -71,7 +71,7 @@ core::Staging staging_in_json(const core::Scene& scene) {
     said.turning = false;
     std::optional<core::View> view;
     if (said.framing && is_read(*said.framing)) {
-        // The one that goes with an angle, which is not written where there is none.
+        // The file omits the angle of an orthographic camera, so the reader has the default angle.
         if (said.framing->projection == core::Projection::orthographic)
             said.framing->field_of_view = core::Framing{}.field_of_view;
         view = found_by(scene, said);

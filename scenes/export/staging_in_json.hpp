@@ -5,11 +5,11 @@
 
 namespace raylane::scenes {
 
-/// As much of a scene's staging as JSON has words for, and by which a reader finds camera, fog and
-/// lights to the bit as the scene has them.
+/// Returns the part of a scene's staging that JSON can express, and from which a reader derives the
+/// scene's camera, fog and lights, to the bit.
 core::Staging staging_in_json(const core::Scene& scene);
 
-/// What of `staging` is not in `said`, in words.
+/// Returns a phrase for each part of `staging` that is missing in `said`.
 Differences lost_staging(const core::Staging& staging, const core::Staging& said);
 
 } // namespace raylane::scenes

@@ -13,8 +13,8 @@
 
 namespace raylane::scenes {
 
-/// Text on its way to a file, or whatever takes it piece by piece. Floats and doubles are written
-/// so that they are read as the same ones.
+/// Buffers text for a file, or for a callback that takes it piece by piece. Writes floats and
+/// doubles so that reading them gives the same values.
 class TextFile {
   public:
     using Take = std::function<void(std::string_view)>;
@@ -41,7 +41,7 @@ class TextFile {
     }
     TextFile& operator<<(int value) { return *this << std::string_view(std::to_string(value)); }
 
-    /// The components of a vector, with `between` them.
+    /// Writes the components of a vector, separated by `between`.
     template <class Real>
     TextFile& list(const core::Vec3<Real>& v, const char* between) {
         return *this << v.x << between << v.y << between << v.z;
@@ -53,7 +53,7 @@ class TextFile {
     }
 
   private:
-    /// Without a point it would be read as a whole number, which has no sign.
+    /// Without a decimal point, -0 would be read as a whole number, which has no sign.
     template <class Real>
     static bool is_negative_zero(Real value) {
         return value == 0 && std::signbit(value);

@@ -10,27 +10,27 @@
 
 namespace raylane::scenes {
 
-/// What another program, or whoever reads the file, would not do as the scene has it, in words.
+/// Phrases for features that another program, or a reader of the file, treats differently.
 using Differences = std::set<std::string>;
 inline constexpr const char* lost_polygons = "which triangles make a polygon";
 
-/// What of the view follows from the shapes is written as that, so far as JSON can say it. Throws
-/// core::InvalidValue for a solid that is nested deeper than any that is read.
+/// Writes the staging in place of the view that follows from it, as far as JSON can express the
+/// staging. Throws core::InvalidValue for a solid that is nested deeper than the reader accepts.
 void write_json(TextFile& file, const core::Scene& scene, Differences& differences);
-/// Settings alone, in one line.
+/// Writes only the settings, on one line.
 void write_json_settings(TextFile& file, const core::Settings& settings);
-/// All but its settings, the names of materials, and the shapes that are no solids; the view as it
-/// is.
+/// Writes everything except the settings, the names of materials, and the shapes outside of
+/// constructed solids. Writes the view itself, not the staging.
 void write_json_without_shapes(TextFile& file, const core::Scene& scene);
-/// All but the objects; the view as it is.
+/// Writes everything except the objects. Writes the view itself, not the staging.
 void write_json_without_objects(TextFile& file, const core::Scene& scene);
-/// These throw core::InvalidValue, too, for what the format has no word for at all.
+/// These also throw core::InvalidValue for content that the format cannot express at all.
 void write_nff(TextFile& file, const core::Scene& scene, Differences& differences);
 void write_pov(TextFile& file, const core::Scene& scene, Differences& differences);
 
-/// Calls visit(shape, id) for all shapes that the tables have, and visit_solid(description, id) for
-/// solids that are made of others, in the order of their ids, which decides where surfaces
-/// coincide.
+/// Calls visit(shape, id) for each shape in the tables outside of constructed solids, and
+/// visit_solid(description, id) for each constructed solid. Goes in the order of ids, which decides
+/// where surfaces coincide.
 template <class Visit, class VisitSolid>
 void for_each_by_id(const core::Scene& scene, const Visit& visit, const VisitSolid& visit_solid) {
     struct Listed {
@@ -58,7 +58,7 @@ void for_each_by_id(const core::Scene& scene, const Visit& visit, const VisitSol
                              [&](const auto& table) { visit(table.get(shapes[id].place), id); });
 }
 
-/// The same without the solids and their parts.
+/// Skips constructed solids and their parts.
 template <class Visit>
 void for_each_by_id(const core::Scene& scene, const Visit& visit) {
     for_each_by_id(scene, visit, [](const core::Solid&, core::ShapeId) {});
