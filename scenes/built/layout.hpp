@@ -49,8 +49,7 @@ inline constexpr const char* staging = "staging";
 inline constexpr const char* nodes = "nodes";
 inline constexpr const char* materials = "materials";
 inline constexpr const char* polygons = "polygons";
-inline constexpr const char* counts =
-    "counts"; ///< number of shapes of each kind, duplicates included
+inline constexpr const char* counts = "counts"; ///< shapes of each kind, duplicates included
 inline constexpr const char* radii = "radii";   ///< of packed spheres, by palette index
 inline constexpr const char* rows = "rows";     ///< of packed spheres
 inline constexpr const char* packed = "packed"; ///< blocks of packed spheres

@@ -44,8 +44,7 @@ std::string identifier_of(std::string_view name) {
 std::vector<std::string> identifiers_of(const core::Scene& scene) {
     std::vector<std::string> identifiers(scene.materials().size());
     std::set<std::string> taken;
-    std::map<std::string, std::size_t>
-        last; // the last suffix of each name that several materials share
+    std::map<std::string, std::size_t> last; // last suffix of a name that materials share
     const auto take = [&](std::size_t index, const std::string& wanted) {
         std::string name = wanted;
         while (!taken.insert(name).second)

@@ -15,18 +15,19 @@ class Inclusion {
   public:
     explicit Inclusion(const std::filesystem::path& first) : files_{first} {}
 
-    /// How many have been included that are still being read.
+    /// Returns how many included files are still being read.
     std::size_t depth() const { return files_.size() - 1; }
 
-    /// Opens the file that a value names, by where the file is that it stands in, and has it read.
-    /// Once: a file that has been read is passed over. Throws BadInput with the value's place if
-    /// there is none, or it is being read at this moment; and what `read` throws.
+    /// Opens the file that a value names, relative to the file that holds the value, and calls
+    /// `read` for it. Skips a file that has already been read. Throws BadInput with the value's
+    /// place if the file does not exist or is still being read. Exceptions thrown by `read`
+    /// propagate.
     void include(const JsonValue& value, const std::function<void(InputFile&)>& read);
 
   private:
     IncludedFiles opener_;
     std::vector<std::filesystem::path> files_;
-    std::vector<std::filesystem::path> read_; // and done with
+    std::vector<std::filesystem::path> read_; // read to their ends
 };
 
 } // namespace raylane::scenes

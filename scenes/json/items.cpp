@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-// Of one item:
+// Limits of one item.
 struct Most {
     std::size_t depth, values;
     std::size_t text; // bytes of keys, strings and numbers
@@ -29,16 +29,16 @@ struct Most {
 constexpr Most most_of_plain = {16, 4096, 1 << 20};
 constexpr Most most_of_nested = {most_levels, 1 << 27, std::size_t{1} << 31};
 
-// Wording of the parser's errors: "... - REASON; last read: '...'" where it could not even make a
-// token of what it read, and "; expected ..." behind that.
+// Wording of the parser's errors: "... - REASON; last read: '...'" if it could not make a token of
+// its input, followed by "; expected ...".
 constexpr std::string_view before_reason = " - ", behind_reason = "; last read: ";
 
 bool is_within_token(std::string_view error) {
     return error.find(behind_reason) != std::string_view::npos;
 }
 
-/// "must be ..." for what the parser says is wrong inside of a token or, failing that, what it
-/// expected there.
+/// Returns "must be ..." with the parser's reason if the error is inside of a token. Otherwise,
+/// names the token that the parser expected.
 std::string expectation_in(std::string_view error) {
     if (is_within_token(error) && error.find(before_reason) < error.find(behind_reason)) {
         const std::size_t first = error.find(before_reason) + before_reason.size();
@@ -58,7 +58,7 @@ std::string expectation_in(std::string_view error) {
     return "must be a value";
 }
 
-/// Receives the parser's events. Values that follow an error at their start are read over.
+/// Receives the parser's events. Skips the contents of a value whose start is an error.
 class ItemParser {
   public:
     ItemParser(std::string_view file, JsonText& text, std::span<const RootKey> keys,
@@ -67,10 +67,10 @@ class ItemParser {
         : file_(file), text_(text), keys_(keys), take_(take), miss_(miss), errors_(errors),
           item_(parameters) {}
 
-    /// Looks for required keys that did not come.
+    /// Reports missing required keys, and returns the outline.
     Outline finish();
 
-    // Calls of nlohmann::json's parser. The answer true means: go on.
+    // Callbacks of nlohmann::json's parser. They return true to continue.
     bool null() { return scalar(JsonType::null, "", 0.0); }
     bool boolean(bool value) { return scalar(JsonType::boolean, "", value ? 1.0 : 0.0); }
     bool number_integer(json::number_integer_t value) {
@@ -93,16 +93,16 @@ class ItemParser {
     bool scalar(JsonType type, std::string_view text, double number);
     bool open(JsonType type);
     bool close();
-    /// False if the value of a root key must not be of this type.
+    /// Returns false if the value of a root key must not have this type.
     bool add(JsonType type, std::string_view text, double number);
     void root_key(std::string_view key);
-    /// Type that the outermost value or that of the root key must have, unless that is for the
-    /// taker to say.
+    /// Returns the type that the outermost value or the root key's value must have, or nothing if
+    /// the function that takes the item decides.
     std::optional<JsonType> expected_type() const;
     std::string next_pointer() const;
     JsonPositions next_positions(JsonType type) const;
     bool is_named() const { return in_collection_ && root_key_->holds == Holds::named_items; }
-    /// True if the value that comes next belongs to a root key that was refused.
+    /// Returns true if the next value belongs to a root key that was refused.
     bool is_refused() const { return in_root_ && root_key_ == nullptr; }
     void hand_over();
     void miss(std::string_view key) {
@@ -125,13 +125,13 @@ class ItemParser {
     Outline outline_;
     std::set<std::string_view> missed_; // root keys
     bool in_root_ = false;
-    const RootKey* root_key_ = nullptr; // the latest; none if it was refused
-    bool in_collection_ = false;        // inside of its value, a list or an object of items
-    std::size_t skipped_ = 0;           // open arrays and objects that are read over
+    const RootKey* root_key_ = nullptr; // the latest; null if it was refused
+    bool in_collection_ = false;        // inside the root key's value, a list or an object of items
+    std::size_t skipped_ = 0;           // open arrays and objects that are skipped
     std::size_t item_count_ = 0;
-    std::string name_;          // of the latest item in an object of them
+    std::string name_;          // of the latest item in an object of items
     std::string key_;           // the latest in an item
-    TextPosition key_position_; // of the latest of all keys
+    TextPosition key_position_; // of the latest key of any kind
     JsonDocument item_;
 };
 
@@ -145,7 +145,7 @@ Outline ItemParser::finish() {
 
 bool ItemParser::number_float(json::number_float_t value, const std::string& digits) {
     std::string text = digits;
-    // The parser writes the decimal point as the C locale has it.
+    // The parser writes the decimal point of the C locale.
     for (char& c : text)
         if ((c < '0' || c > '9') && c != '-' && c != '+' && c != 'e' && c != 'E') c = '.';
     return scalar(JsonType::number, text, value);
@@ -238,7 +238,7 @@ bool ItemParser::add(JsonType type, std::string_view text, double number) {
     if (starts && in_root_ && !in_collection_)
         outline_.values.try_emplace(root_key_->name, positions.value);
     item_.add(type, positions, key_, text, number);
-    // Said here, before all that is in a list of the wrong kind has been read.
+    // Reports the error here, before the rest of a list of the wrong type is read.
     const auto expected = expected_type();
     if (starts && !in_collection_ && expected && *expected != type) {
         const InputError wrong = item_.root().error_expecting(name_of(*expected));
@@ -302,7 +302,7 @@ bool ItemParser::parse_error(std::size_t read, const std::string& token,
     const auto is_structural = [&] {
         return std::string_view("{}[]:,").find(found.start) != std::string_view::npos;
     };
-    // What cuts a number or a literal short is well in itself.
+    // A structural character that cuts a number or a literal short is itself valid.
     if (is_structural() && is_within_token(error.what()) && read > 1)
         found = text_.token_at(read - 2);
     text_.fail(found,

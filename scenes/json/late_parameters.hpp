@@ -7,8 +7,8 @@
 
 namespace raylane::scenes {
 
-/// Takes nothing but the parameters of a file and of those that it includes, in the order in which
-/// a scene of these `keys` is read. What is wrong is left for that to tell.
+/// Takes only the parameters of a file and of the files that it includes, in the order in which a
+/// scene with these `keys` is read. Leaves all errors to be reported when the scene is read.
 void take_parameters(InputFile& file, std::span<const RootKey> keys, Parameters& parameters);
 
 } // namespace raylane::scenes

@@ -4,7 +4,7 @@
 
 namespace raylane::scenes {
 
-/// Levels of objects and lists that an object of a scene may have, for those who read and write it.
+/// The most levels of objects and lists in an object of a scene, for readers and writers.
 inline constexpr std::size_t most_levels = 256;
 
 } // namespace raylane::scenes

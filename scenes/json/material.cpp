@@ -68,7 +68,7 @@ Pattern read_pattern(const JsonValue& value) {
     return read(value);
 }
 
-/// By name, or by its numbers.
+/// Reads a glass: its name, or its coefficients.
 core::Sellmeier read_glass(const JsonValue& value) {
     if (value.type() == JsonType::object) {
         value.allow_only({"B", "C"});
@@ -87,7 +87,7 @@ core::Sellmeier read_glass(const JsonValue& value) {
     return value.choice(JsonValue::Choices<core::Sellmeier>(glasses));
 }
 
-/// What is clear, of this index of refraction.
+/// Returns a clear material with this index of refraction.
 core::Material clear(float index) {
     return {.pattern = {.colors = {core::Color(0.0F), core::Color(0.0F)}},
             .reflection = core::Reflection::dielectric,
@@ -95,7 +95,7 @@ core::Material clear(float index) {
             .index = index};
 }
 
-/// What materials are like that go by a name; keys beside it say otherwise.
+/// Returns the material of a preset. Other keys beside the preset override it.
 core::Material read_preset(const JsonValue& value) {
     using core::Material;
     const auto of_color = [](float gray) {

@@ -7,11 +7,11 @@
 
 namespace raylane::scenes {
 
-/// Reads what the schema calls a material. Does not check what core::SceneBuilder::add_material
-/// checks.
+/// Reads a material of the schema. Leaves the checks of core::SceneBuilder::add_material to it.
 core::Material read_material(const JsonValue& value);
 
-/// Key in the file for a field of core::Material: to core a plain colour is a pattern, too.
+/// Returns the key in the file for a field of core::Material: core stores a plain colour as a
+/// pattern.
 std::string key_of_material_field(const std::string& field, core::PatternKind pattern);
 
 } // namespace raylane::scenes

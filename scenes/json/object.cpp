@@ -22,21 +22,22 @@ using core::Ends;
 
 using core::Made, core::Solid;
 
-/// What an object is read for.
+/// The purpose that an object is read for.
 enum class Use {
-    object, ///< the scene
-    member, ///< a group, or a definition: by itself
-    part,   ///< a solid
+    object, ///< added to the scene
+    member, ///< by itself, in a group or a definition
+    part,   ///< a part of a solid
 };
 
-/// Shapes that an object is made of by instances, and likewise all definitions, which are kept.
+/// The most shapes that instances add to one object, and to all definitions together, which are
+/// kept.
 constexpr std::size_t most_parts = std::size_t{1} << 20;
 constexpr int most_depth = 256;
 
 /// Describes objects within one object of the file.
 class Describer {
   public:
-    /// `parts`: shapes of instances that count besides.
+    /// `parts`: shapes of instances that already count.
     explicit Describer(const ObjectContext& given, std::size_t parts = 0)
         : context(given), parts_(parts) {}
 
@@ -48,16 +49,16 @@ class Describer {
   private:
     std::vector<Solid> instance_of(const JsonValue& object, Use use);
 
-    std::size_t parts_; // of instances
+    std::size_t parts_; // shapes of instances
 };
 
 /// Reads one object, and adds it or describes it.
 class ObjectReader {
   public:
-    /// Of an object, which is added.
+    /// Reads an object that is added.
     ObjectReader(const JsonValue& object, core::SceneBuilder& builder, const ObjectContext& context)
         : object_(object), builder_(&builder), context_(context), use_(Use::object) {}
-    /// Of one that is described.
+    /// Reads an object that is described.
     ObjectReader(const JsonValue& object, Describer& describer, Use use, Solid& described)
         : object_(object), context_(describer.context), describer_(&describer), use_(use),
           described_(&described) {}
@@ -143,7 +144,7 @@ class ObjectReader {
 
     void lattice();
 
-    /// Has an object read by what its type says.
+    /// Calls the reader function of the object's type.
     static void read(const JsonValue& object, ObjectReader& reader);
 
   private:
@@ -156,7 +157,7 @@ class ObjectReader {
     }
     core::MaterialIndex material() const { return context_.material_of(object_.at("material")); }
 
-    /// Keys that it may have beside those by which it is moved.
+    /// Throws if the object has keys other than these and the transform's.
     void allow(std::initializer_list<std::string_view> keys) const {
         std::array<std::string_view, 16> all;
         const auto end = std::copy(keys.begin(), keys.end(), all.begin());
@@ -167,7 +168,8 @@ class ObjectReader {
     template <class Shape>
     void add(const Shape& shape) {
         if (described_ != nullptr) {
-            // Here, where its place is known. A quadric's ends have been looked at, or are none.
+            // Validates here, where the place in the file is known. Skips quadrics that are parts
+            // of solids: the reader has already refused bounds for them.
             checked(object_, [&] {
                 if (use_ != Use::part || !std::is_same_v<Shape, core::QuadricOf<double>>)
                     validate(shape);
@@ -179,7 +181,7 @@ class ObjectReader {
         checked(object_, [&] { builder_->add(shape, own); });
     }
 
-    /// Its own, or none: that of the whole.
+    /// Returns the object's own material, or no_material if it takes that of the whole.
     core::MaterialIndex material_if_any() const {
         const auto own = object_.find("material");
         return own ? context_.material_of(*own) : core::no_material;
@@ -289,7 +291,7 @@ void ObjectReader::made(Made by) {
         std::vector<Solid> parts = describer.described(object, Use::part);
         if (parts.size() == 1) {
             solid.parts.push_back(std::move(parts[0]));
-        } else { // a group is what is in any of its objects
+        } else { // a group is the union of its objects
             Solid all{Made::by_union};
             all.parts = std::move(parts);
             solid.parts.push_back(std::move(all));
@@ -325,11 +327,11 @@ void ObjectReader::lens() {
     checked(object_, [&] { builder_->add_solid(solid, own); });
 }
 
-/// A group, an instance, or what is moved.
+/// Adds the shapes of a group, an instance or a transformed object.
 void ObjectReader::several() {
     for (const Solid& solid : Describer(context_).described(object_, Use::member)) {
         if (solid.material == core::no_material && solid.made == Made::of_shape)
-            static_cast<void>(object_.at("material")); // which is missed
+            static_cast<void>(object_.at("material")); // throws, as it is missing
         checked(object_, [&] {
             if (solid.made != Made::of_shape)
                 builder_->add_solid(solid, core::no_material);
@@ -367,13 +369,13 @@ void ObjectReader::lattice() {
 
 using Read = void (*)(ObjectReader&);
 
-/// Readers by JSON's "type".
+/// Returns the reader functions by JSON's "type".
 const std::vector<std::pair<std::string_view, Read>>& readers() {
     static const auto all = [] {
         std::vector<std::pair<std::string_view, Read>> readers;
         core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
             const std::string_view name = core::type_name_of(core::kind_of<Shape>);
-            // Of kinds that share a name, the first looks which it is.
+            // Several kinds may share a name. The reader of the first kind distinguishes them.
             if (readers.empty() || readers.back().first != name)
                 readers.push_back(
                     {name, [](ObjectReader& of) { of.read(std::type_identity<Shape>()); }});
@@ -397,7 +399,7 @@ void ObjectReader::read(const JsonValue& object, ObjectReader& reader) {
     object.at("type").choice(JsonValue::Choices<Read>(readers()))(reader);
 }
 
-/// A quadric that ends at its box, where that is to be turned, or to be a part.
+/// Returns a quadric combined with its box as a solid, so that it can be transformed or be a part.
 Solid in_box(const Solid& solid, Made by) {
     const auto& quadric = std::get<core::QuadricOf<double>>(solid.shape);
     const core::Vec3d size = quadric.upper - quadric.lower;
@@ -428,7 +430,7 @@ std::vector<Solid> Describer::instance_of(const JsonValue& object, Use use) {
     return solids;
 }
 
-/// All that an object is, moved as it says, with the materials that it gives.
+/// Returns all solids of an object, transformed by its keys, with the materials that it gives.
 std::vector<Solid> Describer::described(const JsonValue& object, Use use) {
     std::vector<std::string_view> keys = {"type", "material"};
     keys.insert(keys.end(), transform_keys.begin(), transform_keys.end());

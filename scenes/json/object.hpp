@@ -14,23 +14,23 @@
 
 namespace raylane::scenes {
 
-/// The material that the value of a key "material" means.
+/// Returns the material that the value of a key "material" refers to.
 using MaterialOf = std::function<core::MaterialIndex(const JsonValue& value)>;
 
-/// Objects that are there by name, each what it is described as: shapes and solids. Without
-/// materials of their own, they have those of their instances.
+/// Named objects, each described as shapes and solids. Those without a material take that of their
+/// instances.
 struct Definition {
     std::vector<core::Solid> solids;
-    std::size_t parts; ///< shapes that these are made of
+    std::size_t parts; ///< number of shapes in the solids
 };
 
 /// Definitions by name.
 class Definitions {
   public:
-    bool may_lack_some = false; ///< a file that may have them could not be read
+    bool may_lack_some = false; ///< an error may have kept some definitions from being read
 
     bool contains(std::string_view name) const { return all_.contains(name); }
-    /// Adds a definition, or nothing for one with a mistake.
+    /// Adds a definition, or marks the name as invalid if the definition has an error.
     void add(std::string_view name, std::optional<Definition> definition) {
         all_.emplace(name, std::move(definition));
     }
@@ -38,8 +38,8 @@ class Definitions {
     /// only the first time for each name, and only if no other error is the cause.
     const Definition& named_by(const JsonValue& value);
 
-    /// Counts shapes that a few words ask for: of instances, lattices and sphereflakes. Throws
-    /// BadInput at the value where all of them are more than `most_asked_for`.
+    /// Counts shapes that instances, lattices and sphereflakes generate. Throws BadInput at the
+    /// value if their total exceeds `most_asked_for`.
     void count(std::size_t shapes, const JsonValue& value);
 
     static constexpr std::size_t most_asked_for = std::size_t{1} << 26;
@@ -52,17 +52,17 @@ class Definitions {
     std::set<std::string, std::less<>> unknown_;
 };
 
-/// What objects refer to.
+/// The materials and definitions that objects refer to.
 struct ObjectContext {
     const MaterialOf& material_of;
     Definitions& definitions;
 };
 
-/// Adds what the schema calls an object: a shape, a solid, or all shapes of a group, an instance or
-/// a generator.
+/// Adds an object of the schema: a shape, a solid, or all shapes of a group, an instance or a
+/// generator.
 void add_object(const JsonValue& object, core::SceneBuilder& builder, const ObjectContext& context);
 
-/// What an object is, for others to be instances of.
+/// Returns the description of an object, for instances to use.
 Definition described_object(const JsonValue& object, const ObjectContext& context);
 
 } // namespace raylane::scenes

@@ -9,13 +9,13 @@
 
 namespace raylane::scenes {
 
-/// True of "$name" and "-$name", that stand for numbers.
+/// Returns true for "$name" and "-$name", which stand for numbers.
 bool is_reference(std::string_view text);
 
-/// Letters, digits and underscores, of which the first is no digit.
+/// Returns true for letters, digits and underscores that do not begin with a digit.
 bool is_parameter_name(std::string_view name);
 
-/// Numbers by name.
+/// The numbers that "$name" stands for, by name.
 class Parameters {
   public:
     struct Number {
@@ -24,35 +24,36 @@ class Parameters {
     };
 
     Parameters() = default;
-    /// Values that a file's own do not change.
+    /// Takes values that override those of the file.
     explicit Parameters(const std::map<std::string, double>& given);
 
-    /// True while one without a value may have one further on in the file.
+    /// True while a parameter without a value may get one later in the file.
     bool expects_more = false;
 
-    /// True if a mistake that is known keeps some from having a value.
+    /// True if a known error may keep some parameters from having a value.
     bool may_lack_some = false;
 
-    /// Adds one that a file has, unless that is given.
+    /// Adds a parameter of the file, unless its value is given.
     void add_default(std::string_view name, double value);
-    /// Notes one that has a mistake, unless it is given.
+    /// Marks a parameter as invalid, unless its value is given.
     void add_wrong(std::string_view name);
-    /// Forgets that one has a mistake, to read it again.
+    /// Forgets that a parameter is invalid, so that it can be read again.
     void forget_wrong(std::string_view name);
-    /// Learns of a root key that is missing by mistake.
+    /// Notes a root key that is missing because of an error.
     void miss(std::string_view key) {
         if (key == "parameters" || key == "include") may_lack_some = true;
     }
-    /// Notes one without a value; true if it has been noted before.
+    /// Notes a parameter without a value. Returns true if it was noted before.
     bool note_missing(std::string_view name) { return !missing_.emplace(name).second; }
     void forget_missing() { missing_.clear(); }
-    /// True of a reference to a parameter that has a mistake.
+    /// Returns true if a reference is to an invalid parameter.
     bool is_wrong(std::string_view reference) const;
-    /// What is_reference() stands for, which then counts as used; nothing if it has no value.
+    /// Returns the number that a reference stands for, and marks the parameter as used. Returns
+    /// nothing if the parameter has no value.
     std::optional<Number> find(std::string_view reference);
-    /// Of all that have a value.
+    /// Returns the names of all known parameters.
     std::vector<std::string_view> names() const;
-    /// Of those that were given, the first that nothing has referred to.
+    /// Returns the first given parameter that nothing refers to.
     std::optional<std::string> first_unused() const;
 
   private:

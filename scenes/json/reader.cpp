@@ -24,7 +24,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// For a name that has been given.
+/// Throws for a name that has already been given.
 [[noreturn]] void refuse_again(const JsonValue& value) {
     InputError repeated = value.error("must be given only once");
     repeated.position = value.positions().key;
@@ -39,11 +39,11 @@ class SceneReader {
         builder_.workers = workers;
     }
 
-    /// From now on it includes no other file.
+    /// Refuses the inclusion of other files from now on.
     void stand_alone() { may_include_ = false; }
-    /// Takes all items of a file: of the first, or of one that is included.
+    /// Takes all items of a file: the main one, or an included one.
     Outline take_all(InputFile& file, InputErrors& errors);
-    /// Throws BadInput for `errors` and what is wrong with the scene as a whole.
+    /// Builds the scene. Throws BadInput for `errors` and for errors in the scene as a whole.
     core::Scene finish(const Outline& outline, InputErrors& errors);
     core::Scene finish_with(core::BuiltShapes shapes, InputErrors& errors);
 
@@ -66,14 +66,15 @@ class SceneReader {
     }};
 
   private:
-    /// What an included file has for those that include it. It may be a scene of its own, too.
+    /// Returns true for keys that an included file contributes. That file may also be a complete
+    /// scene.
     static bool is_included(std::string_view key) {
         return key == "parameters" || key == "include" || key == "lights" || key == "materials" ||
                key == "definitions" || key == "objects";
     }
 
-    /// A name that came before its material, or has none: where it was used first, and the index
-    /// that it has until the material comes.
+    /// A material's name that is used before its material comes, or without one. Holds the place of
+    /// the first use, and an index that stands for the material until it comes.
     struct UnknownName {
         core::MaterialIndex index;
         std::string file;
@@ -81,14 +82,14 @@ class SceneReader {
         std::string pointer;
         bool reported;
     };
-    /// A light in its file.
+    /// The place of a light in its file.
     struct LightPlace {
         std::string file, pointer;
         TextPosition position;
     };
-    /// Throws BadInput for what is wrong with the item, and is good for others after that.
+    /// Throws BadInput for an invalid item. Further items can be taken after that.
     void take(const RootKey& key, std::string_view name, const JsonDocument& item);
-    /// Learns of a root key that is missing by mistake.
+    /// Notes a root key that is missing because of an error.
     void miss(std::string_view key);
     void include(const JsonValue& value);
     void take_settings(const JsonValue& value, void (*read)(const JsonValue&, core::Settings&));
@@ -111,26 +112,26 @@ class SceneReader {
     core::MaterialIndex index_of_unknown(const JsonValue& value);
     std::string complaint_about_name(std::string_view name) const;
     void number_materials();
-    /// True if a mistake that is known may be why items of a root key are not there.
+    /// Returns true if a known error may be the reason that items of a root key are missing.
     bool misses(std::string_view key) const {
         return missed_.contains(key) || missed_.contains("include");
     }
     InputError error_in_scene(const core::InvalidValue& invalid, const Outline& outline) const;
 
-    std::string file_; // that everything is in, but for what is included
+    std::string file_; // the main file
     Inclusion inclusion_;
     Parameters parameters_;
     core::SceneBuilder builder_;
     std::map<std::string, core::MaterialIndex, std::less<>> materials_;
     std::map<std::string, UnknownName, std::less<>> unknown_names_;
     Definitions definitions_;
-    std::vector<core::MaterialIndex> named_; // in the order of the file
+    std::vector<core::MaterialIndex> named_; // in the order of the files
     std::size_t material_count_ = 0;
     std::vector<LightPlace> lights_;
     ObjectPlaces objects_;
     bool has_lights_ = false, has_objects_ = false;
     bool may_include_ = true;
-    std::set<std::string_view> missed_; // root keys with mistakes, whose items others may lack
+    std::set<std::string_view> missed_; // root keys with errors, whose items may be missing
     MaterialOf material_of_ = [this](const JsonValue& value) { return material_of(value); };
 };
 
@@ -139,7 +140,7 @@ Outline SceneReader::take_all(InputFile& file, InputErrors& errors) {
     std::array<RootKey, keys.size()> known = keys;
     for (RootKey& key : known)
         key.required = key.required && is_first;
-    std::set<std::string, std::less<>> parameters; // others may have the same: the first counts
+    std::set<std::string, std::less<>> parameters; // of this file; across files the first counts
     return read_items(
         file, known,
         [&](const RootKey& key, std::string_view name, const JsonDocument& item) {
@@ -206,7 +207,7 @@ void SceneReader::include(const JsonValue& value) {
     }
 }
 
-// core keeps in one place what the file groups by purpose, under the same names.
+// The file groups by purpose the settings that core keeps in one struct. The names are the same.
 void SceneReader::take_settings(const JsonValue& value,
                                 void (*read)(const JsonValue&, core::Settings&)) {
     core::Settings settings = builder_.settings;
@@ -222,7 +223,7 @@ void SceneReader::take_outline(const JsonValue& value) {
 }
 
 void SceneReader::take_camera(const JsonValue& value) {
-    missed_.insert("camera"); // which may bring light along, until it is without mistakes
+    missed_.insert("camera"); // an invalid camera may be meant to bring light along
     const core::Camera camera = read_camera(value, builder_.staging);
     checked(value, [&] { core::validate(camera); });
     builder_.camera = camera;
@@ -272,10 +273,10 @@ void SceneReader::take_material(std::string_view name, const JsonValue& value) {
     try {
         entry->second = add_material(value);
     } catch (const BadInput&) {
-        entry->second = add({}); // or each object of it would be a mistake, too
+        entry->second = add({}); // otherwise each object that uses it would be an error, too
         throw;
     }
-    // A writer calls a material without a name by its number.
+    // The writer names a material without a name by its number.
     if (name != std::to_string(named_.size())) builder_.name_material(entry->second, name);
     named_.push_back(entry->second);
 }
@@ -317,8 +318,8 @@ core::MaterialIndex SceneReader::material_of(const JsonValue& value) {
     return found != materials_.end() ? found->second : index_of_unknown(value);
 }
 
-/// A name is reported once, and as soon as the materials are known. They may come behind the
-/// objects, so until then it stands for one that will.
+/// Returns an index that stands for the material until it comes: materials may come after the
+/// objects. Reports an unknown name only once, and as soon as the materials are known.
 core::MaterialIndex SceneReader::index_of_unknown(const JsonValue& value) {
     const auto found = unknown_names_.find(value.string());
     if (found != unknown_names_.end()) return found->second.index;
@@ -339,7 +340,7 @@ std::string SceneReader::complaint_about_name(std::string_view name) const {
            suggestion(name, names);
 }
 
-/// Named materials first, whether they came before the objects or behind them.
+/// Numbers the named materials first, whether they come before or after the objects.
 void SceneReader::number_materials() {
     if (unknown_names_.empty() && (named_.empty() || named_.back() + 1 == named_.size())) return;
     constexpr auto none = std::numeric_limits<core::MaterialIndex>::max();
@@ -359,7 +360,7 @@ core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
         if (!unknown.reported && !materials_.contains(name) && !misses("materials"))
             errors.add(
                 {unknown.file, unknown.position, unknown.pointer, complaint_about_name(name)});
-    // A camera that finds its place by itself has light, too. A list that is empty is meant to be.
+    // A camera that finds its place by itself brings light, too. An empty list is intended.
     builder_.wants_light = has_lights_ || !outline.has("lights");
     if (!has_lights_ && builder_.wants_light && builder_.staging.framing)
         builder_.staging.lights = true;
@@ -395,7 +396,8 @@ core::Scene SceneReader::finish_with(core::BuiltShapes shapes, InputErrors& erro
     }
 }
 
-/// What is left for core to find are lights, "lights/0/position", and what a camera cannot see.
+/// Returns an error that only core finds, with its place in the file: in lights
+/// ("lights/0/position"), or in a camera that cannot see the scene.
 InputError SceneReader::error_in_scene(const core::InvalidValue& invalid,
                                        const Outline& outline) const {
     constexpr std::string_view lights = "lights/";
@@ -433,7 +435,7 @@ core::Scene read_json(InputFile& file, core::Workers* workers,
             throw BadInput({error});
         }
     }
-    // They come behind what refers to them.
+    // The parameters come after the values that refer to them.
     parameters.expects_more = false;
     take_parameters(file, SceneReader::keys, parameters);
     if (!file.rewind()) throw SystemRefused(file.name(), "read again", errno);

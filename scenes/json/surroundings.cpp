@@ -10,7 +10,7 @@ using core::Projection;
 
 namespace {
 
-/// By name, or the direction that the camera looks in.
+/// Reads a view: its name, or the direction in which the camera looks.
 void read_view(const JsonValue& value, core::Framing& framing) {
     if (value.type() == JsonType::array) {
         framing.direction = value.vector();

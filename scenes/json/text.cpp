@@ -34,7 +34,7 @@ void JsonText::advance() {
 }
 
 JsonText::Token JsonText::token_at(std::size_t index) {
-    // The parser gives a word up at the first letter that cannot be, but a message wants all of it.
+    // The parser abandons a word at the first invalid letter, but a message shows all of it.
     while (state_ == State::word && latest().start.size() < kept_of_token && !ends_word(peek()))
         latest().start += static_cast<char>(take());
     Token token = token_with(index);

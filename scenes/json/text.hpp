@@ -12,19 +12,19 @@
 
 namespace raylane::scenes {
 
-/// The characters of a JSON text as its parser gets to see them: each comment and each run of white
-/// space as one space. Remembers where the latest tokens began, for messages.
+/// The characters of a JSON text, as its parser reads them: each comment and each run of white
+/// space is one space. Remembers where the latest tokens began, for messages.
 ///
-/// The parser collects what it reads until it knows what it has, and quotes all of it in its
-/// errors. So what can be long without meaning anything stays here, and what means something has a
-/// longest length: a file of any size costs no more memory than what it says.
+/// The parser stores its input until it recognizes a token, and quotes all of it in its errors. So
+/// this class drops comments and white space, which can be long, and limits the length of tokens. A
+/// file's size alone then costs no memory.
 class JsonText {
   public:
     static constexpr std::size_t longest_string = 1 << 16; ///< bytes, with its quotes
     static constexpr std::size_t longest_word = 1 << 10;   ///< bytes of a number or a literal
 
     struct Token {
-        std::size_t index = 0; ///< of its first character, among those that the parser gets
+        std::size_t index = 0; ///< of its first character, in the parser's input
         TextPosition position;
         std::string
             start; ///< as much of its text as a message may show; empty at the end of the file
@@ -32,20 +32,20 @@ class JsonText {
 
     explicit JsonText(InputFile& file);
 
-    /// True if anything but white space and comments has come so far.
+    /// Returns true if anything except white space and comments has been read.
     bool has_tokens() const { return token_count_ > 0; }
     bool at_end() const { return current_ < 0; }
     char current() const { return static_cast<char>(current_); }
-    /// Throws BadInput where no JSON text can go on.
+    /// Goes to the next character. Throws BadInput if the text cannot be JSON.
     void advance();
 
-    /// The token that contains the character with this index: one of the latest three that
-    /// advance() reached.
+    /// Returns the token that contains the character with this index. It must be one of the latest
+    /// three that advance() reached.
     Token token_at(std::size_t index);
-    /// End of the file, once it is reached.
+    /// Returns the end of the file, once it is reached.
     Token end() const { return {index_, position_, ""}; }
-    /// Where the token begins that the parser has just recognized. Of a number it has read one
-    /// character too many, unless the file ended there.
+    /// Returns where the token begins that the parser has just recognized. After a number, the
+    /// parser has read one character too many, unless the file ends there.
     TextPosition position_of_parsed(bool number) const;
     /// Throws BadInput with the token's position.
     [[noreturn]] void fail(const Token& token, std::string_view message) const;
@@ -76,17 +76,17 @@ class JsonText {
     TextPosition position_{1, 1}; // of the next byte to be taken
 
     State state_ = State::between;
-    bool escaped_ = false; // in a string, behind a backslash
+    bool escaped_ = false; // in a string, after a backslash
     int current_ = 0;
     std::size_t index_ = 0; // of current_
-    // The parser asks for a token with at most one character read ahead, and this class is one
-    // further.
+    // The parser asks for a token after reading at most one character ahead, and this class reads
+    // one character further ahead.
     std::array<Token, 3> tokens_;
     std::size_t token_count_ = 0;
     std::size_t token_length_ = 0;
 };
 
-/// Makes a JsonText a range of characters. The end is the one without a text.
+/// Makes a JsonText a range of characters. An iterator without a text is the end.
 class JsonTextIterator {
   public:
     using iterator_category = std::input_iterator_tag;

@@ -8,12 +8,12 @@
 
 namespace raylane::scenes {
 
-/// The keys by which an object is moved.
+/// The keys that transform an object.
 inline constexpr std::array<std::string_view, 4> transform_keys = {"scale", "rotate", "translate",
                                                                    "transform"};
 
 bool has_transform(const JsonValue& object);
-/// Scaled first, then turned, then moved; or by a matrix.
+/// Returns scaling, then rotation, then translation; or a matrix.
 core::Transform transform_of(const JsonValue& object);
 
 } // namespace raylane::scenes

@@ -13,8 +13,8 @@ namespace raylane::scenes {
 
 namespace {
 
-/// The float nearest to a decimal number, infinite if there is none. `rounded` is the nearest
-/// double: going by way of it would round twice.
+/// Returns the float nearest to a decimal number, or infinity if the number is too large. `rounded`
+/// is the nearest double; converting it would round twice.
 float nearest_float(std::string_view text, double rounded) {
     float number = 0.0F;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -21,7 +21,7 @@ enum class JsonType : std::uint8_t { null, boolean, number, string, array, objec
 /// "an object", "a number", ...
 std::string_view name_of(JsonType type);
 
-/// Where a value begins in its file, and its key if it has one.
+/// Positions of a value and of its key, if any, in the file.
 struct JsonPositions {
     TextPosition value, key;
 };
@@ -33,25 +33,26 @@ inline BadInput consequence() {
     return BadInput(std::vector<InputError>());
 }
 
-/// Thrown for a parameter without a value where one may come further on, in place of `error`.
+/// Thrown, in place of `error`, for a parameter without a value that may still get one later in the
+/// file.
 struct LateParameter {
     BadInput error;
 };
 
-/// One value of a file with all that is in it, in the order of the file. Its nodes lie in one
-/// vector, and their texts in one string: a scene may have to hold millions of these.
+/// One value of a file with all its contents, in the order of the file. Its nodes are in one vector
+/// and its texts in one string, as a scene may hold millions of them.
 class JsonDocument {
   public:
-    /// `parameters`: what "$name" stands for, for as long as this is used.
+    /// `parameters`: the values of "$name"; must outlive the document.
     explicit JsonDocument(Parameters* parameters = nullptr) : parameters_(parameters) {}
 
-    /// Empties it for a value at `pointer` (a JSON pointer, printable) in `file`, which must
-    /// outlive it.
+    /// Empties the document for a value at `pointer` (a JSON pointer, printable) in `file`, which
+    /// must outlive the document.
     void begin(std::string_view file, std::string pointer);
 
-    /// Adds a value behind the others in the innermost open array or object. `key` counts in an
-    /// object alone. `text`: a string's content, or as what a message quotes a number. `number` may
-    /// be infinite.
+    /// Adds a value after the others in the innermost open array or object. `key` is only used in
+    /// an object. `text`: a string's content, or a number as messages quote it. `number` may be
+    /// infinite.
     void add(JsonType type, const JsonPositions& positions, std::string_view key,
              std::string_view text = {}, double number = 0.0);
     /// Closes the array or object that was added last and is still open.
@@ -64,7 +65,7 @@ class JsonDocument {
     std::size_t text_bytes() const { return text_.size(); }
 
     JsonValue root() const;
-    /// The innermost array or object that is open; there must be one.
+    /// Returns the innermost array or object that is open; there must be one.
     JsonValue innermost() const;
     JsonValue latest() const;
 
@@ -99,8 +100,8 @@ class JsonDocument {
     std::string text_;
 };
 
-/// A value inside a document, which must outlive it. What is asked of it and is not so throws
-/// BadInput with the file, the value's position and its JSON pointer.
+/// A value inside a document, which must outlive it. Accessors throw BadInput with the file, the
+/// value's position and its JSON pointer if the value is not as requested.
 class JsonValue {
   public:
     JsonValue(const JsonDocument& document, std::uint32_t node)
@@ -111,10 +112,10 @@ class JsonValue {
     std::string_view file() const { return document_->file_; }
     std::string pointer() const;
     const JsonPositions& positions() const { return node().positions; }
-    /// The value at the end of a path such as "edges/2", or as far on the way there as there are
-    /// values.
+    /// Returns the value at the end of a path such as "edges/2", or the last value on the way there
+    /// that exists.
     JsonValue toward(std::string_view path) const;
-    /// The value if it is a short text, or else what it is: `-1`, `"red"`, `an array`.
+    /// Returns the value if it is a short text, otherwise its type: `-1`, `"red"`, `an array`.
     std::string quoted() const;
 
     InputError error(std::string_view message) const;
@@ -122,10 +123,10 @@ class JsonValue {
     InputError error_expecting(std::string_view expected) const;
     [[noreturn]] void fail(std::string_view message) const;
     [[noreturn]] void fail_expecting(std::string_view expected) const;
-    /// For what core says of a part of the value.
+    /// Throws for a part of the value that core refused.
     [[noreturn]] void fail(const core::InvalidValue& invalid) const;
 
-    /// Refuses every key of an object but these, each with an error of its own.
+    /// Throws one error for each key of an object that is not among these.
     void allow_only(std::span<const std::string_view> keys) const;
     void allow_only(std::initializer_list<std::string_view> keys) const {
         allow_only(std::span(keys.begin(), keys.size()));
@@ -133,34 +134,35 @@ class JsonValue {
     std::optional<JsonValue> find(std::string_view key) const;
     JsonValue at(std::string_view key) const;
 
-    /// Refuses both at once.
+    /// Throws if the object has both keys.
     void exclude(std::string_view key, std::string_view other) const;
 
-    /// Elements of an array, of which there must be `count`; `elements` is what they should be
-    /// ("numbers").
+    /// Returns the elements of an array, which must have `count` of them. `elements` names these in
+    /// messages ("numbers").
     std::vector<JsonValue> array(std::size_t count, std::string_view elements) const;
-    /// However many there are.
+    /// Returns the elements of an array of any length.
     std::vector<JsonValue> array(std::string_view elements) const;
 
-    /// True of a number, and of what stands for one.
+    /// Returns true for a number, and for a reference to one.
     bool is_number() const;
-    /// The nearest float.
+    /// Returns the nearest float.
     float number() const;
-    /// The nearest double; or float, where that is below what shapes in double are made of.
+    /// Returns the nearest double; or the nearest float, if the number is too small for shapes in
+    /// double.
     double real() const;
-    /// A whole number in the range of int, however written.
+    /// Returns a whole number in the range of int, in any notation.
     int integer() const;
     bool boolean() const;
     std::string_view string() const;
     core::Vec3f vector() const;
     core::Vec3d real_vector() const;
-    /// [r, g, b], linear, or "#rrggbb", sRGB.
+    /// Reads [r, g, b], linear, or "#rrggbb", sRGB.
     core::Color color() const;
 
     template <class Value>
     using Choices = std::span<const std::pair<std::string_view, Value>>;
 
-    /// The value that belongs to this string.
+    /// Returns the value that belongs to this string.
     template <class Value>
     Value choice(std::initializer_list<std::pair<std::string_view, Value>> choices) const {
         return choice(Choices<Value>(choices.begin(), choices.size()));
@@ -178,10 +180,10 @@ class JsonValue {
 
   private:
     const JsonDocument::Node& node() const { return document_->nodes_[node_]; }
-    /// Calls use(text, value) for a number, or what "$name" stands for.
+    /// Calls use(text, value) for a number, or for the number that "$name" stands for.
     template <class Use>
     auto with_number(const Use& use) const;
-    /// What "$name" stands for; throws BadInput for what is no number.
+    /// Returns the number that "$name" stands for. Throws BadInput if the value is not a number.
     Parameters::Number referred() const;
     void require(JsonType type) const;
     std::vector<JsonValue> children() const;
@@ -191,7 +193,7 @@ class JsonValue {
     std::uint32_t node_;
 };
 
-/// Runs `action`, and gives what core::InvalidValue it throws the place of `value`.
+/// Runs `action`. Rethrows core::InvalidValue as BadInput with the place of `value`.
 template <class Action>
 auto checked(const JsonValue& value, Action action) {
     try {
@@ -201,10 +203,10 @@ auto checked(const JsonValue& value, Action action) {
     }
 }
 
-/// A reference token of a JSON pointer (RFC 6901), with its slash, fit for a message.
+/// Returns a reference token of a JSON pointer (RFC 6901), with its slash, printable in a message.
 std::string pointer_token(std::string_view key);
 
-/// `unknown key "raduis", did you mean "radius"?`, or with all known keys if none is near.
+/// Returns `unknown key "raduis", did you mean "radius"?`, or lists all known keys if none is near.
 std::string unknown_key(std::string_view key, const std::vector<std::string_view>& known);
 
 } // namespace raylane::scenes
