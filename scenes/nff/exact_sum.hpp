@@ -9,8 +9,8 @@ namespace raylane::scenes {
 /// GROW-EXPANSION with zero elimination).
 ///
 /// Meant for up to 2^24 products of two floats, which are exact as doubles. They are multiples of
-/// 2^-298 and less than 2^256, so nothing overflows or underflows; and no two neighbouring bits of
-/// the parts are both in use (Shewchuk's theorem 10), so there are at most (298 + 256 + 24) / 2.
+/// 2^-298 and less than 2^256, so nothing overflows or underflows. No two neighbouring bits of the
+/// parts are both in use (Shewchuk's theorem 10), so there are at most (298 + 256 + 24) / 2 parts.
 class ExactSum {
   public:
     void add(double term) {
@@ -28,13 +28,13 @@ class ExactSum {
         count_ = kept;
     }
 
-    /// -1, 0 or 1. The largest part outweighs all others.
+    /// Returns -1, 0 or 1. The largest part outweighs all others.
     int sign() const {
         if (count_ == 0) return 0;
         return parts_[count_ - 1] > 0.0 ? 1 : -1;
     }
 
-    /// Within a few ulps.
+    /// Returns the sum within a few ulps.
     double value() const {
         double value = 0.0;
         for (int i = 0; i < count_; ++i)
@@ -43,7 +43,7 @@ class ExactSum {
     }
 
   private:
-    std::array<double, 320> parts_; // left as it is: only the first count_ mean anything
+    std::array<double, 320> parts_; // not initialized: only the first count_ are valid
     int count_ = 0;
 };
 

@@ -6,19 +6,21 @@
 
 namespace raylane::scenes {
 
-/// A point in the plane whose coordinates are floats, kept as doubles to compute with.
+/// A point in the plane. Its coordinates are floats, stored as doubles for computing.
 struct PlanePoint {
     double x, y;
 
     bool operator==(const PlanePoint&) const = default;
 };
 
-/// 1 if a, b, c turn to the left, -1 if to the right, 0 if they are in one line. Never wrong: what
-/// double precision cannot decide (Shewchuk's first bound, 1997) is computed without rounding.
+/// Returns 1 if a, b, c turn left, -1 if they turn right, and 0 if they are collinear. Always
+/// correct: a sign that double precision cannot decide (Shewchuk's first bound, 1997) is computed
+/// without rounding.
 inline int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
     const double left = (b.x - a.x) * (c.y - a.y);
     const double right = (b.y - a.y) * (c.x - a.x);
-    // A product of differences is 0 only where they are: differences of floats do not underflow.
+    // A product of differences is 0 only if a difference is: differences of floats do not
+    // underflow.
     if (left == 0.0 && right == 0.0) return 0;
     constexpr double unit = 0x1p-53;
     const double bound = (3.0 + 16.0 * unit) * unit * (std::abs(left) + std::abs(right));

@@ -31,18 +31,18 @@ struct Rectangle {
                other.lower.y <= upper.y;
     }
 
-    /// True if all of it is to the right of the line from a to b, and none on it.
+    /// Returns true if the rectangle is strictly to the right of the line from a to b.
     bool is_right_of(const PlanePoint& a, const PlanePoint& b) const {
         const PlanePoint leftmost{b.y > a.y ? lower.x : upper.x, b.x > a.x ? upper.y : lower.y};
         return orientation(a, b, leftmost) < 0;
     }
 };
 
-/// Those of a set of numbered points that are marked, to be found by triangle: a k-d tree whose
-/// nodes have the bounds of what is marked in them.
+/// Finds the marked points in a triangle, among numbered points. A k-d tree whose nodes have the
+/// bounds of their marked points.
 class PointTree {
   public:
-    /// For points 0 to points.size() - 1, none of them marked.
+    /// Takes points 0 to points.size() - 1, all unmarked.
     void reset(std::vector<PlanePoint> points) {
         points_ = std::move(points);
         order_.resize(points_.size());
@@ -71,7 +71,8 @@ class PointTree {
     }
 
     /// Calls visit(number) for all marked points in the closed triangle, whose corners run
-    /// counter-clockwise, and for some others near it, until it returns true. Whether it did.
+    /// counter-clockwise, and for some others near it, until visit() returns true. Returns whether
+    /// it did.
     template <class Visit>
     bool any_in(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c,
                 const Visit& visit) const {
@@ -102,10 +103,10 @@ class PointTree {
     static constexpr std::uint32_t leaf_size = 4;
 
     struct Node {
-        Rectangle bounds;         // of the marked points: empty if there are none
+        Rectangle bounds;         // of the marked points; empty if none is marked
         std::uint32_t begin, end; // in order_
         std::uint32_t parent;
-        std::uint32_t second = none; // half; the first is the next node
+        std::uint32_t second = none; // second half; the first is the next node
     };
 
     std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::uint32_t parent) {

@@ -20,10 +20,10 @@ using core::InvalidValue;
 using core::Vec3f;
 using core::Visible;
 
-/// More is taken for a mistake in the count.
+/// A larger count of vertices is treated as an error.
 constexpr int most_vertices = 10'000'000;
 
-/// So many bytes of a file tell how many shapes to expect of the rest.
+/// After this many bytes of a file, the number of shapes in the rest is estimated.
 constexpr std::uint64_t sample_size = 1 << 20;
 
 class Reader {
@@ -74,7 +74,7 @@ class Reader {
     core::SceneBuilder builder_;
     bool has_view_ = false;
     std::vector<LightSource> lights_;
-    std::optional<NffMaterials> materials_; // from the first object on
+    std::optional<NffMaterials> materials_; // set from the first object on
     NffFill fill_;
     std::optional<core::MaterialIndex> both_sides_, inside_; // fill_'s materials
 
@@ -113,14 +113,15 @@ void Reader::read_entity() {
                  "must be one of v, b, l, f, s, c, p and pp, got " + quoted_word(entity));
 }
 
-/// The last of several counts: the text has one.
+/// Reads the view. If there are several, the last counts: NFF's text expects a single one.
 void Reader::read_view() {
     require_no_objects();
     const NffView view = read_nff_view(fields_);
     builder_.camera = view.camera;
     builder_.settings.width = view.width;
     builder_.settings.height = view.height;
-    // The databases' conventions: no transfer curve, and a tree of rays of depth 5 with the eye's.
+    // The databases' conventions: no transfer curve, and ray trees of depth 5 including the eye
+    // ray.
     builder_.settings.transfer = core::Transfer::linear;
     builder_.settings.max_depth = 4;
     builder_.settings.min_weight = 0.0F;
@@ -128,13 +129,14 @@ void Reader::read_view() {
     has_view_ = true;
 }
 
-/// Reads the background. As with the view, the last counts; it may come anywhere.
+/// Reads the background. It may come anywhere. If there are several, the last counts, as with the
+/// view.
 void Reader::read_background() {
     builder_.background = fields_.vector("color");
     core::validate_color("color", builder_.background);
 }
 
-/// Only the line tells whether it has a colour.
+/// Reads a light. It has a colour if its line has more words.
 void Reader::read_light() {
     require_no_objects();
     LightSource light{fields_.vector("position"), std::nullopt, fields_.line()};
@@ -177,7 +179,7 @@ void Reader::read_cone() {
 
     const bool inside = base_radius < 0.0F || apex_radius < 0.0F;
     const core::MaterialIndex index = material(inside ? Visible::inside : Visible::both);
-    // The text has the smaller radius at the apex. Nothing depends on that.
+    // NFF's text puts the smaller radius at the apex. Nothing depends on that.
     if (base_radius == apex_radius)
         builder_.add(core::OpenCylinder{base, apex - base, std::abs(base_radius)}, index);
     else
@@ -185,8 +187,9 @@ void Reader::read_cone() {
             core::OpenCone{base, apex - base, std::abs(base_radius), std::abs(apex_radius)}, index);
 }
 
-/// The front is where the vertices run counter-clockwise, by the area of the whole polygon. The
-/// text's short cut, the turn at the second vertex, is the same wherever the text allows it.
+/// Takes as the front the side from which the vertices run counter-clockwise, by the area of the
+/// whole polygon. The text's shortcut, the turn at the second vertex, agrees wherever the text
+/// permits it.
 void Reader::read_polygon(bool with_normals) {
     begin_objects();
     vertices_.clear();
@@ -224,8 +227,8 @@ void Reader::read_polygon(bool with_normals) {
     }
 }
 
-/// Makes room for as many shapes as there will be if the file goes on as it began, so that nothing
-/// is copied as it grows.
+/// Reserves memory for the rest of the file, assuming that it continues as it began, so that shapes
+/// are not copied as their number grows.
 void Reader::reserve_rest() {
     reserved_ = true;
     const std::uint64_t passed = fields_.bytes_passed();
@@ -240,8 +243,8 @@ void Reader::require_no_objects() const {
     if (materials_) throw InvalidValue("", "must come before the objects, got it after them");
 }
 
-/// Views and lights "must be defined before any objects", and a material's ambient light depends on
-/// the number of lights.
+/// Requires a view, then adds the lights. Views and lights "must be defined before any objects",
+/// and a material's ambient light depends on the number of lights.
 void Reader::begin_objects() {
     if (materials_) return;
     if (!has_view_) throw InvalidValue("", "must come after the v entity, got it before");
@@ -255,9 +258,9 @@ void Reader::add_lights() {
         builder_.add_light({.position = light.position, .color = light.color.value_or(usual)});
 }
 
-/// "Objects are normally considered one sided": that is leave to cull what no picture of the
-/// databases shows, and the Readme takes it back for the teapot. So only a negative radius, which
-/// asks for one side, hides the other.
+/// Returns the index of the current fill's material. "Objects are normally considered one sided"
+/// permits culling that no image of the databases shows, and the Readme withdraws it for the
+/// teapot. So only a negative radius, which asks for one side, hides the other side.
 core::MaterialIndex Reader::material(Visible visible) {
     std::optional<core::MaterialIndex>& index = visible == Visible::inside ? inside_ : both_sides_;
     if (!index) index = materials_->index_of(fill_, visible);

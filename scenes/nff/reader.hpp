@@ -10,11 +10,11 @@ namespace raylane::scenes {
 /// choice:
 /// - the view's hither plane is not used; of several views or backgrounds the last counts;
 /// - lights without a colour and the ambient light have the intensity sqrt(n) / 2n for n lights;
-/// - opaque objects are seen from both sides, but from inside alone where the radius is negative;
-/// - objects before the first f are a matte grey;
-/// - Ks is what is reflected as well; an index of refraction of 0 is 1 where T is 0.
-/// `workers` build the hierarchy, if there are any.
-/// Throws BadInput, with the line, and SystemRefused.
+/// - opaque objects are visible from both sides, but only from inside if their radius is negative;
+/// - objects before the first f are matte grey;
+/// - Ks is also the reflected fraction; an index of refraction of 0 is read as 1 if T is 0.
+///
+/// `workers` build the hierarchy, if set. Throws BadInput, with the line, and SystemRefused.
 core::Scene read_nff(InputFile& file, core::Workers* workers = nullptr,
                      const OnRemark& on_remark = {});
 

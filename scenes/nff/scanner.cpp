@@ -58,7 +58,7 @@ std::string_view NffScanner::word() {
         if (word.size() >= word_limit)
             fail(line_, "must have words shorter than " + std::to_string(word_limit) +
                             " bytes, got \"" + printable(word) + "\"");
-        if (position_ != end_ || !refill(begin)) return {begin, word.size()}; // it may have moved
+        if (position_ != end_ || !refill(begin)) return {begin, word.size()}; // refill moves it
     }
 }
 
@@ -92,8 +92,8 @@ void NffScanner::check_line_length() const {
         fail(line_, "must be a line shorter than " + std::to_string(line_limit) + " bytes");
 }
 
-/// Reads on, at the buffer's end, and keeps what is there from `keep_from` on. False at the end of
-/// the file.
+/// Reads more at the end of the buffer, and keeps its contents from `keep_from` on. Returns false
+/// at the end of the file.
 bool NffScanner::refill(const char*& keep_from) {
     check_line_length();
     const auto kept = static_cast<std::size_t>(end_ - keep_from);

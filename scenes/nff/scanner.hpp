@@ -8,23 +8,23 @@
 
 namespace raylane::scenes {
 
-/// The words of an NFF file: what stands between blanks, comments left out. The file is never held
-/// whole; whatever its size, and whatever its lines', the memory is that of one buffer.
+/// The words of an NFF file, separated by blanks, without comments. The file is never held as a
+/// whole: memory use is that of one buffer, whatever the size of the file and of its lines.
 ///
-/// Words of 256 bytes and lines of 1 MiB and more, which no NFF file has but any other may, are a
-/// BadInput.
+/// Throws BadInput for words of 256 bytes and lines of 1 MiB or more, which no NFF file has, but
+/// other files may have.
 class NffScanner {
   public:
     explicit NffScanner(InputFile& file);
 
-    /// The next word, on this line or a later one; empty at the end of the file. It is there until
-    /// the next call.
+    /// Returns the next word, on this line or a later one; empty at the end of the file. The word
+    /// is valid until the next call.
     std::string_view word();
-    /// True if the line has no more words.
+    /// Returns true if the line has no more words.
     bool at_line_end();
-    /// Line of the last word, counted from 1.
+    /// Returns the line of the last word, counted from 1.
     std::uint64_t line() const { return word_line_; }
-    /// Bytes of the file before the next character.
+    /// Returns the number of bytes of the file before the next character.
     std::uint64_t bytes_passed() const { return passed_ + (position_ - buffer_.data()); }
 
     /// Throws BadInput for this file.
@@ -39,9 +39,9 @@ class NffScanner {
     InputFile& file_;
     std::vector<char> buffer_;
     char* position_; // the next character, or end_
-    char* end_;      // there is always a line feed, so that no loop has to look for the end
-    std::uint64_t passed_ = 0;         // bytes of the file before the buffer's first
-    std::uint64_t line_begins_at_ = 0; // byte of the file
+    char* end_;      // a line feed always follows, so that loops need not check for the end
+    std::uint64_t passed_ = 0;         // bytes of the file before the buffer's start
+    std::uint64_t line_begins_at_ = 0; // offset in the file
     std::uint64_t line_ = 1;
     std::uint64_t word_line_ = 1;
 };

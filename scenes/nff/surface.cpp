@@ -22,10 +22,10 @@ void validate(const NffFill& fill) {
     require(fill.ks >= 0.0F, "Ks", "must not be negative", fill.ks);
     require(fill.shine >= 0.0F, "Shine", "must not be negative", fill.shine);
     require(fill.t >= 0.0F && fill.t <= 1.0F, "T", "must be from 0 to 1", fill.t);
-    // The Standard Procedural Databases have an index of 0 on what lets nothing through.
+    // The Standard Procedural Databases have an index of 0 on opaque objects.
     require(fill.index > 0.0F || (fill.index == 0.0F && fill.t == 0.0F), "index of refraction",
             "must be positive", fill.index);
-    core::validate(material_of(fill, 1.0F, core::Visible::both)); // finds what is too large
+    core::validate(material_of(fill, 1.0F, core::Visible::both)); // finds values that are too large
 }
 
 float nff_intensity(std::size_t lights) {

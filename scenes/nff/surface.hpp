@@ -8,8 +8,8 @@
 
 namespace raylane::scenes {
 
-/// NFF's fill color and shading parameters, as its text names them. Where a file has none it does
-/// not say what objects look like: a matte grey.
+/// NFF's fill color and shading parameters, named as in its text. Defaults to a matte grey, as NFF
+/// does not define the look of objects before the first fill.
 struct NffFill {
     core::Color color{0.5F};
     float kd = 1.0F;
@@ -19,21 +19,21 @@ struct NffFill {
     float index = 1.0F;
 };
 
-/// Throws core::InvalidValue. Kd and Ks may be above 1: the text says so.
+/// Throws core::InvalidValue. Kd and Ks may be above 1, as the text states.
 void validate(const NffFill& fill);
 
-/// The relative intensity of each of `lights` lights and of the ambient light that the Standard
-/// Procedural Databases' Readme proposes.
+/// Returns the relative intensity that the Standard Procedural Databases' Readme proposes for each
+/// of `lights` lights and for the ambient light.
 float nff_intensity(std::size_t lights);
 
-/// The material of a valid `fill` where the ambient light has that intensity.
+/// Returns the material of a valid `fill` for this intensity of the ambient light.
 ///
-/// Ks is the reflected fraction as well: the text knows no other, and the Readme wants a reflection
-/// ray from each specular surface. T is the fraction of what is seen through the surface, which
-/// core::Material states as a fraction of what is not reflected.
+/// Ks is also the reflected fraction: the text has no other parameter for it, and the Readme wants
+/// a reflection ray from each specular surface. T is the fraction seen through the surface, which
+/// core::Material has as a fraction of the light that is not reflected.
 core::Material material_of(const NffFill& fill, float intensity, core::Visible visible);
 
-/// Adds materials to a scene, each once however often a file states it.
+/// Adds materials to a scene, each only once even if a file repeats it.
 class NffMaterials {
   public:
     NffMaterials(core::SceneBuilder& builder, float intensity)

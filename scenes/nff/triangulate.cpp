@@ -13,10 +13,11 @@ Triangulator::triangulate(std::span<const core::Vec3f> polygon) {
     return triangles_;
 }
 
-/// Fills vertices_ with the polygon, counter-clockwise in the plane. False if it has no area.
+/// Fills vertices_ with the polygon, counter-clockwise in the plane. Returns false if it has no
+/// area.
 bool Triangulator::project(std::span<const core::Vec3f> polygon) {
-    // Twice the area of each projection, by the shoelace formula. Its sign has to be right, and the
-    // formula cancels: a small polygon may be far from the origin.
+    // Twice the area of each projection, by the shoelace formula. Its sign must be correct although
+    // the formula cancels: a small polygon may be far from the origin.
     std::array<ExactSum, 3> areas;
     const core::Vec3f* previous = &polygon.back();
     for (const core::Vec3f& vertex : polygon) {
@@ -68,8 +69,8 @@ void Triangulator::clip_ears() {
         changed_.push_back(v);
     settle();
 
-    // Cutting an ear makes ears of its two neighbours at most. So when no candidates are left, no
-    // ears are, and the polygon crosses itself: then any convex corner goes.
+    // Clipping an ear makes ears of its two neighbours at most. So if no candidates are left, no
+    // ears are left, and the polygon crosses itself. Then any convex corner is clipped.
     bool crossing = false;
     while (left_ >= 3) {
         std::optional<std::uint32_t> ear = take(candidates_);
@@ -91,7 +92,7 @@ void Triangulator::clip_ears() {
                 if (!vertices_[v].removed && vertices_[v].convex)
                     candidates_.items.push_back({v, vertices_[v].version});
         } else {
-            return; // what is left is clockwise
+            return; // the rest is clockwise
         }
     }
 }
@@ -108,10 +109,10 @@ void Triangulator::remove(std::uint32_t v) {
     changed_.push_back(vertex.previous);
 }
 
-/// Sees to the vertices whose neighbours changed: those that bound no area go, the convex ones
-/// become candidates.
+/// Updates the vertices whose neighbours changed: removes those that bound no area, and makes
+/// convex ones candidates.
 void Triangulator::settle() {
-    // In their order, which that of the triangles follows.
+    // In this order, which determines the order of the triangles.
     for (std::size_t i = 0; i < changed_.size(); ++i) {
         const std::uint32_t v = changed_[i];
         Vertex& vertex = vertices_[v];
@@ -139,12 +140,11 @@ std::optional<std::uint32_t> Triangulator::take(Queue& queue) const {
     return std::nullopt;
 }
 
-/// Test for an ear: the triangle of the convex vertex v and its neighbours can be cut off if no
-/// other part of the outline enters it. An outline that does so without a crossing has a reflex
-/// vertex in the triangle, or on its rim with an edge that leads inside. One that is only on the
-/// open third side "touches": where there is another ear, the other is better, because that vertex
-/// would then lie on an edge and not at a corner of a triangle, and rounding could open a crack
-/// there.
+/// Tests for an ear: the triangle of the convex vertex v and its neighbours can be clipped if no
+/// other part of the outline enters it. An outline that enters it without a crossing has a reflex
+/// vertex in the triangle, or on its boundary with an edge that leads inside. A vertex that is only
+/// on the open third side "touches". Another ear is preferred then, because that vertex would lie
+/// on an edge of a triangle and not at a corner, where rounding could open a crack.
 Triangulator::Ear Triangulator::ear_at(std::uint32_t v) const {
     if (reflex_ == 0) return Ear::clear;
     const PlanePoint& b = vertices_[v].point;
@@ -176,7 +176,7 @@ int Triangulator::turn_at(std::uint32_t v) const {
                        vertices_[vertex.next].point);
 }
 
-/// True if the outline runs back at v on the line on which it came.
+/// Returns true if the outline runs back at v along the line on which it came.
 bool Triangulator::is_spike(std::uint32_t v) const {
     if (turn_at(v) != 0) return false;
     const PlanePoint& a = vertices_[vertices_[v].previous].point;

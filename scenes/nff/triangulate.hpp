@@ -11,22 +11,22 @@
 
 namespace raylane::scenes {
 
-/// Cuts flat polygons into triangles by clipping ears (Meisters 1975), on the projection along the
-/// axis nearest to the normal. Polygons may be concave; they may repeat vertices, have them on
-/// edges, and touch themselves, as one with holes does that is drawn in one line with bridges.
+/// Cuts flat polygons into triangles by ear clipping (Meisters 1975), on the projection along the
+/// axis nearest to the normal. Polygons may be concave. They may repeat vertices, have vertices on
+/// edges, and touch themselves: a polygon with holes may be drawn as one outline with bridges.
 /// Every side test is exact, so the triangles tile the projected polygon exactly.
 ///
-/// A polygon that crosses itself has no such tiling; it gets some triangles, always the same.
+/// A polygon that crosses itself has no such tiling. It gets some triangles, always the same.
 ///
-/// An ear is found to be one in the time that a k-d tree takes to say that no reflex vertex is in a
-/// triangle: the root of their number at most, unless many lie on its rim. An object of this class
-/// serves any number of polygons and keeps its memory.
+/// Testing an ear takes the time in which a k-d tree finds that no reflex vertex is in a triangle:
+/// at most the square root of their number, unless many are on its boundary. An object of this
+/// class can be reused for any number of polygons and keeps its memory.
 class Triangulator {
   public:
-    /// Indices of vertices, counter-clockwise where the polygon is.
+    /// Indices of vertices, counter-clockwise where the polygon is counter-clockwise.
     using Corners = std::array<std::uint32_t, 3>;
 
-    /// The triangles, until the next call. None if the polygon has no area.
+    /// Returns the triangles, valid until the next call; empty if the polygon has no area.
     std::span<const Corners> triangulate(std::span<const core::Vec3f> polygon);
 
   private:
@@ -39,12 +39,12 @@ class Triangulator {
         bool removed;
         bool convex;
     };
-    /// A vertex that may be an ear, if its neighbours are still those that it had.
+    /// A vertex that may be an ear, unless its neighbours have changed since.
     struct Candidate {
         std::uint32_t vertex;
         std::uint32_t version;
     };
-    /// First in, first out: so that ears are cut all around the polygon rather than in a fan.
+    /// First in, first out, so that ears are clipped all around the polygon rather than in a fan.
     struct Queue {
         std::vector<Candidate> items;
         std::size_t head = 0;
@@ -61,8 +61,8 @@ class Triangulator {
 
     std::vector<Vertex> vertices_;
     std::size_t left_ = 0;   // vertices not removed
-    std::size_t reflex_ = 0; // of these, not convex
-    PointTree tree_;         // marked: those
+    std::size_t reflex_ = 0; // of these, reflex vertices
+    PointTree tree_;         // marks the reflex vertices
     std::vector<std::uint32_t> changed_;
     Queue candidates_;
     Queue touched_;

@@ -12,8 +12,8 @@ namespace raylane::scenes {
 
 namespace {
 
-/// `angle` is "from the center of top pixel row to bottom pixel row", the camera's field of view
-/// from edge to edge, both in degrees.
+/// Returns the camera's field of view from edge to edge. `angle` is "from the center of top pixel
+/// row to bottom pixel row". Both are in degrees.
 float field_of_view(float angle, int rows) {
     if (rows == 1) return angle;
     return core::field_of_view(core::slope_of_view(angle) * rows / (rows - 1));
@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 6> names = {"from",  "at",     "up",
                                                    "angle", "hither", "resolution"};
 enum ViewPart : std::size_t { from, at, up, angle, hither, resolution };
 
-/// The name of a part that is not yet seen.
+/// Reads the name of a part that has not yet come.
 ViewPart next_part(NffFields& fields, const std::array<bool, names.size()>& seen) {
     const std::string_view word = fields.word();
     const auto part =
@@ -57,7 +57,7 @@ NffView read_nff_view(NffFields& fields) {
         case angle:
             degrees = fields.number("angle");
             break;
-        // "Mostly needed for hidden surface algorithms": a ray tracer shows what is nearer, too.
+        // "Mostly needed for hidden surface algorithms": a ray tracer also shows nearer objects.
         case hither:
             fields.number("hither");
             break;

@@ -11,7 +11,7 @@ struct NffView {
     int height = 0; ///< pixels
 };
 
-/// Reads what follows a "v": from, at, up, angle, hither and resolution, in any order. Throws
+/// Reads the fields of a "v": from, at, up, angle, hither and resolution, in any order. Throws
 /// BadInput or core::InvalidValue.
 NffView read_nff_view(NffFields& fields);
 

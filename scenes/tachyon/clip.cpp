@@ -12,7 +12,7 @@ struct Corner {
     Vec3d position, normal;
 };
 
-/// Sutherland and Hodgman's clipping of a convex polygon by one plane.
+/// Clips a convex polygon by one plane (Sutherland and Hodgman).
 std::vector<Corner> clipped(const std::vector<Corner>& polygon, const TachyonClip& clip) {
     const auto beyond = [&](const Corner& corner) {
         return core::dot(core::convert<double>(clip.normal), corner.position) -
@@ -39,7 +39,7 @@ std::vector<Corner> clipped(std::vector<Corner> polygon, std::span<const Tachyon
     return polygon;
 }
 
-/// Calls use(a, b, c) with the corners of each triangle that has an area in floats.
+/// Calls use(a, b, c) with the corners of each triangle of the fan whose area is not 0 in floats.
 template <class Use>
 void for_each_of_fan(const std::vector<Corner>& polygon, const Use& use) {
     const auto point = [](const Corner& corner) { return core::convert<float>(corner.position); };

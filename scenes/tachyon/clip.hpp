@@ -13,14 +13,14 @@ struct TachyonClip {
     float offset;
 };
 
-/// The half-space that is left.
+/// Returns the half-space that the plane does not cut off.
 core::Solid half_space_of(const TachyonClip& clip);
 
-/// What is left of a triangle, as a fan of triangles that have an area; its corners are rounded to
-/// floats where it was cut.
+/// Returns the uncut part of a triangle, as a fan of triangles with an area. Corners where it was
+/// cut are rounded to floats.
 std::vector<core::Triangle> clipped(const core::Triangle& triangle,
                                     std::span<const TachyonClip> clips);
-/// The same of one whose normals change evenly.
+/// Returns the uncut part of a triangle with interpolated normals.
 std::vector<core::SmoothTriangle> clipped(const core::SmoothTriangle& triangle,
                                           std::span<const TachyonClip> clips);
 

@@ -90,7 +90,7 @@ TachyonTexture TachyonObjects::texture() {
 
 void TachyonObjects::read_texture_definition() {
     const std::string name(words_.take());
-    // Of several textures of one name, Tachyon takes the first.
+    // If several textures have one name, Tachyon takes the first.
     const auto place = textures_.emplace(name, read_texture(words_)).first;
     place->second.name = &place->first;
 }
@@ -131,7 +131,7 @@ void TachyonObjects::read_sphere() {
     add(core::Sphere{center, radius}, index);
 }
 
-/// It has no ends: those of this one are a million units away.
+/// Reads a cylinder without ends. Its ends are placed a million units away.
 void TachyonObjects::read_cylinder() {
     constexpr double far = 1e6;
     if (!words_.accept("BASE")) words_.expect("CENTER");
@@ -145,7 +145,7 @@ void TachyonObjects::read_cylinder() {
     add(core::CylinderOf<double, core::Ends::open>{center - half, 2.0 * half, radius}, index);
 }
 
-/// Its second end is a point, or in older files an axis.
+/// Reads a cylinder whose second end is a point, or in older files an axis.
 void TachyonObjects::read_finite_cylinder() {
     if (!words_.accept("CENTER")) words_.expect("BASE");
     const Vec3f base = words_.vector("BASE");
@@ -165,7 +165,7 @@ void TachyonObjects::add_finite_cylinder(const Vec3f& base, const Vec3f& apex, f
     add(core::OpenCylinder{base, axis, radius}, material);
 }
 
-/// Cylinders from point to point, and balls where they meet.
+/// Adds cylinders from point to point, and spheres where they meet.
 void TachyonObjects::read_polycylinder() {
     words_.expect("POINTS");
     const int count = words_.whole_number("POINTS", 1, max_int);
@@ -212,7 +212,7 @@ void TachyonObjects::read_smooth_triangle() {
     add_triangle(triangle, material());
 }
 
-/// Its texture has no colour of its own, nor the word TEXTURE before it.
+/// Reads a triangle whose texture has no colour, and need not follow the word TEXTURE.
 void TachyonObjects::read_colored_triangle() {
     const core::SmoothTriangle triangle = corners_and_normals();
     const Vec3f a = words_.named_triple("C0"), b = words_.named_triple("C1"),
@@ -237,7 +237,7 @@ void TachyonObjects::read_plane() {
     add(core::Plane{center, normal}, material());
 }
 
-/// A plane, where that is within a ball, less a smaller one.
+/// Adds a plane clipped to the outer sphere minus the inner one.
 void TachyonObjects::read_ring() {
     const Vec3f center = words_.named_vector("CENTER"), normal = words_.named_vector("NORMAL");
     const float inner = std::abs(words_.named_number("INNER"));
@@ -311,7 +311,7 @@ void TachyonObjects::skip_polygons() {
 }
 
 void TachyonObjects::skip_image() {
-    words_.take(); // its name
+    words_.take(); // the image's name
     words_.expect("FORMAT");
     words_.expect("RGB24");
     words_.expect("RESOLUTION");

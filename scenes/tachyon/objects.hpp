@@ -10,14 +10,14 @@
 
 namespace raylane::scenes {
 
-/// Reads the objects of a Tachyon scene, and the textures that they have.
+/// Reads the objects of a Tachyon scene, and their textures.
 class TachyonObjects {
   public:
     TachyonObjects(core::SceneBuilder& builder, TachyonWords& words, const TachyonShading& shading)
         : builder_(builder), words_(words), materials_(builder, words, shading) {}
 
-    /// Reads the statement if it is an object's, a texture's or that of a group that is cut; false
-    /// if it is another.
+    /// Reads the statement if it is that of an object, a texture or a clip group. Returns false if
+    /// it is another statement.
     bool read();
 
   private:
@@ -41,14 +41,14 @@ class TachyonObjects {
     void skip_polygons();
     void skip_image();
 
-    /// TEXTURE, or the name of one.
+    /// Reads TEXTURE, or the name of a texture.
     TachyonTexture texture();
     core::MaterialIndex material() { return materials_.index_of(texture()); }
     core::SmoothTriangle corners_and_normals();
 
     template <class Shape>
     void add(const Shape& shape, core::MaterialIndex material);
-    /// A part of the solid's surface.
+    /// Adds the part of the solid's surface that is inside of `by` and of all clip planes.
     void add_cut(core::Solid solid, std::vector<core::Solid> by, core::MaterialIndex material);
     void add_finite_cylinder(const core::Vec3f& base, const core::Vec3f& apex, float radius,
                              core::MaterialIndex material);

@@ -16,7 +16,7 @@ namespace {
 
 using core::InvalidValue;
 
-/// So many bytes of a file tell how many shapes to expect of the rest.
+/// After this many bytes of a file, the number of shapes in the rest is estimated.
 constexpr std::uint64_t sample_size = 1 << 20;
 
 class Reader {
@@ -120,7 +120,7 @@ void Reader::read_sky_light() {
     if (!over_.sky_samples) shading_.sky_samples = samples;
 }
 
-/// Makes room for as many shapes as there will be if the file goes on as it began.
+/// Reserves memory for the rest of the file, assuming that it continues as it began.
 void Reader::reserve_rest() {
     reserved_ = true;
     const std::uint64_t passed = words_.bytes_passed();
@@ -131,7 +131,8 @@ void Reader::reserve_rest() {
     builder_.reserve(static_cast<std::size_t>(rest * static_cast<double>(builder_.shape_count())));
 }
 
-/// The sky gives light where shadows are drawn, and all other light then is weaker.
+/// Adds the lights. The sky gives light if shadows are rendered; all other lights are scaled by
+/// `direct`.
 void Reader::add_lights() {
     using Quality = TachyonShading::Quality;
     const Quality quality = shading_.quality_or_full();

@@ -7,13 +7,12 @@
 namespace raylane::scenes {
 
 /// Reads a scene of Tachyon 0.99 (Stone, "Tachyon Parallel / Multiprocessor Ray Tracing System"),
-/// as VMD and others write it. What it has and a scene here does not is drawn as nearly as may be,
-/// and `on_remark` is told, once for each such thing: images, patterns and outlines are left out,
-/// gradients, spotlights and fog that is squared are simpler, MEDIUM has shadows. Tachyon's
-/// left-handed axes have become right-handed ones (TachyonWords); its colours are the picture's
-/// codes, so that the transfer is linear.
-/// `over` is in place of what the scene says. `workers` build the hierarchy, if there are any.
-/// Throws BadInput, with the line, and SystemRefused.
+/// as written by VMD and others. Unsupported features are approximated, with one call of
+/// `on_remark` for each: images, patterns and outlines are omitted; gradients, spotlights and
+/// squared fog are simplified; MEDIUM has shadows. Tachyon's left-handed axes become right-handed
+/// (TachyonWords). Its colours are the codes of the image file, so the transfer is linear. `over`
+/// overrides the scene's shading. `workers` build the hierarchy, if set. Throws BadInput, with the
+/// line, and SystemRefused.
 core::Scene read_tachyon(InputFile& file, core::Workers* workers = nullptr,
                          const OnRemark& on_remark = {}, const TachyonShading& over = {});
 

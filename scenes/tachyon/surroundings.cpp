@@ -137,14 +137,14 @@ core::Color read_background_gradient(TachyonWords& words) {
     return core::convert<float>(middle_of(top, bottom));
 }
 
-/// Zoom 1 shows 1 unit of length from the picture's lower to its upper edge, in perspective at
-/// distance 1.
+/// Sets camera and settings. With zoom 1, the image shows 1 unit of length from its lower to its
+/// upper edge, at distance 1 in perspective.
 void set_camera(core::SceneBuilder& builder, const TachyonCamera& camera) {
     core::Camera& result = builder.camera;
     result.projection = camera.projection;
     result.from = camera.center;
-    // Where it looks to is a float: a point as far away as the camera from the origin is near
-    // enough to be one, and far enough to be the direction's.
+    // The look-at point has float coordinates. At the camera's distance from the origin, it is near
+    // enough for floats, and far enough to keep the direction precise.
     const auto from = core::convert<double>(camera.center);
     const auto direction = core::convert<double>(camera.direction);
     const double along = core::length(direction);
@@ -159,17 +159,17 @@ void set_camera(core::SceneBuilder& builder, const TachyonCamera& camera) {
     result.field_of_view = core::field_of_view(0.5 * height);
     if (camera.aperture > 0.0F) {
         result.lens_radius = 0.5F * camera.aperture;
-        result.focus_distance = 1.0F; // as 0.99 has it, whatever FOCALLENGTH says
+        result.focus_distance = 1.0F; // as in 0.99, whatever FOCALLENGTH is
     }
     core::Settings& settings = builder.settings;
-    settings.transfer = core::Transfer::linear; // its colours are what the picture's file has
+    settings.transfer = core::Transfer::linear; // its colours are the image file's codes
     settings.max_depth = std::clamp(camera.ray_depth - 1, 0, core::Settings::depth_limit);
     settings.grid = grid_of_samples(camera.antialiasing);
     core::validate(result);
 }
 
-/// 1 - exp(-x^2) is drawn as the line through its quarters, which it is near to in between; what is
-/// exponential begins where the camera is.
+/// Sets the fog. Squared fog, 1 - exp(-x^2), is approximated by the line through the points where
+/// it is 1/4 and 3/4. Exponential fog begins at the camera.
 void set_fog(core::SceneBuilder& builder, const TachyonFog& fog, const TachyonCamera& camera,
              bool planar, TachyonWords& words) {
     using Falloff = TachyonFog::Falloff;

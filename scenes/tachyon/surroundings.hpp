@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-/// What a Tachyon scene has besides its objects.
+/// Contents of a Tachyon scene other than its objects.
 namespace raylane::scenes {
 
 struct TachyonFog {
@@ -19,7 +19,7 @@ struct TachyonFog {
 struct TachyonCamera {
     core::Projection projection = core::Projection::perspective;
     float zoom = 1.0F;
-    int antialiasing = 0; ///< samples of a pixel beside the first
+    int antialiasing = 0; ///< samples of a pixel in addition to the first
     int ray_depth = 6;
     core::Vec3f center{0.0F}, direction{0.0F, 0.0F, -1.0F}, up{0.0F, 1.0F, 0.0F};
     float aperture = 0.0F; ///< PERSPECTIVE_DOF: the lens' diameter
@@ -29,16 +29,16 @@ struct TachyonCamera {
 
 TachyonCamera read_camera(TachyonWords& words);
 TachyonFog read_fog_kind(TachyonWords& words, TachyonFog::Falloff falloff);
-/// Reads what is behind FOG; nothing if that is OFF.
+/// Reads the statement after FOG; returns nothing for OFF.
 std::optional<TachyonFog> read_fog(TachyonWords& words);
-/// Reads what is behind LIGHT, DIRECTIONAL_LIGHT and SPOTLIGHT.
+/// Read the statements after LIGHT, DIRECTIONAL_LIGHT and SPOTLIGHT.
 core::Light read_point_light(TachyonWords& words);
 core::Light read_directional_light(TachyonWords& words);
 core::Light read_spotlight(TachyonWords& words);
-/// Reads what is behind BACKGROUND_GRADIENT: the colour in its middle.
+/// Reads the statement after BACKGROUND_GRADIENT. Returns the colour of its middle.
 core::Color read_background_gradient(TachyonWords& words);
 
-/// The camera, and what of the settings it says.
+/// Sets the camera, and the settings that follow from it.
 void set_camera(core::SceneBuilder& builder, const TachyonCamera& camera);
 void set_fog(core::SceneBuilder& builder, const TachyonFog& fog, const TachyonCamera& camera,
              bool planar, TachyonWords& words);

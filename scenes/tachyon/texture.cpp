@@ -6,7 +6,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// Where an image or a solid pattern lies.
+/// Skips the image file and the placement of an image or a solid pattern.
 void skip_texture_map(TachyonWords& words, int function) {
     constexpr int first_of_images = 7;
     if (function >= first_of_images) words.take(); // its file
@@ -31,10 +31,11 @@ void read_highlight(TachyonWords& words, TachyonTexture& texture) {
     texture.exponent = words.named_number("PHONG_SIZE");
 }
 
-/// Tachyon's own way is to add what is behind to all that the surface shows, which for an opacity
-/// above 0 is to weigh that after it has been divided by it.
+/// Sets the opacity. Tachyon's default adds the light from behind to all of the surface's light.
+/// For an opacity above 0 this equals weighing the surface's light, after it has been divided by
+/// the opacity.
 void set_opacity(core::Material& material, float opacity, bool weighed) {
-    constexpr float least_to_divide_by = 0x1p-12F; // of what is behind the rest is missing
+    constexpr float least_to_divide_by = 0x1p-12F; // this share of the light behind is lost
     material.opacity = weighed ? opacity : std::max(opacity, least_to_divide_by);
     if (weighed) return;
     for (float* const term : {&material.ambient, &material.diffuse, &material.specular})
@@ -98,7 +99,7 @@ core::Material TachyonMaterials::material_of(const TachyonTexture& texture) {
     if (highlight != TachyonShading::Highlight::none) material.specular = texture.highlight;
     if (texture.is_metal)
         material.specular *= (texture.color.x + texture.color.y + texture.color.z) / 3.0F;
-    // The angle at the half vector is half of that at the reflected ray.
+    // The angle to the half vector is half of the angle to the reflected ray.
     constexpr float from_phong = 4.0F;
     material.exponent =
         texture.exponent * (highlight == TachyonShading::Highlight::phong ? from_phong : 1.0F);

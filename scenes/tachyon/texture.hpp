@@ -9,17 +9,17 @@
 
 namespace raylane::scenes {
 
-/// What a TEXTURE, or a TEXDEF, says.
+/// The parameters of a TEXTURE or a TEXDEF.
 struct TachyonTexture {
     core::Color color{1.0F};
-    float ambient = 0.1F; ///< as Tachyon has it for a texture that is not defined
+    float ambient = 0.1F; ///< Tachyon's defaults for an undefined texture
     float diffuse = 0.9F;
-    float specular = 0.0F; ///< what is reflected
+    float specular = 0.0F; ///< the reflected share
     float opacity = 1.0F;
     float highlight = 0.0F; ///< PHONG
     float exponent = 1.0F;  ///< PHONG_SIZE
-    bool is_metal = false;  ///< its highlights are of its colour
-    /// The name that it is defined by, which does not tell it from others; null if it has none.
+    bool is_metal = false;  ///< its highlights have its colour
+    /// The name of its definition, which is not compared; null if it has none.
     const std::string* name = nullptr;
 
     bool operator==(const TachyonTexture& other) const { return key() == other.key(); }
@@ -32,10 +32,10 @@ struct TachyonTexture {
     }
 };
 
-/// Reads what is behind TEXTURE, or TEXDEF and a name.
+/// Reads the statement after TEXTURE, or after TEXDEF and a name.
 TachyonTexture read_texture(TachyonWords& words);
 
-/// The materials of textures, each added once. `shading` is to be as it is meant before the first.
+/// Adds the material of each texture once. `shading` must be final before the first texture.
 class TachyonMaterials {
   public:
     TachyonMaterials(core::SceneBuilder& builder, TachyonWords& words,

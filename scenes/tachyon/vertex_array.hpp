@@ -8,11 +8,12 @@
 
 namespace raylane::scenes {
 
-/// What is behind VERTEXARRAY: corners, in lists of their own, and triangles that refer to them.
+/// Reads the statement after VERTEXARRAY: separate lists of corners, and triangles that refer to
+/// them.
 class TachyonVertexArray {
   public:
-    /// Is called for each triangle, with the texture in the colour of its corners if they have one.
-    /// Normals that are not given are 0.
+    /// Receives each triangle and its texture, with the colour of its corners if these have
+    /// colours. Normals that are not given are 0.
     using Use = std::function<void(const core::SmoothTriangle&, const TachyonTexture&)>;
 
     TachyonVertexArray(TachyonWords& words, const std::function<TachyonTexture()>& read_texture)
@@ -32,7 +33,7 @@ class TachyonVertexArray {
     TachyonTexture texture_;
 };
 
-/// The mean of three colours, in steps of 1/255, so that there are not as many as triangles.
+/// Returns the mean of three colours in steps of 1/255, to limit the number of different materials.
 core::Color mean_color(const core::Color& a, const core::Color& b, const core::Color& c);
 
 } // namespace raylane::scenes

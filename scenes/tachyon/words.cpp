@@ -127,7 +127,7 @@ void TachyonWords::include(const std::string& name) {
 
 void TachyonWords::remark(const std::string& what) {
     if (!on_remark_ || !remarks_.insert(what).second) return;
-    // What is known at the end is of no line.
+    // Remarks at the end of the scene have no line.
     const std::uint64_t place = is_keyword(statement_, "END_SCENE") ? 0 : line_of_statement();
     on_remark_(
         text_of({sources_.back().file->name(), {static_cast<std::size_t>(place), 0}, "", what}));
