@@ -35,13 +35,13 @@ const core::PlaneOf<double>* plane_of(const core::PartShape& shape) {
     return std::get_if<core::PlaneOf<double>>(&shape);
 }
 
-/// What is inside out has no description of its own, but for planes.
+/// Returns true for an inverse object other than a plane: only planes can be described inside out.
 bool is_inside_out(const Object& object) {
     return object.inverse &&
            (object.kind != ObjectKind::shape || plane_of(object.shape) == nullptr);
 }
 
-/// What is between an open cylinder's ends, without faces there.
+/// Returns the solid between an open cylinder's or cone's ends, without faces at the ends.
 Solid between_ends(const core::PartShape& shape, const Vec3d& base, const Vec3d& axis) {
     Solid solid{Made::by_clip};
     solid.parts.resize(3);
@@ -51,7 +51,8 @@ Solid between_ends(const core::PartShape& shape, const Vec3d& base, const Vec3d&
     return solid;
 }
 
-/// As POV-Ray has it: an open cylinder ends at its ends, where it is a part of another, too.
+/// Returns the object's shape as a part of a solid. As in POV-Ray, an open cylinder that is a part
+/// of another object also stops at its ends.
 Solid part_of(const Object& object) {
     return std::visit(
         [&]<class Shape>(const Shape& shape) -> Solid {
@@ -74,11 +75,11 @@ Solid part_of(const Object& object) {
         object.shape);
 }
 
-/// POV-Ray draws nothing farther from a ray's origin than 1e7.
+/// POV-Ray renders nothing farther than 1e7 from a ray's origin.
 constexpr float far_away = 0x1p24F;
 const core::Bounds farthest{core::Vec3f(-far_away), core::Vec3f(far_away)};
 
-/// A quadric as a part of others, in a box that only says where it is.
+/// Returns a quadric as a part of others, in a box that bounds it without cutting it.
 Solid as_far_as_seen(Solid quadric) {
     constexpr double size = 2.0 * static_cast<double>(far_away);
     Solid box;
@@ -90,7 +91,7 @@ Solid as_far_as_seen(Solid quadric) {
     return result;
 }
 
-/// No zero of it is negative.
+/// Negates z. Zeros stay positive.
 template <class Shape>
 void turn_z(Shape& shape) {
     if constexpr (requires { shape.center; }) shape.center.z = 0.0 - shape.center.z;
@@ -112,7 +113,7 @@ void Assembly::set_mirrored() {
 Solid Assembly::moved(const Object& object, const Solid& solid,
                       const Shared<Motion>& motion) const {
     if (motion == nullptr) return solid;
-    if (motion == mirror_ && solid.made == Made::of_shape) { // as many are
+    if (motion == mirror_ && solid.made == Made::of_shape) { // the most frequent case
         Solid result = solid;
         const bool is_simple = std::visit(
             []<class Shape>(Shape& shape) {
@@ -178,7 +179,8 @@ void Assembly::add_shape(const Object& object, const core::PartShape& shape, con
     put(object, solid, materials.index_of(look, object.place, plane));
 }
 
-/// One that ends at a box of its own is a shape.
+/// Adds a quadric as one shape if its only clip is a box that moves with it. Otherwise returns
+/// false.
 bool Assembly::add_quadric(const Object& object, const Look& look, const Shared<Motion>& motion,
                            const Clips& clips) {
     const auto* form = std::get_if<core::QuadricOf<double>>(&object.shape);
@@ -233,7 +235,8 @@ void Assembly::add(const Object& object, const Look& inherited, const Shared<Mot
     put(object, solid, core::no_material);
 }
 
-/// Here, fog fills objects without an index of refraction.
+/// Notes the first transparent object in which fog differs from POV-Ray's: in raylane, fog fills
+/// objects without an index of refraction.
 void Assembly::note_fog(const Object& object, const Look& look) {
     if (look.texture == nullptr || fog_differs_at) return;
     const auto& color = look.texture->pigment.color.at;
@@ -242,7 +245,7 @@ void Assembly::note_fog(const Object& object, const Look& look) {
         fog_differs_at = object.place;
 }
 
-/// Those in it, whatever it is: no light is hidden, clipped or taken away.
+/// Adds the lights in an object of any kind: lights are never hidden, clipped or subtracted.
 void Assembly::add_lights(const Object& object, const Shared<Motion>& above) {
     if (object.lights == 0) return;
     const Shared<Motion> motion = both(object.motion, above);
@@ -251,7 +254,7 @@ void Assembly::add_lights(const Object& object, const Shared<Motion>& above) {
         add_lights(*part, motion);
 }
 
-/// What an object is made of, without its clips.
+/// Returns the solid of an object, without its clips.
 Solid Assembly::made_of(const Object& object, const Look& look, const Shared<Motion>& motion) {
     if (object.kind == ObjectKind::shape) {
         Solid solid = moved(object, part_of(object), motion);

@@ -7,19 +7,19 @@
 
 namespace raylane::scenes::pov {
 
-/// Adds objects to a scene: what is in them, moved, with the materials that it has.
+/// Adds objects to a scene, with their parts, transforms and materials.
 class Assembly {
   public:
     Assembly(core::SceneBuilder& builder, Tokens& tokens)
         : materials(builder, tokens), builder_(builder) {}
 
     Materials materials;
-    std::vector<LightSource> lights;       ///< where they have come to
-    std::optional<Place> fog_differs_at{}; ///< the first object with fog only here, or only there
+    std::vector<LightSource> lights;       ///< at their final places
+    std::optional<Place> fog_differs_at{}; ///< first object with fog in raylane or POV-Ray only
 
-    /// z against z, of all that is added from then on.
+    /// Negates z of everything that is added from now on.
     void set_mirrored();
-    /// `texture`: where it has none of its own.
+    /// `texture`: used if the object has none.
     void add(const Object& object, const Shared<Texture>& texture) {
         add(object, {texture, nullptr, mirror_}, mirror_, {});
         add_lights(object, mirror_);

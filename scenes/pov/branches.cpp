@@ -32,7 +32,8 @@ bool Tokens::read_is_declared() {
            (found == nullptr && standard_names_.contains(name.text));
 }
 
-/// Past the #end of what has begun, or the first word of another branch of it.
+/// Skips the rest of the block that begins at `place`, up to its #end or the first word of its next
+/// branch. Returns that word.
 Token Tokens::skip_to(const Place& place, Until until) {
     static constexpr std::array<std::string_view, 7> beginnings = {
         "if", "ifdef", "ifndef", "while", "for", "switch", "macro"};
@@ -74,7 +75,8 @@ std::array<double, 2> Tokens::read_in_parentheses() {
     return {first, second};
 }
 
-/// From the first #case that is equal, #range that it is in, or #else on.
+/// Continues at the first #case that is equal, at the first #range that contains the value, or at
+/// #else.
 void Tokens::begin_switch(const Place& place) {
     const double value = read_in_parentheses()[0];
     for (bool holds = false; !holds;) {
@@ -116,7 +118,7 @@ void Tokens::begin_for(const Place& place) {
         {Condition::Kind::for_loop, place, frames_.back().scanner, counter.text, last, step});
 }
 
-/// Or a #switch.
+/// Leaves the innermost loop or #switch.
 void Tokens::leave_loop(const Place& place) {
     auto& conditions = frames_.back().conditions;
     for (;;) {

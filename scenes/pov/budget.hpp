@@ -13,7 +13,7 @@ class Budget {
   public:
     static constexpr std::size_t most_words = 100'000'000, words_for_each = 8;
     static constexpr std::size_t most_bytes = std::size_t{1} << 28, bytes_for_each = 64;
-    /// Words that a texture counts for, and a shape wherever it is put into the scene.
+    /// Words that are counted for each texture, and for each shape that is put into the scene.
     static constexpr std::size_t words_of_item = 24;
 
     void add_file(std::size_t bytes) { file_bytes_ += bytes; }
@@ -21,10 +21,10 @@ class Budget {
     /// Fails above the limit.
     void count_words(std::size_t words, const Place& place);
 
-    /// Counts bytes of memory until the pointer is gone. Fails above the limit.
+    /// Counts bytes of memory until the pointer is released. Fails above the limit.
     std::shared_ptr<void> reserve(std::size_t bytes, const Place& place);
 
-    /// Counts bytes of memory for good. Fails above the limit.
+    /// Counts bytes of memory permanently. Fails above the limit.
     void keep(std::size_t bytes, const Place& place);
 
   private:

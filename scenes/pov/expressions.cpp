@@ -21,7 +21,7 @@ Tuple combined(const Tuple& a, const Tuple& b, const Operation& operation) {
     return result;
 }
 
-/// What "rgbt" and the like make of numbers: red, green, blue, filter, transmit.
+/// Returns the colour of "rgbt" and the like from numbers: red, green, blue, filter, transmit.
 Tuple color_by(std::string_view word, const Tuple& given) {
     Tuple color{{}, 5};
     const bool is_srgb = word.starts_with("s");
@@ -72,7 +72,7 @@ Tuple read_vector_literal(Tokens& tokens, const Place& place) {
     return vector;
 }
 
-/// A number, a name, a function, or what is in brackets.
+/// Reads a number, a name, a function, or an expression in brackets.
 Tuple read_primary(Tokens& tokens) {
     const Token token = tokens.next();
     if (token.kind == TokenKind::number) return Tuple::of(token.number);
@@ -97,7 +97,7 @@ Tuple read_primary(Tokens& tokens) {
     fail(token.place, "must be a number, got " + token.quoted());
 }
 
-/// ".x", or ".red"
+/// Reads the name in ".x" or ".red", and returns that component.
 Tuple component_of(Tokens& tokens, const Tuple& tuple) {
     const Token name = tokens.next();
     static constexpr std::string_view axes[] = {"x", "y", "z", "u", "v"};
@@ -278,7 +278,7 @@ bool at_tuple(Tokens& tokens) {
 
 std::vector<std::size_t> read_indices(Tokens& tokens, std::size_t most) {
     std::vector<std::size_t> indices;
-    // A directive behind an array of #declare is run after the array is declared.
+    // A directive after an array in a #declare runs after the array is declared.
     while (indices.size() < most && tokens.ahead().is("[")) {
         const Place place = tokens.next().place;
         const double index = read_number(tokens);

@@ -11,7 +11,7 @@ namespace raylane::scenes::pov {
 
 namespace {
 
-/// A share, which may be given as a colour: its mean.
+/// Reads a share. Returns the mean of a colour.
 double read_share(Tokens& tokens, const char* what) {
     const Place place = tokens.peek().place;
     const Tuple tuple = read_color(tokens);
@@ -60,7 +60,7 @@ void read_reflection(Tokens& tokens, Finish& finish, const Place& place) {
         tokens.remark(place, "has limits of Fresnel's reflection, which are not drawn");
 }
 
-/// "normal { ... }"
+/// Skips "normal { ... }". Returns false if something else comes next.
 bool accept_normal(Tokens& tokens) {
     const Place place = tokens.peek().place;
     if (!tokens.accept("normal")) return false;
@@ -69,12 +69,12 @@ bool accept_normal(Tokens& tokens) {
     return true;
 }
 
-/// Which shares are of all the light that comes back, in all directions.
+/// Marks shares that apply to all of the reflected light, in all directions.
 struct Albedo {
     bool diffuse = false, phong = false, specular = false;
 };
 
-/// The shares in the direction where they are largest, as POV-Ray makes them of these.
+/// Converts these shares to shares in the direction where they are largest, as POV-Ray does.
 void set_by_albedo(Finish& finish, const Albedo& is) {
     const double n = 1.0 / finish.roughness;
     if (is.diffuse) finish.diffuse *= 0.5 * (finish.brilliance + 1.0);

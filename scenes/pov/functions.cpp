@@ -22,7 +22,7 @@ struct Constant {
     Tuple value;
 };
 
-/// Of the picture, whose size a scene does not have: as POV-Ray's own examples have it.
+/// The size of the image, which a scene does not have: that of POV-Ray's own examples.
 constexpr double usual_width = 640.0, usual_height = 480.0;
 
 const Constant constants[] = {
@@ -54,7 +54,7 @@ const Constant constants[] = {
 using OfOne = double (*)(double);
 using OfTwo = double (*)(double, double);
 
-// Of what is no finite number it is none, which a scene is refused for.
+// Returns NaN for an argument that is not finite. A scene with that value is refused.
 double sine(double a) {
     return std::isfinite(a) ? core::sin(a) : a - a;
 }
@@ -117,7 +117,7 @@ auto* entry(Table& table, std::string_view name) {
     return found == std::end(table) ? nullptr : found;
 }
 
-/// Rodrigues' formula.
+/// Rotates by Rodrigues' formula.
 Vec3d turned(const Vec3d& v, const Vec3d& axis, double degrees) {
     if (axis == Vec3d(0.0)) return v;
     const Vec3d k = core::normalized(axis);
@@ -125,13 +125,13 @@ Vec3d turned(const Vec3d& v, const Vec3d& axis, double degrees) {
     return c * v + s * core::cross(k, v) + ((1.0 - c) * core::dot(k, v)) * k;
 }
 
-/// "dimension_size(ARRAY, NUMBER)"
+/// Reads the arguments of "dimension_size(ARRAY, NUMBER)".
 Tuple read_dimension_size(Tokens& tokens) {
     tokens.expect("(");
     const Token of = tokens.next();
     const Value* value = tokens.value_of(of);
     const auto* found = value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
-    // For as long as the number is read, which may declare it anew.
+    // Keeps the array alive while the number is read, which may declare the array's name again.
     const std::shared_ptr<Array> array = found != nullptr ? *found : nullptr;
     if (array == nullptr) fail(of.place, "must be the name of an array, got " + of.quoted());
     tokens.expect(",");
@@ -143,7 +143,8 @@ Tuple read_dimension_size(Tokens& tokens) {
     return Tuple::of(static_cast<double>(sizes[static_cast<std::size_t>(which) - 1]));
 }
 
-/// "select(A, BELOW, AT, ABOVE)", by A and 0; without the last, that at 0 is above, too.
+/// Reads the arguments of "select(A, BELOW, AT, ABOVE)", which compares A with 0. Without ABOVE, AT
+/// applies above 0, too.
 Tuple read_select(Tokens& tokens) {
     const double by = read_number(tokens);
     Tuple values[3];
@@ -168,7 +169,7 @@ double leading_value(std::string_view text) {
     return std::isfinite(value) ? value : 0.0;
 }
 
-/// What is made of strings, or of a stream of random numbers that seed() has begun.
+/// Evaluates a function of strings, or of a stream of random numbers that seed() has begun.
 Tuple of_strings_or_streams(Tokens& tokens, const Token& name) {
     if (name.is("seed")) {
         const double seed = std::fmod(std::trunc(read_number(tokens)), 4294967296.0);
@@ -237,7 +238,7 @@ double Tokens::begin_random(std::uint32_t seed) {
     return static_cast<double>(random_.size() - 1);
 }
 
-/// The generator of POV-Ray, so that a scene is the same.
+/// Uses POV-Ray's generator, so that the scene is the same.
 double Tokens::next_random(double stream, const Place& place) {
     if (!(stream >= 0.0 && stream < static_cast<double>(random_.size())))
         fail(place, "must be what seed() has made");

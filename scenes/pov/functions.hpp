@@ -4,9 +4,9 @@
 
 namespace raylane::scenes::pov {
 
-/// True of names of numbers and functions that the language has.
+/// Returns true for names of the language's numbers and functions.
 bool is_function(std::string_view name);
-/// Reads on behind its name; nothing if it is none.
+/// Reads the rest of a function behind its name. Returns nothing if the name is not a function's.
 std::optional<Tuple> read_function(Tokens& tokens, const Token& name);
 
 } // namespace raylane::scenes::pov

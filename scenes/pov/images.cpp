@@ -11,7 +11,7 @@ namespace raylane::scenes::pov {
 
 namespace {
 
-/// More pixels than that cost too much for one colour.
+/// An image with more pixels costs too much for a single colour.
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26;
 
 /// Returns the pixels of a PNG by its first bytes, or 0 for another format.

@@ -4,8 +4,8 @@
 
 namespace raylane::scenes::pov {
 
-/// The mean colour of the picture in `{ png "a.png" ... }`, from the brace to behind its end.
-/// Returns nothing for a picture that is no PNG, or is not there.
+/// Returns the mean colour of the image in `{ png "a.png" ... }`, read from the brace to behind its
+/// end. Returns nothing if the image is missing or not a PNG.
 std::optional<Tuple> read_image_color(Tokens& tokens);
 
 } // namespace raylane::scenes::pov

@@ -111,7 +111,7 @@ inline constexpr std::string_view shapes_inc = R"(
 #macro Round_Box_Merge(A_, B_, Radius_) Box_Of_Rods_(A_, B_, Radius_, 1, 1) #end
 )";
 
-/// Polyhedra by the angles of their faces.
+/// Polyhedra, constructed from the angles of their faces.
 inline constexpr std::string_view shapes2_inc = R"(
 #macro Faces_(Count_, Tilt_, Turn_)
   #local I_ = 0;
@@ -265,7 +265,7 @@ inline constexpr std::string_view math_inc = R"(
 #macro VProject_Axis(A_, Axis_) (vdot(A_, Axis_) / vdot(Axis_, Axis_) * Axis_) #end
 )";
 
-/// Without fading.
+/// Glass without fading.
 inline constexpr std::string_view glass_inc = R"(
 #macro I_Glass_Exp(Distance_) ior 1.5 #end
 #macro I_Glass_Sqr(Distance_) ior 1.5 #end

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-/// Numbers of the colours, finishes and textures of POV-Ray's own files, and the names in them that
-/// are not read. A texture with a pattern has the mean of its colours.
+/// Numbers of the colours, finishes and textures in POV-Ray's own files, and the unsupported names
+/// in them. A texture with a pattern has the mean of its colours.
 namespace raylane::scenes::pov {
 
 struct Inclusion {
@@ -12,7 +12,7 @@ struct Inclusion {
 struct NamesNotRead {
     std::string_view file, names;
 };
-/// Values that differ by their numbers, which stand for the '@'.
+/// Declarations that differ only by their numbers, which replace the '@'.
 struct Table {
     std::string_view file, value, rows;
 };

@@ -11,7 +11,7 @@ namespace raylane::scenes::pov {
 
 namespace {
 
-/// Part of a text before a separator; the text goes on behind it.
+/// Removes and returns the part of a text before a separator. Removes the separator, too.
 std::string_view taken(std::string_view& text, std::string_view separator) {
     const std::size_t end = text.find(separator);
     const std::string_view part = text.substr(0, end);
@@ -19,7 +19,8 @@ std::string_view taken(std::string_view& text, std::string_view separator) {
     return part;
 }
 
-/// Each "NAME 0.5 1 0; " of a table, with its numbers in place of the '@' of a declaration.
+/// Declares each "NAME 0.5 1 0; " of a table, with its numbers in place of the '@' of a
+/// declaration.
 void declare_table(std::string_view rows, std::string_view value, StandardFile& file) {
     const std::size_t at = value.find('@');
     while (!rows.empty()) {
@@ -34,7 +35,7 @@ void declare_table(std::string_view rows, std::string_view value, StandardFile& 
     }
 }
 
-/// Each declaration that begins at the beginning of a line.
+/// Adds each declaration that is at the beginning of a line.
 void declare_text(std::string_view text, StandardFile& file) {
     constexpr std::string_view next = "\n#";
     taken(text, next);

@@ -7,11 +7,11 @@
 
 namespace raylane::scenes::pov {
 
-/// A file that comes with POV-Ray, as far as raylane knows it.
+/// A file that comes with POV-Ray, as far as raylane supports it.
 struct StandardFile {
     std::string_view name;
     std::vector<std::string_view> includes; ///< other files that it includes
-    /// In POV-Ray's language, by the name that is declared; empty for names that are not read.
+    /// In POV-Ray's language, by the declared name; empty for unsupported names.
     std::map<std::string_view, std::string> declarations;
 };
 

@@ -28,10 +28,11 @@ Vec3d column(const Motion& motion, int axis) {
     return {motion.rows[0][axis], motion.rows[1][axis], motion.rows[2][axis]};
 }
 
-/// A checker whose cells are cubes, where nothing turns them.
+/// Sets a checker. Returns false unless its cells are axis-parallel cubes at multiples of their
+/// size.
 bool set_checker(const Pigment& pigment, const Motion& motion, const core::PlaneOf<double>* plane,
                  core::Pattern& pattern) {
-    constexpr double too_long = 1e5; // to be meant as a cell
+    constexpr double too_long = 1e5; // longer edges are not meant as cells
     pattern.kind = core::PatternKind::checker;
     pattern.axes = 0;
     double size = 0.0, parity = 0.0;
@@ -43,7 +44,7 @@ bool set_checker(const Pigment& pigment, const Motion& motion, const core::Plane
         const bool is_constant = plane != nullptr && plane->normal[(axis + 1) % 3] == 0.0 &&
                                  plane->normal[(axis + 2) % 3] == 0.0;
         if (is_constant || std::abs(edge) >= too_long) {
-            // POV-Ray has what is on a border in the cell above it.
+            // POV-Ray counts a point on a border to the cell above it.
             constexpr double border = 1e-10;
             const double place = is_constant ? plane->point[axis] : 0.0;
             parity += std::floor((place - offset) / edge + border);
@@ -64,7 +65,8 @@ bool set_checker(const Pigment& pigment, const Motion& motion, const core::Plane
     return true;
 }
 
-/// Runs from where the origin has come to, by what the inverse of the map makes of its direction.
+/// Sets a gradient or stripes, from the transformed origin along the direction, which is
+/// transformed by the inverse of the map.
 bool set_gradient(const Pigment& pigment, const Motion& motion, core::Pattern& pattern) {
     if (pigment.direction == Vec3d(0.0)) return false;
     const Vec3d x = column(motion, 0), y = column(motion, 1), z = column(motion, 2);
@@ -119,8 +121,8 @@ std::array<float, 24> key_of(const core::Material& m) {
             m.opacity};
 }
 
-/// The stronger of both highlights. Phong's by the reflected ray is about Blinn's, by the halfway
-/// vector, with four times its exponent.
+/// Sets the stronger of both highlights. Phong's, by the reflected ray, is about Blinn's, by the
+/// halfway vector, with four times the exponent.
 void set_highlight(const Finish& finish, core::Material& material, Tokens& tokens,
                    const Place& place) {
     if (finish.specular > 0.0 && finish.phong > 0.0)
@@ -154,7 +156,7 @@ core::Material Materials::material_of(const Look& look, const Place& place,
                                 : set_gradient(pigment, all, pattern);
         if (is_set) {
             material.pattern = pattern;
-            // What convert writes is seen between the ends alone.
+            // In scenes that convert writes, gradients are visible only between their ends.
             if (pattern.kind == core::PatternKind::gradient && !tokens_.is_by_convert())
                 tokens_.remark(place, "has a gradient, which repeats beyond its ends, and has the "
                                       "colours of the ends there here");
@@ -184,13 +186,14 @@ core::Material Materials::material_of(const Look& look, const Place& place,
     double reflection = std::clamp(finish.reflection, 0.0, 1.0);
     if (through > 0.0) {
         if (bends) {
-            // What is seen of it is weighed by that there.
+            // POV-Ray multiplies the surface's ambient and diffuse light by 1 - through.
             material.transmission = static_cast<float>(through);
             material.ambient =
                 static_cast<float>(static_cast<double>(material.ambient) * (1.0 - through));
             material.diffuse = static_cast<float>(diffuse * (1.0 - through));
         } else {
-            // Highlights and reflections are of the whole surface there, and of its share here.
+            // Highlights and reflections are of the whole surface in POV-Ray, but of its opaque
+            // share in raylane.
             material.opacity = static_cast<float>(1.0 - through);
             const double whole = through < 1.0 ? 1.0 / (1.0 - through) : 1.0;
             material.specular *= static_cast<float>(whole);
@@ -221,7 +224,7 @@ core::MaterialIndex Materials::index_of(const Look& look, const Place& place,
     }
     if (look.texture != nullptr) {
         const Texture& texture = *look.texture;
-        constexpr std::size_t longest = 256; // of POV-Ray's, 40; a loop makes many copies
+        constexpr std::size_t longest = 256; // POV-Ray's limit is 40; a loop makes many copies
         const std::string_view name = texture.name.empty() ? texture.pigment.name : texture.name;
         if (!name.empty()) builder_.name_material(found->second, name.substr(0, longest));
     }

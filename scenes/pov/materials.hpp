@@ -7,22 +7,22 @@
 
 namespace raylane::scenes::pov {
 
-/// What an object looks like, and where it is.
+/// The texture and interior of an object, and its transform.
 struct Look {
     Shared<Texture> texture{};
     Shared<Interior> interior{};
-    Shared<Motion> above{}; ///< what moves all of the texture
+    Shared<Motion> above{}; ///< transforms the whole texture
     bool is_hollow = false;
 };
 
-/// Makes materials of looks: of those that are the same, one.
+/// Makes the materials of looks. Equal materials are added once.
 class Materials {
   public:
     Materials(core::SceneBuilder& builder, Tokens& tokens) : builder_(builder), tokens_(tokens) {}
 
     double ambient_light = 1.0;
 
-    /// `plane`: that of the surface, if it is one; there a checker's cells have no thickness.
+    /// `plane`: the surface, if it is a plane; a checker's cells have no thickness in it.
     core::MaterialIndex index_of(const Look& look, const Place& place,
                                  const core::PlaneOf<double>* plane = nullptr);
 

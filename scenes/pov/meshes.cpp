@@ -46,7 +46,7 @@ void read_mesh_triangle(Tokens& tokens, Mesh& mesh, bool is_smooth) {
     tokens.budget.keep(sizeof(triangle), place);
 }
 
-/// "3, " of what follows.
+/// Reads "3, ", the count of the items that follow.
 std::size_t read_count(Tokens& tokens) {
     const Place place = tokens.peek().place;
     const double count = read_number(tokens);
@@ -92,7 +92,7 @@ class Mesh2Reader {
     }
 
   private:
-    /// False at what is no part of it.
+    /// Returns false at a word that is not a part of a mesh2.
     bool read_part() {
         if (tokens_.accept("vertex_vectors")) {
             vertices_ = read_vectors(tokens_);
@@ -141,7 +141,7 @@ class Mesh2Reader {
         return faces;
     }
 
-    /// One, or one for each corner.
+    /// Reads one texture, or one for each corner.
     void read_textures(Face& face) {
         std::size_t of_corners[3] = {};
         int count = 0;
@@ -230,7 +230,7 @@ bool are_coplanar(const std::vector<Vec3d>& corners) {
     });
 }
 
-/// One outline, whose last corner may be its first.
+/// Reads a polygon of one outline. Its last corner may repeat the first.
 Shared<Mesh> read_polygon(Tokens& tokens) {
     const Place place = tokens.peek().place;
     std::vector<Vec3d> corners;

@@ -10,7 +10,7 @@ namespace raylane::scenes::pov {
 
 namespace {
 
-/// Of the parts of an object that have a texture, as they lie in it.
+/// Collects the textures of an object's parts, transformed as the parts are in the object.
 void collect_textures(const Object& object, std::vector<Texture>& textures) {
     const auto moved = [&](Texture texture) {
         texture.pigment.motion = both(texture.pigment.motion, object.motion);
@@ -24,16 +24,16 @@ void collect_textures(const Object& object, std::vector<Texture>& textures) {
             collect_textures(*part, textures);
         for (std::size_t i = before; i < textures.size(); ++i)
             textures[i] = moved(std::move(textures[i]));
-        if (textures.size() > 1) return; // that is enough to know that they are several
+        if (textures.size() > 1) return; // enough to know that there are several
     }
 }
 
-/// Reads what comes behind an object's numbers.
+/// Reads the modifiers behind an object's numbers.
 class Modifiers {
   public:
     Modifiers(Tokens& tokens, Object& object) : tokens_(tokens), object_(object) {}
 
-    /// As far as the brace; past it.
+    /// Reads up to the closing brace, and past it.
     void read() {
         while (!tokens_.accept("}")) {
             if (const auto motion = read_motion(tokens_))
@@ -54,7 +54,7 @@ class Modifiers {
         object_.texture = std::make_shared<const Texture>(std::move(texture));
     }
 
-    /// What parts without a texture have on their surfaces: that of what they are cut out of.
+    /// Gives parts without a texture that of the object they are cut out of.
     void cut_texture() {
         if (object_.texture != nullptr) return;
         std::vector<Texture> textures;
@@ -110,9 +110,9 @@ class Modifiers {
         while (!tokens_.accept("}")) {
             if (tokens_.accept("bounded_by") || tokens_.accept("clipped_by")) continue;
             Shared<Object> by = read_object(tokens_);
-            if (!clips) continue; // it should bound what it is around of, which we do ourselves
-            if (object_.count == 0) continue;            // nothing to clip
-            if (object_.motion != nullptr) put_within(); // which does not move what comes later
+            if (!clips) continue;             // bounds are computed, so bounded_by is ignored
+            if (object_.count == 0) continue; // nothing to clip
+            if (object_.motion != nullptr) put_within(); // earlier motions do not move later clips
             count_in(object_, *by, object_.pieces);
             object_.clips.push_back(std::move(by));
         }
@@ -171,7 +171,7 @@ class Modifiers {
 
 } // namespace
 
-/// Counts what is so many times in an object from then on.
+/// Counts a part that the object contains `times` times from now on.
 void count_in(Object& object, const Object& part, std::size_t times) {
     object.count += times * part.count;
     object.lights += times * part.lights;

@@ -29,7 +29,7 @@ Motion translation(const Vec3d& by) {
     return motion;
 }
 
-/// As a solid is turned: by what becomes of the axes.
+/// Returns the rotation of solids. Its matrix has the images of the axes.
 Motion rotation(const Vec3d& degrees) {
     const core::Transform exact = core::Transform::rotation(degrees);
     Vec3d axes[3];
@@ -53,7 +53,7 @@ Motion scaling(Vec3d by, Tokens& tokens, const Place& place) {
                   {0.0, 0.0, by.z});
 }
 
-/// "<...>" of twelve numbers: what becomes of the axes, and of the origin.
+/// Reads "<...>" with twelve numbers: the images of the axes and of the origin.
 Motion matrix(Tokens& tokens) {
     const Place place = tokens.peek().place;
     double rows[3][4];
@@ -77,7 +77,7 @@ Motion matrix(Tokens& tokens) {
 }
 
 /// Returns the inverse of the map of the axes to x, y and z. If these are at right angles and of
-/// one length, so are the inverse's, exactly: balls stay balls.
+/// equal length, so are the inverse's, exactly: spheres stay spheres.
 Motion inverse_of_linear(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Place& place) {
     constexpr double tolerance = 1e-12;
     const double square = core::dot(x, x);
@@ -171,7 +171,7 @@ Shared<Motion> read_transform(Tokens& tokens) {
     const Place place = tokens.peek().place;
     if (!tokens.accept("{")) return named();
     Shared<Motion> all;
-    bool is_inverse = false; // all of it, wherever the word stands
+    bool is_inverse = false; // of all of it, wherever the word is
     while (!tokens.accept("}")) {
         if (tokens.accept("inverse")) {
             is_inverse = true;

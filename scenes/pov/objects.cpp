@@ -18,7 +18,7 @@ core::PartShape read_sphere(Tokens& tokens) {
     core::SphereOf<double> sphere{};
     sphere.center = read_vector(tokens);
     skip_comma(tokens);
-    sphere.radius = std::abs(read_number(tokens)); // as there
+    sphere.radius = std::abs(read_number(tokens)); // as in POV-Ray
     return sphere;
 }
 
@@ -62,7 +62,7 @@ core::PartShape read_plane(Tokens& tokens) {
     skip_comma(tokens);
     const double distance = read_number(tokens);
     const double size = core::length(normal);
-    // No zero of it is negative.
+    // Zeros stay positive.
     const Vec3d point = size > 0.0 ? distance / size * normal + Vec3d(0.0) : normal;
     return core::PlaneOf<double>{point, normal};
 }
@@ -162,7 +162,7 @@ void add_part(Tokens& tokens, Object& object) {
     object.parts.push_back(std::move(part));
 }
 
-/// A box without a thickness is a rectangle.
+/// Replaces a box without thickness by a rectangle.
 void draw_flat_box(Object& object) {
     const auto* box = std::get_if<core::BoxOf<double>>(&object.shape);
     if (box == nullptr) return;
@@ -184,8 +184,8 @@ void draw_flat_box(Object& object) {
     }
 }
 
-/// A cone's radii of different signs are on both sides of its apex: it is two cones. POV-Ray draws
-/// a cone of two negative radii as a cylinder that has the smaller one.
+/// Divides a cone whose radii have different signs into two cones, one on each side of its apex.
+/// POV-Ray renders a cone of two negative radii as a cylinder with the smaller radius.
 void divide_cone(Object& object) {
     std::visit(
         [&]<class Shape>(Shape& cone) {
@@ -216,7 +216,7 @@ void divide_cone(Object& object) {
         object.shape);
 }
 
-/// Leaves out what has no size, as PyMOL writes it.
+/// Omits objects without a size, which PyMOL writes.
 void leave_out_if_flat(Tokens& tokens, Object& object) {
     draw_flat_box(object);
     divide_cone(object);

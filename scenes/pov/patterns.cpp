@@ -26,12 +26,12 @@ struct Weighted {
     Texture texture;
 };
 
-/// The share of light that a colour is multiplied with.
+/// Returns the share of light by which the finish multiplies a colour.
 double share_of(const Finish& finish) {
     return finish.ambient + finish.emission + finish.diffuse;
 }
 
-/// The colour that is with another finish as bright as with its own.
+/// Returns the colour that is as bright with another finish as with its own.
 Tuple color_with(const Texture& texture, const Finish& finish) {
     Tuple color = color_of(texture.pigment);
     const double own = share_of(texture.finish), other = share_of(finish);
@@ -41,7 +41,7 @@ Tuple color_with(const Texture& texture, const Finish& finish) {
     return color;
 }
 
-/// The mean finish. Weights sum to 1.
+/// Returns the mean finish. Weights sum to 1.
 Finish finish_of(const std::vector<Weighted>& textures) {
     Finish mean = textures.front().texture.finish;
     const bool same = std::all_of(textures.begin(), textures.end(), [&](const Weighted& other) {
@@ -58,7 +58,7 @@ Finish finish_of(const std::vector<Weighted>& textures) {
     return mean;
 }
 
-/// One texture in place of several. Weights sum to 1.
+/// Returns one texture in place of several. Weights sum to 1.
 Texture mean_of(const std::vector<Weighted>& textures) {
     Texture mean{{}, finish_of(textures)};
     mean.pigment.color = {{}, 5};
@@ -70,7 +70,7 @@ Texture mean_of(const std::vector<Weighted>& textures) {
     return mean;
 }
 
-/// The other patterns, and the colours that they have where none are given.
+/// The other patterns, which are rendered as one colour.
 constexpr std::string_view other_patterns[] = {
     "agate",     "aoi",       "average",       "boxed",   "bozo",     "bumps",
     "cells",     "crackle",   "cylindrical",   "dents",   "facets",   "function",
@@ -81,7 +81,7 @@ constexpr std::string_view other_patterns[] = {
     "wood",      "wrinkles",  "material_map"};
 
 using ListEntries = std::vector<std::pair<double, core::Vec3d>>;
-/// Patterns of a list: how much of each entry there is, about, and its colour by default.
+/// A pattern with a list: the approximate share of each entry, and its default colour.
 struct ListPattern {
     std::string_view name;
     ListEntries entries;
@@ -98,7 +98,7 @@ const ListPattern list_patterns[] = {
     {"cubic", six_colors},
 };
 
-/// Words behind a pattern, each with a number or a vector or nothing, that change how it lies.
+/// Words behind a pattern that change it, each with a number, a vector or nothing.
 constexpr std::string_view changes[] = {
     "turbulence", "octaves",    "omega",           "lambda",        "frequency",    "phase",
     "ramp_wave",  "sine_wave",  "triangle_wave",   "scallop_wave",  "cubic_wave",   "poly_wave",
@@ -152,7 +152,7 @@ class PatternReader {
     }
     bool at_item() { return tokens_.at("texture") || tokens_.at("pigment") || at_tuple(tokens_); }
 
-    /// "checker rgb 1, rgb 0", and lists of as many as the pattern has.
+    /// Reads "checker rgb 1, rgb 0", and other lists with as many entries as the pattern has.
     void read_list(const ListPattern& pattern, const Token& word) {
         const bool is_object = word.is("object");
         if (is_object) {
@@ -233,7 +233,7 @@ class PatternReader {
             tokens_.next();
             set_mean(read_map(tokens_, *kind), true);
         }
-        // Numbers, strings and the like that belong to it.
+        // Skips numbers, strings and the like that belong to the pattern.
         for (;;) {
             const Token& token = tokens_.peek();
             if (token.is("{")) {
@@ -268,7 +268,7 @@ class PatternReader {
     Texture& texture_;
 };
 
-/// Shares of 1 that entries have of a pattern whose values are even from 0 to 1.
+/// Weighs entries by their shares of a pattern whose values are uniform from 0 to 1.
 void weigh_by_place(std::vector<Weighted>& entries) {
     std::vector<double> places;
     places.reserve(entries.size());
@@ -289,7 +289,7 @@ void make_sum_one(std::vector<Weighted>& entries) {
         entry.weight = sum > 0.0 ? entry.weight / sum : 1.0 / static_cast<double>(entries.size());
 }
 
-/// Two entries from 0 to 1, or each in its half.
+/// Distinguishes two entries from 0 to 1, and two entries for each half.
 PatternMap::Form form_of(const std::vector<Weighted>& entries) {
     const auto is_at = [&](std::size_t i, double at) { return entries[i].weight == at; };
     const auto same = [&](std::size_t i, std::size_t j) {
@@ -304,7 +304,7 @@ PatternMap::Form form_of(const std::vector<Weighted>& entries) {
     return PatternMap::Form::other;
 }
 
-/// "0 rgb 1", or of old two numbers and two colours, up to the bracket.
+/// Reads "0 rgb 1", or in the old syntax two numbers and two colours, up to the bracket.
 void read_colors(Tokens& tokens, double at, std::vector<Weighted>& entries) {
     const auto add = [&](double place) {
         Texture texture;
@@ -339,7 +339,7 @@ PatternMap read_map(Tokens& tokens, MapOf kind) {
     std::vector<Weighted> entries;
     while (!tokens.accept("}")) {
         tokens.expect("[");
-        // In an average an entry may have no weight.
+        // In an average, an entry may have no weight.
         const bool has_place = at_tuple(tokens) && !begins_color(tokens.peek());
         const double at = has_place ? read_number(tokens) : 1.0;
         tokens.accept(",");

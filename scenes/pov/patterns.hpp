@@ -9,15 +9,16 @@ namespace raylane::scenes::pov {
 /// map, or a number such as `turbulence`. Returns false, and reads nothing, at other words.
 bool read_pattern(Tokens& tokens, Texture& texture);
 
-/// The one colour that a pattern is taken for where it cannot be rendered.
+/// Returns the single colour that replaces a pattern that cannot be rendered.
 Tuple color_of(const Pigment& pigment);
-/// One texture above another, as one.
+/// Returns one texture in place of one texture above another.
 Shared<Texture> layered(Tokens& tokens, const Shared<Texture>& below, Shared<Texture> above,
                         const Place& place);
 
-/// "{ [0 rgb 1] [1 rgb 0] }": a map of colours, of pigments or of textures. Begins at the brace.
+/// Reads "{ [0 rgb 1] [1 rgb 0] }": a map of colours, of pigments or of textures. Begins at the
+/// brace.
 PatternMap read_map(Tokens& tokens, MapOf kind);
-/// The kind of map that a word begins.
+/// Returns the kind of map that a word begins.
 std::optional<MapOf> map_of(const Token& word);
 
 } // namespace raylane::scenes::pov

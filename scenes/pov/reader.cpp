@@ -24,7 +24,7 @@ pov::Source source_of(InputFile& file) {
     return {file.name(), std::move(text), folder};
 }
 
-/// A number that follows `option` in a remark at the beginning; 0 if there is none.
+/// Returns the number after `option` in a comment at the beginning of the text, or 0.
 int told(std::string_view text, std::string_view option) {
     while (text.starts_with("//") || text.starts_with('\n') || text.starts_with('\r')) {
         const std::string_view line = text.substr(0, text.find('\n'));
@@ -111,11 +111,11 @@ class Reader {
             tokens_.skip_braces();
             tokens_.remark(word.place, "has " + word.quoted() + ", which is not drawn");
         } else {
-            read_object(tokens_); // which says what it is not
+            read_object(tokens_); // throws, with the reason
         }
     }
 
-    /// Objects wait for the camera, which decides on which side things are.
+    /// Adds an object. Before the first camera, stores it: the camera decides whether z is negated.
     void add(Shared<Object> object) {
         tokens_.budget.count_words(Budget::words_of_item * object->count, object->place);
         added_lights_ += object->lights;
@@ -177,7 +177,7 @@ class Reader {
     GlobalSettings settings_;
     struct Waiting {
         Shared<Object> object;
-        Shared<Texture> texture; ///< the default where it stands
+        Shared<Texture> texture; ///< the default at the object's place
     };
     std::vector<Waiting> waiting_;
     Tuple background_{{}, 5};

@@ -44,7 +44,7 @@ Token Scanner::token(TokenKind kind, std::size_t begin, std::size_t end) const {
         kind, std::string_view(source_->text).substr(begin, end - begin), 0.0, {source_, begin}};
 }
 
-/// They may have others in them.
+/// Skips a comment. Comments may be nested.
 void Scanner::skip_comment() {
     const std::string& text = source_->text;
     const std::size_t begin = position_;
@@ -86,7 +86,7 @@ Token Scanner::number() {
     result = token(TokenKind::number, first, position_);
     result.number = value;
     if (error == std::errc::result_out_of_range) {
-        // What is too small is 0.
+        // A number that is too small is 0.
         const std::size_t exponent = result.text.find_first_of("eE");
         if (exponent == std::string_view::npos || result.text.substr(exponent + 1, 1) != "-")
             fail(result.place, "must be a number that a double has, got " + result.quoted());

@@ -19,20 +19,20 @@ inline bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
-/// A file's text, which all that is read of it refers to.
+/// A file's text. Everything that is read from it refers to it.
 struct Source {
     std::string name; ///< for messages
     std::string text;
-    std::filesystem::path folder; ///< where files are that it includes; empty: nowhere
+    std::filesystem::path folder; ///< folder of the files that it includes; empty: none
 };
 
-/// Where something is in a text.
+/// A position in a text.
 struct Place {
     const Source* source = nullptr;
     std::size_t offset = 0;
 };
 
-/// Line and column, both from 1.
+/// Returns line and column, both from 1.
 TextPosition position_of(const Place& place);
 [[noreturn]] void fail(const Place& place, std::string_view message);
 
@@ -41,7 +41,7 @@ enum class TokenKind : std::uint8_t { end, word, number, string, symbol, element
 
 struct Token {
     TokenKind kind = TokenKind::end;
-    std::string_view text; ///< of a string what is between its quotes, as it is written
+    std::string_view text; ///< of a string, the text between its quotes, as written
     double number = 0.0;
     Place place;
 
@@ -52,17 +52,17 @@ struct Token {
     bool is_one_of(const std::string_view (&all)[count]) const {
         return std::any_of(all, all + count, [&](std::string_view what) { return is(what); });
     }
-    /// For messages.
+    /// Returns the token as messages quote it.
     std::string quoted() const;
 };
 
-/// The tokens of a text. What is put aside, and taken up again, reads the same text again: that is
-/// how loops and macros go.
+/// The tokens of a text. A copy of a scanner reads the same text again: this implements loops and
+/// macros.
 class Scanner {
   public:
     explicit Scanner(const Source& source) : source_(&source) {}
 
-    /// The next one; of kind `end` behind the last. Throws BadInput.
+    /// Returns the next token, of kind `end` after the last. Throws BadInput.
     Token next();
 
   private:

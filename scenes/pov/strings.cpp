@@ -8,8 +8,8 @@ namespace raylane::scenes::pov {
 
 namespace {
 
-/// As str() has it: so many characters at least, filled up with zeros if negative, and so many
-/// decimals, six if negative.
+/// Formats a number as str() does: at least `length` characters, padded with zeros if negative, and
+/// `decimals` decimals, six if negative.
 std::string formatted(double number, double length, double decimals) {
     constexpr double most = 300.0;
     const int width = static_cast<int>(std::clamp(length, -most, most));
@@ -26,7 +26,7 @@ double next_number(Tokens& tokens) {
     return read_number(tokens);
 }
 
-/// "str(NUMBER, LENGTH, DECIMALS)" and "vstr(COUNT, VECTOR, BETWEEN, LENGTH, DECIMALS)".
+/// Reads "str(NUMBER, LENGTH, DECIMALS)" and "vstr(COUNT, VECTOR, BETWEEN, LENGTH, DECIMALS)".
 std::string read_str(Tokens& tokens, bool is_vector) {
     tokens.expect("(");
     Tuple numbers;
@@ -66,7 +66,7 @@ std::string read_concat(Tokens& tokens, const Place& place) {
     return text;
 }
 
-/// "substr(TEXT, FIRST, COUNT)"; the first is 1.
+/// Reads "substr(TEXT, FIRST, COUNT)"; the first character is 1.
 std::string read_substr(Tokens& tokens, const Place& place) {
     tokens.expect("(");
     const std::string text = read_string(tokens);
@@ -77,7 +77,7 @@ std::string read_substr(Tokens& tokens, const Place& place) {
     return text.substr(static_cast<std::size_t>(first) - 1, static_cast<std::size_t>(count));
 }
 
-/// "chr(CODE)", a character of Unicode.
+/// Reads "chr(CODE)", a Unicode character.
 std::string read_chr(Tokens& tokens) {
     tokens.expect("(");
     const Place place = tokens.peek().place;

@@ -31,7 +31,7 @@ bool is_projection(const Token& word) {
 Camera read_camera(Tokens& tokens) {
     Camera camera;
     Place angle_place = tokens.peek().place;
-    bool is_wide = false; // of a projection whose angles have other bounds
+    bool is_wide = false; // the projection's angles have other bounds
     tokens.expect("{");
     while (!tokens.accept("}")) {
         if (const auto known = tokens.accept_value<Camera>()) {
@@ -113,10 +113,10 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
         if (!(core::length(core::cross(core::normalized(given.sky), sight)) > oblique)) sky = up;
     }
     if (given.angle) focus = 0.5 * width / core::slope_of_view(*given.angle);
-    double size = 1.0; // of an orthographic picture, by what right and up say
+    double size = 1.0; // of an orthographic image, relative to right and up
     if (given.look_at && (!given.has_size || given.angle)) size = core::length(direction) / focus;
     Vec3d at = location + direction;
-    // Floats have to tell these points from each other.
+    // These points must differ as floats.
     if (!given.look_at)
         at = location + std::max(1.0, core::length(location)) * core::normalized(direction);
     if (given.motion != nullptr) {
@@ -225,7 +225,7 @@ LightSource read_light(Tokens& tokens) {
         tokens.remark(light.place, "has lights that take light away, which are black here");
     }
     const double radius = 0.5 * core::length(first);
-    // It fades by 2 / (1 + (d / fade_distance)^2) there, and by (radius / d)^2 here.
+    // POV-Ray's light fades by 2 / (1 + (d / fade_distance)^2), raylane's by (radius / d)^2.
     if (is_ball && fade_power == 2.0 && fade_distance > 0.0 && radius >= 64.0 * fade_distance) {
         light.radius = radius;
         const double share = fade_distance / radius;
@@ -256,7 +256,7 @@ core::Light light_of(const LightSource& source) {
 core::Fog read_fog(Tokens& tokens) {
     core::Fog fog;
     double distance = 0.0;
-    bool is_ground = false; // left out: everywhere, it would hide the rest
+    bool is_ground = false; // omitted: everywhere, it would hide the rest
     tokens.expect("{");
     while (!tokens.accept("}")) {
         if (const auto known = tokens.accept_value<core::Fog>()) {

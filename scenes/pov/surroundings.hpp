@@ -5,13 +5,13 @@
 
 namespace raylane::scenes::pov {
 
-/// All of these begin at the brace.
+/// All of these begin at the opening brace.
 Camera read_camera(Tokens& tokens);
 LightSource read_light(Tokens& tokens);
 core::Fog read_fog(Tokens& tokens);
 Sky read_sky(Tokens& tokens);
 
-/// "global_settings { ... }", as far as a picture has them.
+/// The part of "global_settings { ... }" that affects an image.
 struct GlobalSettings {
     int max_trace_level = 5;
     double adc_bailout = 1.0 / 255.0;
@@ -19,12 +19,12 @@ struct GlobalSettings {
 };
 void read_global_settings(Tokens& tokens, GlobalSettings& settings);
 
-/// What a camera sees: where its picture's right is to the left of what its up and its direction
-/// give, the world in a mirror, z against z.
+/// A camera's view. The world is mirrored, with z negated, if the image's right is opposite to the
+/// right that follows from its up and its direction.
 struct View {
     core::Camera camera{};
     bool mirrored = false;
-    double aspect = 1.0; ///< of the picture: width by height
+    double aspect = 1.0; ///< width / height of the image
 };
 View view_of(const Camera& camera, Tokens& tokens, const Place& place);
 

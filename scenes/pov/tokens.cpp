@@ -28,7 +28,7 @@ std::string Tokens::origin_of(const Token& name) const {
 }
 
 bool Tokens::is_by_convert() const {
-    // Its size and samples, and then the version.
+    // The first line has the size and the samples. The version follows.
     const std::string_view text = main().text;
     const std::string_view first = text.substr(0, text.find('\n') + 1);
     return first.starts_with("// povray +W") && first.ends_with(" +A0.3\n") &&
@@ -53,7 +53,7 @@ Token Tokens::raw() {
     }
 }
 
-/// At the end of a text; false at that of all.
+/// Leaves a text at its end. Returns false at the end of the main text.
 bool Tokens::leave_frame(const Place& end) {
     const Frame& frame = frames_.back();
     if (!frame.conditions.empty())
@@ -84,7 +84,7 @@ Token Tokens::expanded() {
     }
 }
 
-/// "NAME[1][0]", where elements may be arrays.
+/// Reads "NAME[1][0]", where elements may be arrays.
 Token Tokens::element_of(Token name, std::shared_ptr<Array> array) {
     for (;;) {
         const std::vector<std::size_t> indices = read_indices(*this, array->sizes.size());
@@ -195,14 +195,15 @@ const Value* Tokens::value_of(const Token& token) const {
     return token.kind == TokenKind::word ? find(token.text) : nullptr;
 }
 
-/// A parameter is here what it stands for.
+/// Declares a name in the current scope, or the outer name if a parameter stands for one.
 void Tokens::declare_here(std::string_view name, Value value) {
     for (const Alias& alias : frames_.back().aliases)
         if (alias.parameter == name) return declare(name, std::move(value), false);
     frames_.back().names.insert_or_assign(name, std::move(value));
 }
 
-/// What is not local is of the innermost scope that has the name, and if there is none, of all.
+/// Declares a name: if it is not local, in the innermost scope that has it, or globally if none
+/// has.
 void Tokens::declare(std::string_view name, Value value, bool is_local) {
     if (is_local) return declare_here(name, std::move(value));
     const Found place = found(name);
@@ -226,7 +227,7 @@ void Tokens::enter(Frame frame) {
 
 namespace {
 
-/// Textures, pigments and materials take the name that they are declared by.
+/// Gives textures, pigments and materials the name by which they are declared.
 Value named(Value value, std::string_view name) {
     const auto texture_named = [&](const Texture& texture) {
         auto copy = std::make_shared<Texture>(texture);
@@ -269,13 +270,13 @@ void Tokens::directive(const Place& hash) {
     if (name == "end") return end(hash);
     auto& conditions = frames_.back().conditions;
     if (!conditions.empty() && conditions.back().kind == Condition::Kind::switch_case) {
-        if (name == "else") return; // what held goes on
+        if (name == "else") return; // falls through from the chosen case
         if (name == "case" || name == "range") {
             read_in_parentheses();
             return;
         }
     }
-    if (name == "else" || name == "elseif") { // of what held
+    if (name == "else" || name == "elseif") { // ends the chosen branch
         if (conditions.empty() || conditions.back().kind != Condition::Kind::choice)
             fail(hash, "must be in an #if, got " + word.quoted());
         skip_to(conditions.back().place, Until::end);
@@ -307,7 +308,7 @@ void Tokens::directive(const Place& hash) {
     fail(hash, "must be a directive that is read, got \"#" + printable(name) + "\"");
 }
 
-/// "#fopen NAME "file" write", "#write(NAME, ...)" and "#fclose NAME".
+/// Skips "#fopen NAME "file" write", "#write(NAME, ...)" and "#fclose NAME".
 void Tokens::file_directive(const Token& word) {
     if (word.is("write")) {
         expect("(");
@@ -355,7 +356,7 @@ void Tokens::declaration(const Token& word) {
     declared_at_ = outer;
 }
 
-/// Arrays in the array that others have, too, are copied.
+/// Assigns an element. Copies inner arrays that others share.
 void Tokens::assign(Array& array, std::span<const std::size_t> indices, Value value,
                     const Token& name) {
     const std::size_t own = std::min(indices.size(), array.sizes.size());
@@ -373,7 +374,7 @@ void Tokens::assign(Array& array, std::span<const std::size_t> indices, Value va
     set_element(budget, array, index, std::move(value), name.place);
 }
 
-/// An array has names of its own, and no other is in it that may change.
+/// Copies an array, so that no two names share one. Inner arrays are copied when they change.
 Value Tokens::copied(Value value, const Place& place) {
     const auto* array = value.get_if<std::shared_ptr<Array>>();
     if (array == nullptr) return value;
@@ -414,7 +415,7 @@ Value Tokens::read_function_value() {
     macro.body = scanner;
     Token token = scanner.next();
     const Place begin = token.place;
-    // Braces in it are those of a pigment, a pattern, a transformation or a spline.
+    // Braces in the function are those of a pigment, a pattern, a transformation or a spline.
     bool is_expression = true;
     for (int open = 1;; token = scanner.next()) {
         if (token.kind == TokenKind::end) fail(begin, "must be a function that has a \"}\"");
@@ -439,7 +440,7 @@ void Tokens::call(const Shared<Macro> macro, const Place& place) {
         read_argument(frame, parameter);
         accept(",");
     }
-    // The scope of one may have ended among those behind it.
+    // The scope of an alias may have ended while later arguments were read.
     std::erase_if(frame.aliases, [&](const Alias& alias) {
         return alias.frame >= frames_.size() || frames_[alias.frame].serial != alias.serial;
     });
@@ -449,13 +450,13 @@ void Tokens::call(const Shared<Macro> macro, const Place& place) {
         fail(peek().place, "must be \")\" behind the last argument, got " + peek().quoted());
     next();
     enter(std::move(frame));
-    if (macro->is_function) { // in parentheses, as its value is
+    if (macro->is_function) { // the value is in parentheses
         peeked_ = Token{TokenKind::symbol, "(", 0.0, place};
         is_expanded_ = true;
     }
 }
 
-/// A name by itself stands for what has the name, which the macro may change.
+/// Reads an argument. A single name stands for its variable, which the macro may change.
 void Tokens::read_argument(Frame& frame, std::string_view parameter) {
     const Token word = peek();
     const Found named = word.kind == TokenKind::word ? found(word.text) : Found{};
@@ -475,7 +476,7 @@ void Tokens::include() {
     open(name, token.place);
 }
 
-/// Has the names of a file, and of those that it includes, declared where they are used.
+/// Registers the names of a file, and of those that it includes, to be declared when they are used.
 void Tokens::include_standard(const StandardFile& file) {
     // POV-Ray's own files end with #version and the number that `version` was before.
     if (!version) version = 3.7;
@@ -488,7 +489,7 @@ void Tokens::include_standard(const StandardFile& file) {
     }
 }
 
-/// True if one of POV-Ray's own files declares a name, which then is declared.
+/// Declares a name if one of POV-Ray's own files declares it. Returns whether it does.
 bool Tokens::declare_standard(const Token& name) {
     const auto standard = standard_names_.find(name.text);
     if (name.kind != TokenKind::word || standard == standard_names_.end() ||
@@ -516,8 +517,8 @@ std::optional<std::filesystem::path> Tokens::file_beside(const std::string& name
     return std::nullopt;
 }
 
-/// Beside the file that includes it, or of those that come with POV-Ray, or where Open Babel has
-/// its own.
+/// Opens a file beside the file that includes it, one that comes with POV-Ray, or the one that Open
+/// Babel installs.
 void Tokens::open(const std::string& name, const Place& place) {
     if (const auto known = included_.find(name); known != included_.end())
         return enter({Scanner(*known->second), FrameKind::file, place});

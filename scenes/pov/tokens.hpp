@@ -16,14 +16,14 @@
 
 namespace raylane::scenes::pov {
 
-/// Limits that no scene that is meant comes near to.
-inline constexpr int deepest = 128; ///< statements, expressions, macros in each other
+/// Limits far above those of any realistic scene.
+inline constexpr int deepest = 128; ///< of nested statements, expressions and macros
 inline constexpr std::size_t most_shapes = std::size_t{1} << 24; ///< of an object
 inline constexpr std::size_t most_lights = std::size_t{1} << 16;
 inline constexpr std::size_t most_elements = std::size_t{1} << 20;
 inline constexpr std::size_t longest_string = std::size_t{1} << 16;
 
-/// Counts levels within each other for as long as it lives. Fails above `deepest`.
+/// Counts a nested level during its lifetime. Fails above `deepest`.
 class Level {
   public:
     Level(int& depth, const Place& place) : depth_(depth) {
@@ -39,34 +39,34 @@ class Level {
     int& depth_;
 };
 
-/// The tokens of a scene with its directives carried out: files included, names declared, macros
-/// and loops expanded.
+/// The tokens of a scene with its directives executed: files included, names declared, macros and
+/// loops expanded.
 class Tokens {
   public:
     Tokens(Source source, const OnRemark& on_remark);
 
-    /// The next token. A macro's name is not among them.
+    /// Returns the next token. Macros are expanded.
     Token next();
     const Token& peek();
-    /// The next token of an expression, behind all directives before it. In a #declare or #version
-    /// and outside of brackets, a directive that may use the declared name ends the expression: its
-    /// '#' is the token. A macro's name is not expanded.
+    /// Returns the next token of an expression, after executing all directives before it. In a
+    /// #declare or #version, and outside of brackets, a directive that may use the declared name
+    /// ends the expression: then the token is the directive's '#'. Macros are not expanded.
     const Token& ahead();
     bool at(std::string_view what) { return peek().is(what); }
-    /// True, and past it, if it comes next.
+    /// Takes the next token if it is this one. Returns whether it is.
     bool accept(std::string_view what);
     void expect(std::string_view what);
-    /// True if the word that `peek` has told of stands before that.
+    /// Returns true if this token follows the word that `peek` has returned.
     bool is_before(std::string_view what) const;
-    /// Past what is between braces, and these.
+    /// Skips braces and everything between them.
     void skip_braces();
 
-    /// Null for what is not declared.
+    /// Returns null for undeclared names.
     const Value* find(std::string_view name) const;
-    /// The value of a name, or of an array's element until the next one is read; null for others.
+    /// Returns the value of a name, or of an array's element until the next one is read; null for
+    /// others.
     const Value* value_of(const Token& token) const;
-    /// The value that comes next, and past it; null, and nothing is read, if it is not of that
-    /// type.
+    /// Takes and returns the next value. Returns null, and takes nothing, if it has another type.
     template <class T>
     Shared<T> accept_value() {
         const Value* value = value_of(peek());
@@ -76,47 +76,47 @@ class Tokens {
         next();
         return found;
     }
-    /// "(NAME)" or "(NAME[0])": true if there is such a value. Begins at the bracket.
+    /// Reads "(NAME)" or "(NAME[0])" from the bracket on. Returns true if there is such a value.
     bool read_is_declared();
     void declare(std::string_view name, Value value, bool is_local);
-    /// A value to keep under another name: an array is one of its own, so that none is in itself.
+    /// Returns a value to keep under another name. Copies an array, so that none contains itself.
     Value copied(Value value, const Place& place);
-    /// "function(A, B) { EXPRESSION }", past the word: a macro; one of a pigment or the like is not
-    /// drawn.
+    /// Reads "function(A, B) { EXPRESSION }" behind the word, and returns a macro. A function of a
+    /// pigment or the like is not rendered.
     Value read_function_value();
-    /// In the scope of what is read.
+    /// Declares a name in the current scope.
     void declare_here(std::string_view name, Value value);
 
-    /// Says once what is not drawn as POV-Ray does.
+    /// Reports, once, a feature that is rendered differently from POV-Ray.
     void remark(const Place& place, const std::string& what);
 
-    /// The number of a stream of random numbers.
+    /// Begins a stream of random numbers, and returns the stream's number.
     double begin_random(std::uint32_t seed);
-    /// From 0 to 1.
+    /// Returns a random number from 0 to 1.
     double next_random(double stream, const Place& place);
 
     Budget budget;
-    int depth = 0;         ///< statements, expressions and macros in each other
-    int open_brackets = 0; ///< brackets whose ends have not been read
-    /// Version of the language by the last #version. Without any, POV-Ray 3.7 takes the scene for
-    /// one of 3.62, and the word `version` for 3.7.
+    int depth = 0;         ///< nested statements, expressions and macros
+    int open_brackets = 0; ///< brackets that are not closed yet
+    /// Version of the language, set by the last #version. Without #version, POV-Ray 3.7 treats the
+    /// scene as one of 3.62, but the word `version` is 3.7.
     std::optional<double> version;
-    std::optional<double> assumed_gamma; ///< by global_settings; 0: sRGB's curve
-    /// The gamma of the scene's colours. 0: they are the file's codes, which is the default of
-    /// versions before 3.7.
+    std::optional<double> assumed_gamma; ///< set by global_settings; 0: sRGB's curve
+    /// Returns the gamma of the scene's colours. 0: they are the file's codes, which is the default
+    /// of versions before 3.7.
     double gamma() const {
         return assumed_gamma.value_or(version.value_or(3.62) < 3.7 ? 0.0 : 1.0);
     }
-    /// Mean colours of pictures, by the file's name and whether its codes were decoded.
+    /// Mean colours of images, by the file's name and whether its codes were decoded.
     std::map<std::pair<std::string, bool>, std::optional<Tuple>> image_colors;
     Shared<Texture> default_texture = std::make_shared<const Texture>();
-    /// A file beside the one that names it, or beside the scene.
+    /// Returns a file beside the one that names it, or beside the scene.
     std::optional<std::filesystem::path> file_beside(const std::string& name,
                                                      const Place& place) const;
-    /// For the end of a message: the file of POV-Ray's own, if it is included, that declares the
-    /// name, which is not read.
+    /// Returns the end of a message if an included file of POV-Ray's own declares this unsupported
+    /// name: it says which file.
     std::string origin_of(const Token& name) const;
-    /// True of a file that raylane has written, by its first words.
+    /// Returns true for a file that raylane has written, by its first words.
     bool is_by_convert() const;
     const Source& main() const { return sources_.front(); }
 
@@ -131,7 +131,7 @@ class Tokens {
     /// A name of an outer scope that a parameter stands for.
     struct Alias {
         std::string_view parameter;
-        std::size_t frame, serial; ///< a frame of another serial is not the one that is meant
+        std::size_t frame, serial; ///< a frame with another serial is a different one
         std::string_view name;
     };
     enum class FrameKind : std::uint8_t { file, macro, function };
@@ -142,9 +142,9 @@ class Tokens {
         std::vector<Condition> conditions{};
         std::unordered_map<std::string_view, Value> names{};
         std::vector<Alias> aliases{};
-        std::size_t serial = 0; ///< of no other
+        std::size_t serial = 0; ///< unique
     };
-    /// Where a name is declared, as far as it is.
+    /// The place where a name is declared, if it is.
     struct Found {
         const Value* value = nullptr;
         std::size_t frame = 0;
@@ -164,7 +164,7 @@ class Tokens {
     void declaration(const Token& word);
     void file_directive(const Token& word);
     void begin_macro();
-    /// By value: an argument may declare the macro's name anew.
+    /// Takes the macro by value: an argument may redeclare the macro's name.
     void call(Shared<Macro> macro, const Place& place);
     void include();
     void open(const std::string& name, const Place& place);
@@ -179,34 +179,34 @@ class Tokens {
     enum class Until : std::uint8_t { end, branch, switch_case };
     Token skip_to(const Place& place, Until until);
     bool condition();
-    /// One or two numbers.
+    /// Reads one or two numbers.
     std::array<double, 2> read_in_parentheses();
     void enter(Frame frame);
 
     std::deque<Source> sources_; ///< tokens and names refer to their texts
     std::vector<Frame> frames_;
     std::optional<Token> peeked_;
-    Value element_;            ///< of the last token of that kind
-    bool is_expanded_ = false; ///< what was peeked at: no directive, and no macro's name
-    int declared_at_ = -1;     ///< open brackets around the value of a #declare that is read
+    Value element_;            ///< of the last `element` token
+    bool is_expanded_ = false; ///< the peeked token: no directive, no macro's name
+    int declared_at_ = -1;     ///< open brackets around the #declare whose value is read
     const OnRemark& on_remark_;
     std::set<std::string> remarks_;
     std::map<std::string, const Source*> included_;
     IncludedFiles opener_;
-    std::vector<std::uint32_t> random_; ///< where each stream is
-    /// A name that one of POV-Ray's own files declares. It is declared where it is used first.
+    std::vector<std::uint32_t> random_; ///< the state of each stream
+    /// A name that one of POV-Ray's own files declares. It is declared when it is first used.
     struct StandardName {
-        std::string_view file, declaration; ///< empty: it is not read
+        std::string_view file, declaration; ///< empty: not supported
     };
     std::unordered_map<std::string_view, StandardName> standard_names_;
     std::set<std::string_view> standard_files_; ///< that are included
-    std::optional<Place> standard_use_;         ///< of the standard name that is being declared
+    std::optional<Place> standard_use_; ///< the use for which a standard name is being declared
     std::size_t frames_entered_ = 0;
 };
 
-/// What may stand behind "#declare NAME =", or as an argument of a macro.
+/// Reads a value as allowed behind "#declare NAME =", or as an argument of a macro.
 Value read_value(Tokens& tokens);
-/// Puts into an array what has been copied.
+/// Stores a copied value in an array.
 void set_element(Budget& budget, Array& array, std::size_t index, Value value, const Place& place);
 
 } // namespace raylane::scenes::pov

@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-/// What names stand for in a scene description.
+/// The values of names in a scene description.
 namespace raylane::scenes::pov {
 
 template <class T>
@@ -25,38 +25,38 @@ struct Tuple {
 
     static Tuple of(double number) { return {{number}, 1}; }
     static Tuple of(const core::Vec3d& v) { return {{v.x, v.y, v.z}, 3}; }
-    /// A number stands for all components.
+    /// Returns the vector. A number stands for all components.
     core::Vec3d vector() const {
         return size == 1 ? core::Vec3d(at[0]) : core::Vec3d(at[0], at[1], at[2]);
     }
 };
 
-/// An affine map: exactly, for shapes, and in doubles for what is not a shape.
+/// An affine map: exact for shapes, in doubles for everything else.
 struct Motion {
     core::Transform exact{};
     double rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
-    /// Where nothing is turned nor scaled: by what it is moved.
+    /// The displacement, if the map is only a translation.
     std::optional<core::Vec3d> translation = core::Vec3d(0.0);
 
     core::Vec3d direction(const core::Vec3d& v) const;
     core::Vec3d point(const core::Vec3d& p) const;
 };
-/// First `first`, then `second`; null is at rest.
+/// Applies `first`, then `second`; null is the identity.
 Shared<Motion> both(const Shared<Motion>& first, const Shared<Motion>& second);
 
 enum class PigmentKind : std::uint8_t { color, checker, gradient };
 
 struct Pigment {
     PigmentKind kind = PigmentKind::color;
-    Tuple color{{0, 0, 0, 0, 0}, 5}; ///< of patterns the first
-    Tuple other{{0, 0, 0, 0, 0}, 5}; ///< of patterns the second
+    Tuple color{{0, 0, 0, 0, 0}, 5}; ///< of a pattern, the first
+    Tuple other{{0, 0, 0, 0, 0}, 5}; ///< of a pattern, the second
     core::Vec3d direction{0.0};      ///< gradient
-    bool in_steps = false;           ///< gradient: half of it each colour
+    bool in_steps = false;           ///< gradient: a half for each colour
     Shared<Motion> motion{};
-    std::string_view name{}; ///< it is declared by, or the pigment that it began as
+    std::string_view name{}; ///< of its declaration, or of the pigment that it began as
 };
 
-/// As in POV-Ray: what nobody has said is 0.1 of ambient light and 0.6 of diffuse light.
+/// The defaults are POV-Ray's: 0.1 of ambient light and 0.6 of diffuse light.
 struct Finish {
     double ambient = 0.1, emission = 0.0, diffuse = 0.6, brilliance = 1.0;
     double phong = 0.0, phong_size = 40.0, specular = 0.0, roughness = 0.05;
@@ -69,10 +69,10 @@ struct Finish {
 struct Texture {
     Pigment pigment{};
     Finish finish{};
-    std::string_view name{}; ///< likewise
+    std::string_view name{}; ///< of its declaration, or of the texture that it began as
 };
 
-/// A map of colours, of pigments or of textures, as far as a pattern of them is drawn.
+/// A map of colours, of pigments or of textures, as far as its pattern is rendered.
 enum class MapOf : std::uint8_t { colors, pigments, textures };
 struct PatternMap {
     enum class Form : std::uint8_t { run, steps, other };
@@ -81,7 +81,7 @@ struct PatternMap {
     Form form = Form::other;
     Texture first{}, last{};
     Texture mean{};     ///< over places from 0 to 1
-    Texture weighted{}; ///< the mean for which places are weights
+    Texture weighted{}; ///< the mean with places as weights
 };
 
 struct Interior {
@@ -106,7 +106,7 @@ struct Mesh {
 enum class ObjectKind : std::uint8_t {
     shape,
     mesh,
-    all_in_one, ///< union: its objects by themselves
+    all_in_one, ///< union: its objects separately
     merge,
     intersection,
     difference,
@@ -118,12 +118,12 @@ struct LightSource {
     core::Vec3d position{0.0}, point_at{0.0}, color{1.0};
     bool parallel = false;
     bool is_dimmed = false; ///< by fog and media, on its way to a surface
-    double radius = 0.0;    ///< of a ball that shines: its color is then the radiance
+    double radius = 0.0;    ///< of a shining sphere: its color is then the radiance
 
     LightSource moved(const Shared<Motion>& motion) const;
 };
 
-/// What statements of objects make.
+/// The result of an object's statement.
 struct Object {
     ObjectKind kind = ObjectKind::shape;
     Place place{};
@@ -136,13 +136,13 @@ struct Object {
     Shared<Interior> interior{};
     Shared<Motion> motion{};
     bool inverse = false;
-    bool is_hidden = false;       ///< that is left out
-    bool is_hollow = false;       ///< filled by fog
-    std::size_t count = 1;        ///< of shapes in it, its clips with them
-    std::size_t lights = 0;       ///< in it
-    std::size_t pieces = 1;       ///< that it is in a scene, each with all of its clips
-    int depth = 1;                ///< of objects in it
-    std::shared_ptr<void> room{}; ///< in the budget, given back with the object
+    bool is_hidden = false; ///< omitted from the scene
+    bool is_hollow = false; ///< filled by fog
+    std::size_t count = 1;  ///< of shapes in it, including its clips
+    std::size_t lights = 0; ///< in it
+    std::size_t pieces = 1; ///< objects that it becomes in a scene, each with all of its clips
+    int depth = 1;          ///< of nested objects
+    std::shared_ptr<void> room{}; ///< in the budget, released with the object
 };
 
 struct Camera {
@@ -151,11 +151,11 @@ struct Camera {
     std::optional<core::Vec3d> look_at{};
     std::optional<double> angle{}; ///< degrees
     bool orthographic = false;
-    bool has_size = false; ///< right or up
+    bool has_size = false; ///< right or up is given
     Shared<Motion> motion{};
 };
 
-/// The colour that is seen of a sky_sphere.
+/// The visible colour of a sky_sphere.
 struct Sky {
     Tuple color{{}, 5};
 };
@@ -166,14 +166,14 @@ struct Value;
 struct Array {
     std::vector<std::size_t> sizes;
     std::vector<Value> values;
-    int depth = 1;                ///< of arrays in it
-    std::shared_ptr<void> room{}; ///< in the budget, given back with the array
+    int depth = 1;                ///< of nested arrays
+    std::shared_ptr<void> room{}; ///< in the budget, released with the array
 };
 struct Macro {
     std::string_view name;
     std::vector<std::string_view> parameters;
     Scanner body;
-    bool is_function = false; ///< an expression, up to a brace
+    bool is_function = false; ///< an expression that ends at a brace
 };
 
 struct Value {

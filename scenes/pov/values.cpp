@@ -16,7 +16,7 @@ Value shared(T value) {
     return {std::make_shared<const T>(std::move(value))};
 }
 
-/// "array[2][3] { {1, 2, 3}, {4, 5, 6} }", which may be empty.
+/// Reads the braces of "array[2][3] { {1, 2, 3}, {4, 5, 6} }", which may be empty.
 void read_elements(Tokens& tokens, Array& array, std::size_t dimension, std::size_t& at) {
     const std::vector<std::size_t>& sizes = array.sizes;
     const Place place = tokens.peek().place;
