@@ -78,7 +78,7 @@ class JsonDocument {
     struct Node {
         JsonType type;
         std::uint32_t parent;
-        std::uint32_t end; // one past the last node inside: where the next sibling is; 0 while open
+        std::uint32_t end; // one past the last node inside, the next sibling's index; 0 while open
         Text key, text;
         double number;
         JsonPositions positions;

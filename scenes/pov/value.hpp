@@ -93,7 +93,7 @@ struct Material {
     Shared<Interior> interior{};
 };
 
-/// A triangle of a mesh, and its texture in it; -1 is the mesh's own.
+/// A triangle of a mesh, and the index of its texture there; -1 is the mesh's own texture.
 struct MeshTriangle {
     core::PartShape shape;
     int texture = -1;

@@ -5,7 +5,7 @@
 
 namespace raylane::scenes {
 
-/// Cells are a little wider, so that rounding takes no atoms further apart.
+/// Makes cells slightly wider than `width`, so that rounding does not put near atoms further apart.
 AtomGrid::AtomGrid(const std::vector<core::Vec3f>& positions, const std::vector<AtomIndex>& atoms,
                    float width)
     : width_(std::max(static_cast<double>(width) * (1.0 + 0x1p-20), 1e-6)) {
@@ -35,7 +35,7 @@ AtomGrid::Place AtomGrid::place_of(const core::Vec3f& point) const {
     return {along(point.z), along(point.y), along(point.x)};
 }
 
-/// The first cell of three in a row: one of nine rows around a place.
+/// Returns the first of three cells in one of the nine rows around a place.
 AtomGrid::Place AtomGrid::first_of_row(const Place& place, std::size_t row) {
     const std::size_t z = row / 3, y = row % 3;
     return {place.z + static_cast<double>(z) - 1.0, place.y + static_cast<double>(y) - 1.0,
@@ -46,7 +46,7 @@ AtomGrid::Near AtomGrid::near(const Place& place, std::array<std::size_t, 9>& be
     Near near;
     for (std::size_t row = 0; row < begin.size(); ++row) {
         const Place first = first_of_row(place, row);
-        // Far out, one more is the same number.
+        // Far from the origin, adding 1 gives the same number.
         if (row % 3 != 0 && first_of_row(place, row - 1).y == first.y) continue;
         if (row >= 3 && first_of_row(place, row - 3).z == first.z) continue;
         std::size_t& cell = begin[row];

@@ -10,18 +10,18 @@
 
 namespace raylane::scenes {
 
-/// Atoms sorted into the cells of a grid. It has no more cells than atoms, however far apart these
-/// are.
+/// Atoms sorted into the cells of a grid. The grid has no more cells than atoms, however far apart
+/// the atoms are.
 class AtomGrid {
   public:
-    /// Sorts atoms into cells of a width.
+    /// Sorts atoms into cells of this width.
     AtomGrid(const std::vector<core::Vec3f>& positions, const std::vector<AtomIndex>& atoms,
              float width);
 
-    /// The atoms in a cell and in those around it.
+    /// The atoms in a cell and in the cells around it.
     class Near {
       public:
-        /// Calls visit(atom) until it returns false; true if it never does.
+        /// Calls visit(atom) until it returns false. Returns true if it never does.
         template <class Visit>
         bool each(const Visit& visit) const {
             for (std::size_t row = 0; row < count_; ++row)
@@ -36,7 +36,8 @@ class AtomGrid {
         std::size_t count_ = 0;
     };
 
-    /// Calls visit(atom, those that are as near to it, and others) for all atoms.
+    /// Calls visit(atom, near) for all atoms. `near` has all atoms within a cell's width, and
+    /// others.
     template <class Visit>
     void for_each(const Visit& visit) const {
         std::array<std::size_t, 9> begin{};
@@ -48,24 +49,24 @@ class AtomGrid {
     }
 
   private:
-    /// In widths. Whole numbers, which doubles hold however far out they are.
+    /// In cell widths. These are whole numbers, which are exact as doubles at any distance.
     struct Place {
         double z, y, x;
         auto operator<=>(const Place&) const = default; // NOLINT: no pointer
     };
     struct Cell {
         Place place;
-        std::size_t first; ///< of its atoms, up to that of the next
+        std::size_t first; ///< its first atom; its atoms end at the first of the next cell
     };
 
     Place place_of(const core::Vec3f& point) const;
     static Place first_of_row(const Place& place, std::size_t row);
-    /// `begin`: of each row, a cell that is not behind its first.
+    /// `begin`: for each row, a cell that is not after the row's first cell.
     Near near(const Place& place, std::array<std::size_t, 9>& begin) const;
 
     double width_;
     std::vector<AtomIndex> atoms_; // by cell
-    std::vector<Cell> cells_;      // and one behind them
+    std::vector<Cell> cells_;      // and one after the last
 };
 
 } // namespace raylane::scenes

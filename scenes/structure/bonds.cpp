@@ -10,12 +10,12 @@ namespace raylane::scenes {
 namespace {
 
 constexpr float tolerance = 0.4F, least_distance = 0.4F;
-/// Uranium in U(C5H5)4 has 20 bonds by these distances. Of diamond, the widest cells around an atom
+/// Uranium in U(C5H5)4 has 20 bonds by these distances. In diamond, the widest cells around an atom
 /// hold 700 atoms.
 constexpr std::size_t most_near = 4096;
 
-/// Those that form no molecules with each other: alkali and alkaline earth metals, transition and
-/// rare earth metals, and what follows them but for metalloids.
+/// Returns true for elements that form no molecules with each other: alkali and alkaline earth
+/// metals, transition and rare earth metals, and the elements after them except metalloids.
 bool is_metal(Element z) {
     return z == 3 || z == 4 || (z >= 11 && z <= 13) || (z >= 19 && z <= 31) ||
            (z >= 37 && z <= 50) || (z >= 55 && z <= 84) || z >= 87;

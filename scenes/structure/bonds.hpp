@@ -7,15 +7,19 @@
 
 namespace raylane::scenes {
 
-inline constexpr std::size_t most_bonds = 24; ///< of an atom, which the file does not have
+inline constexpr std::size_t most_bonds = 24; ///< of an atom, besides the file's bonds
 
-/// Bonds between atoms that are nearer to each other than the sum of their covalent radii and 0.4
-/// angstrom, and farther apart than 0.4 (of what are two places for one atom), together with those
-/// that the file has, which keep their orders; sorted. Atoms of no known element, and metals with
-/// each other, have no bonds but the file's; neither have crowded atoms, which would have more than
-/// `most_bonds`, counting atoms that are nearer than 0.4 angstrom. So the time is linear in the
-/// atoms even where they lie on top of each other. `crowded_atoms`, if there is one, is left with
-/// how many atoms are crowded.
+/// Returns the file's bonds, which keep their orders, and bonds that are found by distance; sorted.
+/// Two atoms are bonded if they are nearer to each other than the sum of their covalent radii and
+/// 0.4 angstrom, and farther apart than 0.4 angstrom: nearer positions are two places of one atom.
+///
+/// Some atoms have only the file's bonds:
+/// - atoms of unknown elements, and metals with each other;
+/// - crowded atoms, which would have more than `most_bonds`, counting atoms nearer than 0.4
+///   angstrom.
+///
+/// So the time is linear in the atoms even if they lie on top of each other. `crowded_atoms`, if
+/// given, receives the number of crowded atoms.
 std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_atoms = nullptr);
 
 } // namespace raylane::scenes

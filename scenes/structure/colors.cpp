@@ -20,7 +20,7 @@ constexpr std::array<std::uint32_t, 20> many_apart = {
     0x008856, 0xe68fac, 0x0067a5, 0xf99379, 0x604e97, 0xf6a600, 0xb3446c,
     0xdcd300, 0x882d17, 0x8db600, 0x654522, 0xe25822, 0x2b3d26};
 
-/// Viridis: Smith and van der Walt (2015), by nine of its colours.
+/// Viridis: Smith and van der Walt (2015), sampled at nine colours.
 constexpr std::array<std::uint32_t, 9> ramp = {0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c,
                                                0x28ae80, 0x5ec962, 0xaddc30, 0xfde725};
 
@@ -35,7 +35,7 @@ core::Color linear(std::uint32_t srgb) {
 
 std::uint32_t ramp_at(double share) {
     constexpr int steps = static_cast<int>(ramp.size()) - 1;
-    // 64 colours are enough for the eye, and few materials.
+    // 64 colours are enough for the eye, and need few materials.
     const double place = std::round(std::clamp(share, 0.0, 1.0) * 64.0) / 64.0 * steps;
     const int below = std::min(static_cast<int>(place), steps - 1);
     const double part = place - below;

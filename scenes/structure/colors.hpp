@@ -9,13 +9,13 @@
 /// Colours are sRGB, 0xRRGGBB.
 namespace raylane::scenes {
 
-/// One of 64 colours in order, for a share in [0, 1].
+/// Returns one of 64 ordered colours, for a share in [0, 1].
 std::uint32_t ramp_at(double share);
 
-/// One of several that have no order.
+/// Returns the colour at `place` among `of` colours that have no order.
 std::uint32_t color_of_one(std::size_t place, std::size_t of);
 
-/// Of a type that is no element, by its number; they repeat.
+/// Returns the colour of a type that is not an element, by its number. Colours repeat.
 std::uint32_t color_of_type(std::size_t number);
 
 /// Materials of atoms, by colour.

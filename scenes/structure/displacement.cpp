@@ -10,8 +10,9 @@ namespace {
 
 constexpr double half_probability = 1.5382;
 
-/// From a symmetric tensor's rows, by Jacobi's rotations: its principal axes, as long as
-/// `times` the roots of its values. False if one is not positive.
+/// Replaces a symmetric tensor's rows by its principal axes, found by Jacobi's rotations. Each axis
+/// is as long as `times` the root of its eigenvalue. Returns false if an eigenvalue is not
+/// positive.
 bool to_axes(std::array<Vec3d, 3>& rows, double times) {
     std::array<Vec3d, 3> axes = {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)}; // columns
     for (int sweep = 0; sweep < 32; ++sweep)

@@ -8,11 +8,11 @@
 
 namespace raylane::scenes {
 
-/// The principal axes of the surface that holds half of a displacement's probability, 1.5382
-/// standard deviations away, in angstrom; nothing for a tensor that is none of an ellipsoid.
+/// Returns the principal axes, in angstrom, of the surface that holds half of a displacement's
+/// probability, at 1.5382 standard deviations. Returns nothing if the tensor is not an ellipsoid's.
 std::optional<std::array<core::Vec3d, 3>> axes_of(const Anisotropy& displacement);
 
-/// The radius of that surface for a mean displacement in angstrom^2, the same in all directions.
+/// Returns that surface's radius for an isotropic (mean square) displacement in angstrom^2.
 double radius_of_displacement(double isotropic);
 
 } // namespace raylane::scenes

@@ -22,9 +22,9 @@ using core::Vec3d;
 using core::Vec3f;
 
 constexpr std::size_t most_for_balls = 500;
-constexpr float part_of_radius = 0.25F; // of van der Waals', balls with sticks
+constexpr float part_of_radius = 0.25F; // of van der Waals', for balls with sticks
 constexpr float stick_with_balls = 0.12F, stick = 0.16F, licorice_stick = 0.3F, dot_size = 0.2F;
-constexpr double apart = 0.13; // the sticks of a double bond from its line
+constexpr double apart = 0.13; // distance of a double bond's sticks from its line
 constexpr float cell_stick = 0.06F;
 
 class Artist {
@@ -67,7 +67,7 @@ class Artist {
   private:
     bool is_selected(AtomIndex atom) const { return selected_.empty() || selected_[atom] != 0; }
 
-    /// Readers check what they read, and not what they make of it with the cell.
+    /// Readers check the coordinates that they read, but not those that follow from the cell.
     void require_places() const {
         for (AtomIndex atom = 0; atom < structure_.size(); ++atom)
             for (int axis = 0; axis < 3; ++axis)
@@ -91,7 +91,7 @@ class Artist {
     void find_colors() {
         const std::string& by = drawing_.color;
         if (by == "element") {
-            // Types that are no element's by number.
+            // Types that are not elements have colours by number.
             std::size_t unknown = 0;
             for (const AtomKind& kind : structure_.of_kind)
                 of_kind_.push_back(kind.element != 0 ? data_of(kind.element).color
@@ -151,7 +151,7 @@ class Artist {
         }
     }
 
-    /// Of atoms of no known element: so that they nearly touch if they fill their bounds.
+    /// Sets the radius of atoms of unknown elements: they nearly touch if they fill their bounds.
     void find_usual_radius() {
         scale_.usual_radius = 1.5F;
         const auto has_element = [](const AtomKind& kind) { return kind.element != 0; };
@@ -213,7 +213,7 @@ class Artist {
         return 0.0F;
     }
 
-    /// What is seen through becomes one solid, as its walls inside are none of a molecule's.
+    /// Adds transparent shapes to one solid, as a molecule has no walls inside.
     template <class Shape>
     void add(const Shape& shape, MaterialIndex material, const AtomPair& atoms) {
         if (drawing_.opacity < 1.0F && atoms != no_atoms)
@@ -247,7 +247,7 @@ class Artist {
         }
     }
 
-    /// Returns the radius of an isotropic displacement that is drawn.
+    /// Returns the radius of an isotropic displacement that is rendered.
     std::optional<float> displaced_radius(AtomIndex atom) const {
         if (!drawing_.ellipsoids || structure_.isotropies.empty() ||
             !(structure_.isotropies[atom] > 0.0F))
@@ -272,7 +272,7 @@ class Artist {
         return done;
     }
 
-    /// Adds the atoms that are no balls, as large in proportion as balls are.
+    /// Adds the atoms that are not balls, in the same proportion to their size as balls.
     std::vector<char> add_shapes() {
         std::vector<char> done(structure_.shapes.empty() ? 0 : structure_.size());
         for (const auto& [atom, axes] : structure_.shapes) {
@@ -299,7 +299,8 @@ class Artist {
         add_bonds_of(with_images(structure_, drawing_.repeat));
     }
 
-    /// Of the structure, or of its images side by side; `all` has the same atoms again and again.
+    /// Adds the bonds of the structure, or of its images side by side: `all` then repeats its
+    /// atoms.
     void add_bonds_of(const Structure& all) {
         std::size_t crowded = 0;
         const std::vector<Bond> bonds = find_bonds(all, &crowded);
@@ -334,7 +335,7 @@ class Artist {
         return atom % static_cast<AtomIndex>(structure_.size());
     }
 
-    /// In the colours of both atoms, each as far as what is seen of it.
+    /// Adds a stick in the colours of both atoms, which meet in the middle of its visible part.
     void add_stick(const Bond& bond, const Vec3d& a, const Vec3d& b, float radius) {
         const AtomPair atoms = {original(bond.a), original(bond.b)};
         const MaterialIndex of_a = palette_.of(color_of_(atoms[0]));
@@ -356,7 +357,8 @@ class Artist {
         }
     }
 
-    /// One of the others that an atom is bonded to, for each; itself if there is none.
+    /// Finds up to two neighbours that each atom is bonded to. The atom itself stands for a missing
+    /// one.
     void find_neighbours(const Structure& all, const std::vector<Bond>& bonds) {
         one_.resize(all.size());
         another_.resize(all.size());
@@ -371,7 +373,7 @@ class Artist {
         }
     }
 
-    /// Across a bond, of length 1, in the plane of one that is next to it.
+    /// Returns a direction across a bond, of length 1, in the plane of an adjacent bond.
     Vec3d beside(const Structure& all, const Bond& bond, const Vec3d& a, const Vec3d& b) const {
         const Vec3d along = 1.0 / core::length(b - a) * (b - a);
         const auto across = [&](const Vec3d& way) {
@@ -396,7 +398,7 @@ class Artist {
             throw BadInput("--cell", "", "must have a cell to show, and " + file_ + " has none");
         const MaterialIndex gray = Palette(builder_).of(0x808080);
         std::array<Vec3f, 3> edges;
-        int flat = 0; // bits of those without a length, as of a slab or a chain
+        int flat = 0; // bits of edges without a length, as of a slab or a chain
         for (std::size_t k = 0; k < 3; ++k) {
             edges[k] = core::convert<float>(structure_.cell.edges[k]);
             if (edges[k] == Vec3f(0.0F)) flat |= 1 << k;
@@ -421,7 +423,7 @@ class Artist {
     void set_up_view() {
         builder_.settings.width = drawing_.width;
         builder_.settings.height = drawing_.height;
-        // A picture of balls and sticks is mostly white, and white has no error.
+        // An image of balls and sticks is mostly white, and white has no error.
         const bool is_filled = scale_.style == Style::spheres || scale_.style == Style::points;
         builder_.settings.quality = is_filled ? 40.0F : 46.0F;
         builder_.background = core::Color(1.0F);

@@ -72,9 +72,9 @@ constexpr std::array<ElementData, element_count> elements = {{
     {"Og", 0.00F, 0.00F, 294.214F, 0xeb0026},
 }};
 
-constexpr int heaviest = 99; // einsteinium: no sample has others
+constexpr int heaviest = 99; // einsteinium: samples have no heavier elements
 
-/// In daltons, of which there are samples: D, T, lithium's, boron's, and carbon's.
+/// In daltons, of isotopes that samples have: D, T, lithium's, boron's, and carbon's.
 constexpr std::pair<double, Element> isotopes[] = {{2.014, 1},  {3.016, 1},  {6.015, 3}, {7.016, 3},
                                                    {10.013, 5}, {11.009, 5}, {13.003, 6}};
 
@@ -82,7 +82,7 @@ bool is_whole(double number) {
     return std::abs(number - std::round(number)) <= 1e-9 * std::abs(number);
 }
 
-/// Returns the one element whose mass is rounded to that, or 0.
+/// Returns the only element whose mass rounds to the same whole number, or 0.
 Element element_of_whole_mass(double mass) {
     Element found = 0;
     for (int z = 1; z <= heaviest; ++z)
@@ -124,7 +124,7 @@ Element element_of_mass(double mass) {
     const auto* const nearest = std::min_element(
         elements.begin() + 1, elements.begin() + heaviest + 1,
         [&](const ElementData& a, const ElementData& b) { return off(a) < off(b); });
-    // Old tables differ by less than 0.1 %, and CH2 from nitrogen by more.
+    // Old tables differ by less than 0.1 %. CH2 differs from nitrogen by more.
     const bool is_near = off(*nearest) <= std::min(0.05, 0.001 * mass);
     const bool is_rounded = (is_whole(10.0 * mass) && off(*nearest) <= 0.0501) ||
                             (is_whole(100.0 * mass) && off(*nearest) <= 0.0051);
@@ -149,7 +149,7 @@ std::vector<Element> elements_of_masses(const std::vector<double>& masses, MassU
     if (masses.size() > 1 && !has_different) return {};
     if (std::all_of(masses.begin(), masses.end(), [](double mass) { return mass < 1.5; }))
         return {};
-    if (has_one && has_hydrogen) return {}; // as electrons are of mass 1 beside nuclei
+    if (has_one && has_hydrogen) return {}; // electrons have mass 1 beside nuclei
     if (!has_decimals && !(has_usual && has_different)) return {};
     return found;
 }

@@ -26,7 +26,7 @@ void copy(const gemmi::Vec3& from, double (&to)[3]) {
     to[2] = from.z;
 }
 
-/// What PDB files have in place of no cell, one of 1 angstrom, is none.
+/// Ignores a cell of 1 angstrom, which PDB files have in place of no cell.
 void take_cell(const gemmi::UnitCell& cell, Model& model) {
     model.has_cell = cell.is_crystal();
     if (!model.has_cell) return;
@@ -84,13 +84,14 @@ std::vector<Model> models_of(const gemmi::Structure& structure) {
 
 using Sites = std::vector<gemmi::SmallStructure::Site>;
 
-/// A site's atom where an operation of symmetry has it. U of CIF is along the reciprocal cell's
-/// edges, of length 1: International Tables D, 4.1.10 (2006).
+/// Returns a site's atom at its image under an operation of symmetry. U of CIF is along the
+/// reciprocal cell's edges, of length 1: International Tables D, 4.1.10 (2006).
 Atom image_of(const gemmi::SmallStructure::Site& site, const gemmi::UnitCell& cell,
               const gemmi::Fractional& at, const gemmi::Mat33& turned) {
     Atom atom;
     copy(cell.orthogonalize(at), atom.at);
-    atom.element = site.type_symbol == site.label ? 0 : number_of(site.element); // gemmi copies it
+    // gemmi copies the label in place of a missing symbol.
+    atom.element = site.type_symbol == site.label ? 0 : number_of(site.element);
     atom.name = site.label;
     atom.b_factor = static_cast<float>(site.u_iso * gemmi::u_to_b());
     atom.occupancy = static_cast<float>(site.occ);
@@ -108,16 +109,16 @@ Atom image_of(const gemmi::SmallStructure::Site& site, const gemmi::UnitCell& ce
     return atom;
 }
 
-/// The longest bond of two atoms, in angstrom, with the tolerance of bonds that are drawn.
+/// Returns the longest bond of two atoms, in angstrom, with the tolerance of rendered bonds.
 double longest_bond(const gemmi::SmallStructure::Site& a, const gemmi::SmallStructure::Site& b) {
     constexpr double tolerance = 0.4;
     return static_cast<double>(a.element.covalent_r()) +
            static_cast<double>(b.element.covalent_r()) + tolerance;
 }
 
-/// Which of the sites belong together, as atoms of a molecule that are bonded: for each the first.
+/// Groups sites into molecules of bonded atoms. Returns for each site the first of its molecule.
 std::vector<std::size_t> molecules_of(const Sites& sites, const gemmi::UnitCell& cell) {
-    constexpr std::size_t most = 4000; // of more, each is by itself
+    constexpr std::size_t most = 4000; // with more sites, each is a molecule
     std::vector<std::size_t> first(sites.size());
     std::iota(first.begin(), first.end(), std::size_t{0});
     if (sites.size() > most) return first;
@@ -141,10 +142,10 @@ std::vector<std::size_t> molecules_of(const Sites& sites, const gemmi::UnitCell&
     return first;
 }
 
-/// Operations by index that are left out for some sites.
+/// Flags of the operations that are omitted for some sites, by index.
 using LeftOut = std::vector<char>;
 
-/// Returns for each site the operations whose images are left out, or null for none. Atoms of a
+/// Returns for each site the operations whose images are omitted, or null for none. Atoms of a
 /// negative disorder group have no bonds to their images (SHELXL's PART): images of a molecule's
 /// part that would be bonded exclude each other, and the first is taken. `place` (site, operation)
 /// returns fractional coordinates.
@@ -152,7 +153,7 @@ template <class Place>
 std::vector<std::shared_ptr<const LeftOut>>
 images_left_out(const gemmi::SmallStructure& structure, const std::vector<std::size_t>& molecule,
                 std::size_t operations, const Place& place) {
-    std::size_t most_comparisons = 30'000'000; // crystals take far less
+    std::size_t most_comparisons = 30'000'000; // crystals need far fewer
     const Sites& sites = structure.sites;
     std::map<std::pair<std::size_t, int>, std::vector<std::size_t>> parts;
     for (std::size_t i = 0; i < sites.size(); ++i)
@@ -187,11 +188,11 @@ images_left_out(const gemmi::SmallStructure& structure, const std::vector<std::s
     return result;
 }
 
-/// All atoms of a cell: of images that are as near as atoms never are, the first. Molecules stay
-/// together, and have their middles in the cell.
+/// Returns all atoms of a cell. If images are nearer to each other than atoms can be, takes the
+/// first. Molecules stay together, with their middles in the cell.
 Model model_of(const gemmi::SmallStructure& structure) {
     constexpr double one_place = 0.4 * 0.4; // angstrom^2
-    constexpr double at_edge = 1e-6;        // of a cell: what is rounded is to stay where it is
+    constexpr double at_edge = 1e-6;        // of a cell: rounding must not move a molecule
     const gemmi::UnitCell& cell = structure.cell;
     const Sites& sites = structure.sites;
     Model model;
@@ -233,7 +234,7 @@ Model model_of(const gemmi::SmallStructure& structure) {
     return model;
 }
 
-/// An operation of symmetry with its decimals as parts of 24: "0.5-Y" is "12/24-Y".
+/// Returns an operation of symmetry with its decimals in 24ths: "0.5-Y" becomes "12/24-Y".
 std::string with_fractions(const std::string& operation) {
     constexpr double parts = 24.0;
     std::string result;
@@ -269,8 +270,8 @@ std::string plain_name(const std::string& name) {
     return plain.substr(0, plain.find_last_not_of(' ') + 1);
 }
 
-/// A space group by its name: as it is, with the setting as ICSD has it (H, R; S and Z for origins
-/// 1 and 2), with a bar that older names leave out, or short ("F 4/m -3 2/m" is "F m -3 m").
+/// Finds a space group by its name: unchanged, with the setting in ICSD's notation (H, R; S and Z
+/// for origins 1 and 2), with a bar that older names omit, or short ("F 4/m -3 2/m" is "F m -3 m").
 const gemmi::SpaceGroup* group_of(const std::string& name, const gemmi::UnitCell& cell) {
     const auto find = [&](const std::string& as) {
         return gemmi::find_spacegroup_by_name(as, cell.alpha, cell.gamma);
@@ -304,7 +305,7 @@ void add_operation(const gemmi::Op& op, gemmi::UnitCell& cell) {
 
 constexpr int most_operations = 192; ///< F m -3 m has as many
 
-/// What the file says itself, or else its space group's.
+/// Takes the file's operations, or if it has none, those of its space group.
 void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure,
                      std::vector<std::string>& remarks) {
     for (const char* tag : {"_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz"}) {
@@ -330,7 +331,7 @@ void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure,
             for (const gemmi::Op& op : operations)
                 add_operation(op, structure.cell);
         } catch (const std::exception&) {
-            continue; // it may be misspelt: the other name is left
+            continue; // may be misspelt: tries the other name
         }
         return;
     }
@@ -349,7 +350,7 @@ void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure,
     structure.cell.set_cell_images_from_spacegroup(group);
 }
 
-/// B of CIF, where U is not.
+/// Reads B of CIF for sites without U.
 void read_aniso_b(gemmi::cif::Block& block, Sites& sites) {
     for (auto row : block.find("_atom_site_aniso_",
                                {"label", "B_11", "B_22", "B_33", "B_12", "B_13", "B_23"})) {
@@ -393,7 +394,8 @@ void keep_one_of_each_site(Sites& sites, std::vector<std::string>& remarks) {
                           "): the one of the highest occupancy is shown");
 }
 
-/// The structure of a block; without the sites that have no place.
+/// Returns the structure of a block, without sites that lack coordinates and without alternative
+/// disorder groups.
 gemmi::SmallStructure crystal_of(gemmi::cif::Block& block, std::vector<std::string>& remarks) {
     gemmi::SmallStructure structure = gemmi::make_small_structure_from_block(block);
     if (structure.sites.empty()) return structure;
@@ -430,7 +432,7 @@ gemmi::SmallStructure crystal_of(gemmi::cif::Block& block, std::vector<std::stri
 
 using Tensors = std::map<std::string, std::array<float, 6>, std::less<>>;
 
-/// Displacements of a macromolecule's atoms, by their `id`.
+/// Returns the displacements of a macromolecule's atoms, by `id`.
 Tensors tensors_of(gemmi::cif::Block& block) {
     Tensors tensors;
     for (auto row : block.find("_atom_site_anisotrop.", {"id", "U[1][1]", "U[2][2]", "U[3][3]",
@@ -461,8 +463,9 @@ int whole_number_in(const std::string& text) {
     return number;
 }
 
-/// The models of a macromolecule's table of atoms, which needs no column but the coordinates.
-/// gemmi's own function wants others, and takes a time quadratic in the residues of a chain.
+/// Reads the models of a macromolecule's table of atoms. Only the columns of coordinates are
+/// required. gemmi's own function requires others, and takes a time quadratic in the residues of a
+/// chain.
 std::vector<Model> models_of(gemmi::cif::Block& block) {
     enum : std::size_t {
         x,
@@ -553,7 +556,8 @@ std::vector<Model> models_of(gemmi::cif::Block& block) {
     return models;
 }
 
-/// A file of macromolecules has their coordinates, not parts of a cell.
+/// Returns true for coordinates that are parts of a cell, which files of macromolecules do not
+/// have.
 bool is_small(gemmi::cif::Document& document) {
     return std::any_of(document.blocks.begin(), document.blocks.end(),
                        [](gemmi::cif::Block& block) {

@@ -5,17 +5,18 @@
 #include <string_view>
 #include <vector>
 
-/// What gemmi reads, in plain terms. Its headers want C++17, as does what includes this; the rest
-/// of raylane is not to know them.
+/// Contents of the files that gemmi reads, in plain types. gemmi's headers need C++17, so the unit
+/// that includes them is compiled as C++17, and includes this header. The rest of raylane does not
+/// see them.
 namespace raylane::scenes::gemmi_files {
 
 struct Atom {
     double at[3]; ///< angstrom
-    int element;  ///< atomic number; 0: not said
+    int element;  ///< atomic number; 0: unknown
     std::string name;
     int serial = 0;
-    float b_factor = 0.0F, occupancy = 1.0F; ///< B is U by 8 pi^2
-    char conformer = '\0';                   ///< of places that exclude each other
+    float b_factor = 0.0F, occupancy = 1.0F; ///< B is 8 pi^2 U
+    char conformer = '\0'; ///< name of one of several places that exclude each other
     bool has_u = false;
     float u[6] = {}; ///< U11, U22, U33, U12, U13, U23
 };
@@ -34,21 +35,21 @@ struct Chain {
 };
 
 struct Model {
-    std::string title; ///< empty: that of the model before, but of crystals
+    std::string title; ///< empty: that of the previous model, except for crystals
     bool has_cell = false;
     double edges[3][3] = {};
-    /// Of a small molecule's crystal, one residue without a name, which is all that is in the cell.
+    /// A small molecule's crystal has one residue without a name, with all atoms in the cell.
     std::vector<Chain> chains;
     bool is_small = false;
 };
 
-/// What gemmi refuses: its message, which begins with the name of the file, perhaps with a line.
+/// A refusal by gemmi. Its message begins with the name of the file, perhaps with a line.
 class Refused : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// Throw Refused. Models without atoms are left out. Add differences from the file to `remarks`.
+/// Throw Refused. Omit models without atoms. Add differences from the file to `remarks`.
 std::vector<Model> read_pdb(std::string_view text, const std::string& name);
 std::vector<Model> read_cif(std::string_view text, const std::string& name,
                             std::vector<std::string>& remarks);

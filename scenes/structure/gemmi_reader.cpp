@@ -22,7 +22,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// "file:line:column(byte): message" and the like: the message alone, with its line.
+/// Throws the message of "file:line:column(byte): message" and the like, with its position.
 [[noreturn]] void fail(const std::string& name, std::string text) {
     TextPosition position;
     if (text.starts_with(name + ":")) {
@@ -40,7 +40,7 @@ namespace {
 using Directed = std::vector<std::pair<int, int>>; ///< CONECT's, from one serial to another
 using Orders = std::map<std::pair<int, int>, int>; ///< of bonds, by serial numbers, ascending
 
-/// Each bond is there from both of its ends, a double one twice from each.
+/// Counts orders. Each bond is listed at both of its ends, a double bond twice at each end.
 Orders orders_of(Directed directed) {
     Orders orders;
     std::sort(directed.begin(), directed.end());
@@ -55,17 +55,17 @@ Orders orders_of(Directed directed) {
 
 struct ModelAndBonds {
     gemmi_files::Model model;
-    Directed bonds;        ///< beside those of its entry and of all models
+    Directed bonds;        ///< besides those of its entry and of all models
     std::size_t entry = 0; ///< index
 };
 
-/// Bonds of several models.
+/// Bonds that several models share.
 struct SharedBonds {
     Directed of_all;
-    std::vector<Directed> of_entry; ///< of the parts that END separates
+    std::vector<Directed> of_entry; ///< of each part that END separates
 };
 
-/// Models, one after the other.
+/// Returns models, one after the other.
 class ModelReader : public FrameReader {
   public:
     ModelReader(std::string file, std::vector<ModelAndBonds> models, SharedBonds shared)
@@ -111,7 +111,7 @@ class ModelReader : public FrameReader {
     }
 
   private:
-    /// Keeps the displacements of atoms that have B alone.
+    /// Sets the displacements of atoms that have only B.
     static void add_isotropies(Structure& frame) {
         constexpr float b_of_u = 78.956835F; // 8 pi^2
         for (const float b : frame.properties[0].values)
@@ -120,8 +120,8 @@ class ModelReader : public FrameReader {
             frame.isotropies[of.atom] = 0.0F;
     }
 
-    /// Of places that exclude each other, adds those of the first, `conformer`, of which residues
-    /// of one number (1CBN has SER or PRO as residue 22) share one.
+    /// Adds a residue's atoms. If places exclude each other, adds only those of the first,
+    /// `conformer`. Residues with one number share it (1CBN has SER or PRO as residue 22).
     void add(const gemmi_files::Residue& residue, bool is_small, char& conformer, Structure& frame,
              KindTable& kinds, std::unordered_map<int, AtomIndex>& atom_of) const {
         const auto index = static_cast<std::uint32_t>(frame.of_residue.size());
@@ -136,7 +136,7 @@ class ModelReader : public FrameReader {
             if (conformer == '\0') conformer = atom.conformer;
             if (atom.conformer != '\0' && atom.conformer != conformer) continue;
             const auto at = static_cast<AtomIndex>(frame.size());
-            for (const double coordinate : atom.at) // may be none of a float's
+            for (const double coordinate : atom.at) // may be out of a float's range
                 if (!(std::abs(coordinate) <= static_cast<double>(core::coordinate_limit)))
                     throw BadInput(file_, "",
                                    "the coordinates of " + printable(atom.name) +
@@ -173,13 +173,13 @@ bool is_atom(std::string_view line) {
     return line.starts_with("ATOM") || line.starts_with("HETATM");
 }
 
-/// A field of a record, without blanks. Columns count from 1, as in the PDB format.
+/// Returns a field of a record, without blanks. Columns count from 1, as in the PDB format.
 std::string_view field(std::string_view line, std::size_t column, std::size_t width) {
     return line.size() < column ? std::string_view() : trimmed(line.substr(column - 1, width));
 }
 
-/// Residues whose names of atoms begin in column 13 throughout, where only symbols of two letters
-/// and names of four should: AMBER, CHARMM and older tools write so.
+/// Residues whose atom names all begin in column 13, where only symbols of two letters and names of
+/// four should begin. AMBER, CHARMM and older tools write these.
 class ShiftedResidues {
   public:
     ShiftedResidues(const InputFile& file, std::string_view text) {
@@ -197,7 +197,7 @@ class ShiftedResidues {
         }
     }
 
-    /// Those of which the names do not tell are as the polymers are.
+    /// Returns true for a shifted residue. If its names do not tell, those of the polymers decide.
     bool has(std::string_view line) const {
         const auto of = columns_.find(residue_of(line)), of_polymers = columns_.find(polymers);
         if (of != columns_.end() && of->second.has_14) return false;
@@ -207,17 +207,17 @@ class ShiftedResidues {
 
   private:
     struct Columns {
-        bool has_14 = false, has_early_13 = false; ///< that names begin in
+        bool has_14 = false, has_early_13 = false; ///< columns in which names begin
         bool is_shifted() const { return has_early_13 && !has_14; }
     };
 
     static constexpr std::string_view polymers = "polymers";
-    /// The name of its residue, or `polymers`.
+    /// Returns the name of the line's residue, or `polymers`.
     static std::string_view residue_of(std::string_view line) {
         const std::string_view residue = field(line, 18, 3);
         return is_polymer_residue(residue) ? polymers : residue;
     }
-    /// True for a symbol of one letter: "C", "O1", "N1A".
+    /// Returns true for a name with a symbol of one letter: "C", "O1", "N1A".
     static bool is_one_letter(std::string_view name) {
         return is_letter(name[0]) && (name.size() == 1 || !is_letter(name[1])) &&
                element_of(name.substr(0, 1)) != 0;
@@ -226,8 +226,8 @@ class ShiftedResidues {
     std::map<std::string, Columns, std::less<>> columns_;
 };
 
-/// The element of an atom of a PDB file that does not say it: an ion's, by columns, and where these
-/// are of no use, by the name and its residue.
+/// Returns the element of an atom for which a PDB file has none: an ion's; by columns; or, if the
+/// columns are of no use, by the name and its residue.
 Element element_of_record(std::string_view line, bool is_shifted) {
     const std::string_view name = field(line, 13, 4), residue = field(line, 18, 3);
     if (const Element element = element_of_ion(name, residue)) return element;
@@ -239,7 +239,7 @@ Element element_of_record(std::string_view line, bool is_shifted) {
     return element_of_atom(name, residue);
 }
 
-/// One model of a PDB file, as gemmi reads it.
+/// One model of a PDB file, as text for gemmi.
 struct ModelText {
     std::string text;
     std::size_t lines_of_head = 0;
@@ -248,12 +248,12 @@ struct ModelText {
     std::size_t entry = 0;
 };
 
-/// Takes a PDB file apart into models. gemmi wants their numbers to be unique, and leaves CONECT
-/// out. That is of the model that it stands in. Elsewhere it is of the models that END separates
-/// from others, as where files have been joined, and of all models if END leaves it none.
+/// Splits a PDB file into models. gemmi needs their numbers to be unique, and ignores CONECT.
+/// CONECT in a model applies to that model. Elsewhere it applies to the models that END separates
+/// from others, as in joined files, or to all models if END leaves it without any.
 class PdbModels {
   public:
-    /// `text` has to stay as long as this does.
+    /// `text` must outlive this object.
     PdbModels(const InputFile& file, std::string_view text) : file_(file), text_(text) {
         InputFile again(file.name(), text);
         for (Lines lines(again); lines.next();)
@@ -294,7 +294,7 @@ class PdbModels {
             append(models_.back().text, line);
             return;
         }
-        // Of other records nothing is drawn, and gemmi reads beyond the end of some (LINK, "NaN").
+        // Other records are not rendered, and gemmi reads beyond the end of some (LINK, "NaN").
         if (is_open_) append(models_.back().text, {});
     }
 
@@ -321,7 +321,7 @@ class PdbModels {
 
     void open(std::uint64_t line) {
         ModelText& model = models_.emplace_back();
-        if (is_title_new_) model.text = title_; // which the next ones share
+        if (is_title_new_) model.text = title_; // which the next models share
         is_title_new_ = false;
         model.text += cell_;
         model.entry = shared_.of_entry.size() - 1;
@@ -331,15 +331,16 @@ class PdbModels {
         is_open_ = true;
     }
 
-    /// No PDB has other characters, and gemmi shifts their bits into signs.
+    /// Replaces characters other than ASCII, which PDB does not have, and whose bits gemmi shifts
+    /// into signs.
     static void append(std::string& text, std::string_view line) {
         for (const char c : line)
             text.push_back(static_cast<unsigned char>(c) > 127 ? '?' : c);
         text.push_back('\n');
     }
 
-    /// Refuses coordinates that are no numbers, which gemmi takes without a word. Says the element
-    /// that the file does not, and leaves the charge out, which gemmi is strict about.
+    /// Refuses coordinates that are not numbers, which gemmi accepts silently. Adds the element if
+    /// the file lacks it. Omits the charge, about which gemmi is strict.
     void append_atom(const Lines& lines) {
         constexpr std::size_t symbol = 76, charge = 78;
         std::string_view line = lines.text();
@@ -370,22 +371,23 @@ class PdbModels {
             if (const int to = serial(column); to != 0 && to != from) bonds.emplace_back(from, to);
     }
 
-    /// Without limits, titles and cells that many models have would take the square of the file.
+    /// Without limits, titles and cells that many models share would take the square of the file's
+    /// size.
     static constexpr std::size_t longest_title = 4096, longest_record = 80;
 
     const InputFile& file_;
     std::string_view text_;
-    std::optional<ShiftedResidues> shifted_; ///< once an element has been looked for
-    bool is_open_ = false;                   ///< atoms go on with the last model
+    std::optional<ShiftedResidues> shifted_; ///< set when an element is first missing
+    bool is_open_ = false;                   ///< further atoms belong to the last model
     bool in_model_ = false;                  ///< between MODEL and ENDMDL
-    bool is_title_new_ = false;              ///< no model has it yet
+    bool is_title_new_ = false;              ///< no model has the title yet
     bool is_title_of_last_entry_ = false;
     std::string title_, cell_;
     std::vector<ModelText> models_;
     SharedBonds shared_{.of_all = {}, .of_entry = {{}}};
 };
 
-/// gemmi's message with the line of the file, not of the model's text.
+/// Returns gemmi's message with the line in the file, not in the model's text.
 std::string with_line_of(const ModelText& model, const std::string& file, std::string message) {
     std::size_t line = 0;
     if (std::sscanf(message.c_str(), "Problem in line %zu:", &line) != 1 || // NOLINT

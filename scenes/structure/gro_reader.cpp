@@ -20,7 +20,7 @@ class GroReader : public FrameReader {
 
     bool next(Structure& frame) override {
         frame = {};
-        // Blank lines at the end are no frame.
+        // Blank lines at the end are not a frame.
         bool any = lines_.next();
         const std::string title(trimmed(any ? lines_.text() : std::string_view()));
         bool has_count = any && lines_.next();
@@ -50,7 +50,8 @@ class GroReader : public FrameReader {
     }
 
   private:
-    /// Fields have their places in the line: those of the numbers are as far apart as their points.
+    /// Reads fields at fixed columns. Fields of numbers are as wide as the distance of their
+    /// decimal points.
     void read_atom(Structure& frame, KindTable& kinds) {
         const std::string_view line = lines_.text();
         constexpr std::size_t first = 20;
@@ -89,8 +90,7 @@ class GroReader : public FrameReader {
         frame.residues.push_back(static_cast<std::uint32_t>(frame.of_residue.size() - 1));
     }
 
-    /// v1(x) v2(y) v3(z) v1(y) v1(z) v2(x) v2(z) v3(x) v3(y), of which the last six may be left
-    /// out.
+    /// Reads v1(x) v2(y) v3(z) v1(y) v1(z) v2(x) v2(z) v3(x) v3(y). The last six may be missing.
     void read_box(Structure& frame) {
         Words words(lines_);
         double box[9] = {};

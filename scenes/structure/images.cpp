@@ -9,7 +9,7 @@ using core::Vec3d;
 
 namespace {
 
-/// In how many cells' distance along each edge the nearest image of `b` to `a` is.
+/// Returns the distance, in cells along each edge, to the image of `b` that is nearest to `a`.
 std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& b) {
     const Vec3d &u = cell.edges[0], &v = cell.edges[1], &w = cell.edges[2];
     const double volume = core::dot(u, core::cross(v, w));
@@ -22,13 +22,13 @@ std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& 
         if (!cell.periodic[k] || !(std::abs(part) < 1e6)) continue;
         cells[k] = -static_cast<int>(std::lround(part));
     }
-    // In a cell that leans, one of those around may be nearer.
+    // In an oblique cell, one of the surrounding cells may be nearer.
     const auto squared = [&](const std::array<int, 3>& of) {
         const Vec3d at = way + static_cast<double>(of[0]) * u + static_cast<double>(of[1]) * v +
                          static_cast<double>(of[2]) * w;
         return core::dot(at, at);
     };
-    // What is as near stays where it is.
+    // If images are equally near, the original one is taken.
     std::array<int, 3> best{};
     for (int i = -1; i <= 1; ++i)
         for (int j = -1; j <= 1; ++j)
@@ -46,7 +46,7 @@ std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& 
 
 std::vector<Vec3d> offsets_of_images(const Cell& cell, const std::array<int, 3>& repeat) {
     std::vector<Vec3d> offsets;
-    // An edge that is no number is not asked for where there is one cell along it.
+    // An edge that is not a number is unused if there is one cell along it.
     const auto along = [&](std::size_t edge, int cells) {
         return cells == 0 ? Vec3d(0.0) : static_cast<double>(cells) * cell.edges[edge];
     };

@@ -12,13 +12,13 @@
 
 namespace raylane::scenes {
 
-/// The kinds of a structure, by label.
+/// The kinds of a structure's atoms, by label.
 class KindTable {
   public:
     explicit KindTable(std::vector<AtomKind>& kinds) : kinds_(kinds) { kinds_.clear(); }
 
-    /// The index of a label's kind, which is new if there has been none of it. One above the last
-    /// if there are too many.
+    /// Returns the index of a label's kind, and adds the kind if it is new. Returns one above the
+    /// last index if there are too many kinds.
     template <class ElementOf>
     std::size_t index_of(std::string_view label, const ElementOf& element_of) {
         if (last_ < kinds_.size() && kinds_[last_].label == label) return last_;

@@ -19,21 +19,21 @@ bool is_one_of(const std::string_view (&words)[count], std::string_view word) {
     return std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
-/// From the first letter on.
+/// Returns the label from its first letter on.
 std::string_view from_letter(std::string_view label) {
     while (!label.empty() && !is_letter(label.front()))
         label.remove_prefix(1);
     return label;
 }
 
-/// The letters that it begins with.
+/// Returns the letters that the label begins with.
 std::string_view first_letters(std::string_view label) {
     return label.substr(
         0, static_cast<std::size_t>(std::find_if_not(label.begin(), label.end(), is_letter) -
                                     label.begin()));
 }
 
-/// The element of the first two letters; 0 where they are none.
+/// Returns the element of the first two letters, or 0.
 Element element_of_two(std::string_view letters) {
     if (letters.size() < 2) return 0;
     return element_of(letters.substr(0, 2));

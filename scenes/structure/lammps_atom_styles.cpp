@@ -14,8 +14,8 @@ struct StyleRow {
     bool allows_bonds = false;
 };
 
-// Styles with the same columns stand behind the one that a guess names, and older forms of a style
-// behind the usual one.
+// A guess names the first of the styles with the same columns, so the others come after it. Older
+// forms of a style come after the usual one.
 constexpr StyleRow rows[] = {
     {"atomic", "type x y z"},
     {"charge", "type charge x y z"},
@@ -90,7 +90,7 @@ AtomLayout layout_of(const StyleRow& row) {
     return {std::string(row.name), words_of(row.columns), row.allows_bonds, false};
 }
 
-/// Adds the concentrations of tdpd, or where their number is unknown allows for any columns.
+/// Adds the concentrations of tdpd. If their number is unknown, allows any columns instead.
 void add_species(AtomLayout& layout, std::string_view count) {
     const int number = to_int(count).value_or(0);
     layout.is_open = number < 1 || number > static_cast<int>(std::size(species));
@@ -98,7 +98,7 @@ void add_species(AtomLayout& layout, std::string_view count) {
         layout.columns.insert(layout.columns.end(), std::begin(species), species + number);
 }
 
-/// True if LAMMPS has one field for two columns of different names.
+/// Returns true if LAMMPS has one field for two columns of different names.
 bool is_same_field(std::string_view a, std::string_view b) {
     const auto is_pair = [&](std::string_view one, std::string_view other) {
         return (a == one && b == other) || (a == other && b == one);
@@ -107,7 +107,7 @@ bool is_same_field(std::string_view a, std::string_view b) {
 }
 
 /// Returns the layout of sub-styles with their arguments: the five columns that all of them have,
-/// and then the others of each one. None for an unknown sub-style.
+/// and then the others of each one. Returns nothing for an unknown sub-style.
 std::vector<AtomLayout> hybrid_of(const std::vector<std::string_view>& words) {
     AtomLayout all{"hybrid", {"type", "x", "y", "z"}, words.size() == 1, words.size() == 1};
     std::string_view sub_style;
@@ -121,7 +121,7 @@ std::vector<AtomLayout> hybrid_of(const std::vector<std::string_view>& words) {
         AtomLayout one = layouts_of(sub_style)[0];
         if (sub_style == "tdpd") add_species(one, i + 1 < words.size() ? words[i + 1] : "");
         all.allows_bonds = all.allows_bonds || one.allows_bonds;
-        if (all.is_open) continue; // its columns are behind those of unknown number
+        if (all.is_open) continue; // its columns follow an unknown number of others
         all.is_open = one.is_open;
         for (const std::string_view column : one.columns)
             if (std::none_of(all.columns.begin(), all.columns.end(),

@@ -13,8 +13,8 @@ namespace raylane::scenes {
 namespace {
 
 constexpr std::size_t image_flags = 3;
-constexpr std::size_t last_of_types = 4; // template has its type there
-constexpr float largest_whole = 0x1p24F; // that a float tells from its neighbours
+constexpr std::size_t last_of_types = 4; // template has its type here
+constexpr float largest_whole = 0x1p24F; // a float distinguishes it from its neighbours
 constexpr float above_zero = std::numeric_limits<float>::denorm_min();
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
@@ -55,7 +55,7 @@ constexpr ColumnRule rules[] = {
     {"spz", false, -1.0F, 1.0F, {}},
 };
 
-/// Returns nothing for a text. NaN, infinity and numbers too large for a float are NaN.
+/// Returns nothing for a text. Returns NaN for NaN, infinity and numbers too large for a float.
 std::optional<float> value_of(std::string_view word) {
     if (const auto leading = leading_number(word); leading && leading->length == word.size())
         return leading->value;
@@ -76,7 +76,7 @@ bool is_whole_number(std::string_view word) {
            std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Keeps those that `speaks_for` is true of, if there are any.
+/// Keeps only the layouts for which `speaks_for` is true, if there are any.
 void prefer(std::vector<AtomLayout>& layouts, const auto& speaks_for) {
     std::vector<AtomLayout> preferred;
     std::copy_if(layouts.begin(), layouts.end(), std::back_inserter(preferred), speaks_for);
@@ -88,7 +88,7 @@ class Evidence {
   public:
     Evidence(const AtomTable& table, const LammpsHeader& header) : table_(table), header_(header) {}
 
-    /// False if a value contradicts the meaning of its column, or a count of the header.
+    /// Returns false if a value contradicts the meaning of its column, or a count of the header.
     bool allows(const AtomLayout& layout) const {
         const auto has = [&](std::string_view count) { return header_.count(count) > 0; };
         if ((has("bonds") || has("angles") || has("dihedrals") || has("impropers")) &&
@@ -108,8 +108,8 @@ class Evidence {
         return spins == 0 || has_unit_spins(spins);
     }
 
-    /// True if all atoms are in the box or less than a box away from it, as the atoms of molecules
-    /// in one piece are.
+    /// Returns true if all atoms are in the box or less than a box away from it, as the atoms of
+    /// unbroken molecules are.
     bool is_in_box(const AtomLayout& layout) const {
         const auto& edges = header_.cell.edges;
         const std::array<core::Vec3d, 3> normals = {core::cross(edges[1], edges[2]),
@@ -158,7 +158,7 @@ class Evidence {
 
     /// Removes layouts that are less probable than others.
     void prefer_probable(std::vector<AtomLayout>& layouts) const {
-        // Three columns are of unit length together by no accident.
+        // Three columns do not form unit vectors by accident.
         prefer(layouts, [&](const AtomLayout& layout) {
             const std::size_t spins = layout.index_of("spx");
             return spins != 0 && has_unit_spins(spins);
@@ -176,7 +176,7 @@ class Evidence {
             prefer(layouts, [&](const AtomLayout& layout) { return decimals(layout) > 0; });
     }
 
-    /// True if two layouts put atoms of the same types at the same positions.
+    /// Returns true if two layouts put atoms of the same types at the same positions.
     bool same_atoms(const AtomLayout& a, const AtomLayout& b) const {
         if (a.index_of("x") != b.index_of("x")) return false;
         const std::size_t of_a = a.index_of("type"), of_b = b.index_of("type");
@@ -189,7 +189,7 @@ class Evidence {
             std::count(column.values.begin(), column.values.end(), 1.0F));
     }
 
-    /// True if there are spins, all of unit length or zero.
+    /// Returns true if there are spins, all of unit length or zero.
     bool has_unit_spins(std::size_t first) const {
         bool has_some = false;
         for (std::size_t atom = 0; atom < table_.size(); ++atom) {
@@ -355,7 +355,7 @@ std::vector<AtomLayout> layouts_that_fit(const AtomTable& table, const LammpsHea
             layouts.push_back(std::move(layout));
     evidence.prefer_masses(layouts);
 
-    // Hybrid styles fit most tables, and are not guessed. They forbid a guess that would put all
+    // Hybrid styles fit most tables, and are not guessed. They prevent a guess that would put all
     // atoms on a line.
     const AtomLayout hybrid = layouts_of("hybrid")[0];
     const auto in_box = [&](const AtomLayout& layout) { return evidence.is_in_box(layout); };

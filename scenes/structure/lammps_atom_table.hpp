@@ -14,23 +14,23 @@
 
 namespace raylane::scenes {
 
-/// The lines of the section Atoms of LAMMPS' data as columns of numbers, and the facts about these
-/// that tell which atom style they have.
+/// The lines of the section Atoms of LAMMPS' data as columns of numbers, and the facts about the
+/// columns that tell the atom style.
 class AtomTable {
   public:
-    static constexpr std::size_t most_columns = 64; ///< that are kept
+    static constexpr std::size_t most_columns = 64; ///< that are stored
 
-    /// A word and where it stands.
+    /// A word and its position.
     struct Word {
         TextPosition place;
         std::string text;
     };
     struct Column {
-        std::vector<float> values;         ///< NaN where the word is no finite number
-        std::vector<std::uint16_t> labels; ///< 1 + index in texts(), or 0; empty: numbers alone
+        std::vector<float> values;         ///< NaN if the word is not a finite number
+        std::vector<std::uint16_t> labels; ///< 1 + index in texts(), or 0; empty: only numbers
         float least = std::numeric_limits<float>::infinity(), most = -least;
         TextPosition at_least, at_most;
-        /// The first word that is no number, no finite number, a number with decimals.
+        /// The first word that is not a number, not a finite number, a number with decimals.
         std::optional<Word> text, not_finite, not_whole;
     };
 
@@ -38,12 +38,12 @@ class AtomTable {
     AtomTable(const AtomTable&) = delete;
     AtomTable& operator=(const AtomTable&) = delete;
 
-    /// Adds a line. Throws BadInput if its first word is no number of an atom.
+    /// Adds a line. Throws BadInput if its first word is not the number of an atom.
     void add(const Lines& lines);
 
     std::size_t size() const { return ids_.size(); }
     const std::vector<long long>& ids() const { return ids_; }
-    /// Columns counted from 0, the number of the atom, which has no values here. Valid up to
+    /// Returns a column. Column 0 is the number of the atom, and has no values here. Valid up to
     /// least_width() and most_columns.
     Column& column(std::size_t index) { return columns_[index]; }
     const Column& column(std::size_t index) const { return columns_[index]; }
@@ -79,19 +79,18 @@ struct Misfit {
     std::string message; ///< "an atom type must be a whole number from 1 to 2, got 0.5"
 };
 
-/// Checks the rules that LAMMPS has for a line: the number of columns, with or without three image
-/// flags, types from 1 to "atom types" or labels, and whole numbers where there must be some. A
-/// misfit in the number of columns has no place.
+/// Checks LAMMPS' rules for a line: the number of columns, with or without three image flags; types
+/// from 1 to "atom types", or labels; and whole numbers where they are required. Returns the first
+/// misfit. A misfit in the number of columns has no place.
 std::optional<Misfit> misfit_of(const AtomTable& table, const AtomLayout& layout,
                                 const LammpsHeader& header);
 
-/// Returns the most probable of some layouts without a misfit; nothing if each has one.
+/// Returns the most probable of the layouts without a misfit; nothing if each has one.
 std::optional<AtomLayout> probable_layout(std::vector<AtomLayout> layouts, const AtomTable& table,
                                           const LammpsHeader& header);
 
-/// Returns the layouts that the table may have by all evidence, the most usual first. If
-/// layouts have the same positions and types, returns the first alone. Never returns an open
-/// layout.
+/// Returns the layouts that agree with all evidence, the most usual first. If layouts have the same
+/// positions and types, returns only the first. Never returns an open layout.
 std::vector<AtomLayout> layouts_that_fit(const AtomTable& table, const LammpsHeader& header);
 
 } // namespace raylane::scenes

@@ -69,7 +69,7 @@ class DataReader : public FrameReader {
         if (was_read_) return false;
         was_read_ = true;
         frame = {};
-        lines_.next(); // a remark, whatever it says
+        lines_.next(); // a comment with any content
         frame.title = trimmed(lines_.text());
         read_header();
         frame.cell = header_.cell;
@@ -91,7 +91,7 @@ class DataReader : public FrameReader {
         return trimmed(line.substr(0, line.find('#')));
     }
 
-    /// The line without its remark, and with one blank between words.
+    /// Returns the line without its comment, and with one blank between words.
     std::string words_of_line() const {
         std::string all;
         Words words(lines_);
@@ -108,7 +108,7 @@ class DataReader : public FrameReader {
             options_.on_remark(text_of({file_.name(), {.line = line}, {}, message}));
     }
 
-    /// Goes on to the next line that is not blank.
+    /// Goes to the next line that is not blank. Returns false at the end of the file.
     bool next_of_text() {
         is_after_blank_ = false;
         while (lines_.next()) {
@@ -162,7 +162,7 @@ class DataReader : public FrameReader {
                               core::Vec3d(lean[1], lean[2], upper[2] - lower[2])};
     }
 
-    /// True if the line begins with a letter and has no number.
+    /// Returns true if the line begins with a letter and has no number.
     bool has_words_alone() const {
         if (!is_letter(without_remark(lines_.text())[0])) return false;
         Words words(lines_);
@@ -172,16 +172,15 @@ class DataReader : public FrameReader {
         return true;
     }
 
-    /// True at the line of a section. Other lines may begin with the label of a type, and then have
-    /// a number. Names of fixes stand for sections, too, behind a blank line.
+    /// Returns true at the line of a section. Other lines may begin with the label of a type, and
+    /// then have a number. After a blank line, names of fixes are sections, too.
     bool at_section() const {
         const std::string_view line = without_remark(lines_.text());
         return is_letter(line[0]) &&
                (is_known_section(words_of_line()) || (is_after_blank_ && has_words_alone()));
     }
 
-    /// Skips the names of columns that stand directly behind a section's name, where LAMMPS skips
-    /// any line.
+    /// Skips the names of columns directly after a section's name, where LAMMPS skips any line.
     void skip_column_names() {
         if (!lines_.next()) return;
         const std::string_view line = without_remark(lines_.text());
@@ -214,7 +213,7 @@ class DataReader : public FrameReader {
             skip_section();
     }
 
-    /// True while there are lines of a section.
+    /// Goes to the next line of a section. Returns false at the section's end.
     bool next_of_section() {
         if (!next_of_text()) return false;
         if (at_section()) {
@@ -246,7 +245,7 @@ class DataReader : public FrameReader {
         }
     }
 
-    /// The label of a type, whether a line has that or the number.
+    /// Returns the label of a type, which a line gives by its label or by its number.
     const std::string& label_of(const std::string& type) const {
         const auto found = labels_.find(type);
         return found == labels_.end() ? type : found->second;
@@ -378,7 +377,8 @@ class DataReader : public FrameReader {
         frame.has_all_bonds = true;
     }
 
-    /// Reads three diameters and a quaternion for each ellipsoid. Diameters of zero are a point's.
+    /// Reads three diameters and a quaternion for each ellipsoid. Three diameters of zero are a
+    /// point's.
     void read_ellipsoids(Structure& frame) {
         frame.radii.resize(frame.size());
         while (next_of_section()) {

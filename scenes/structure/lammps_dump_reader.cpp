@@ -64,7 +64,7 @@ class DumpReader : public FrameReader {
         if (!lines_.next()) lines_.fail(std::string("must be ") + what + ", and the file ends");
     }
 
-    /// The bounds of what encloses a box that leans: of the box itself where it does not.
+    /// Reads the bounds of the box. A tilted box has those of its bounding box.
     void read_box(Cell& cell, std::string_view flags) {
         double lower[3], upper[3], lean[3] = {}; // xy, xz, yz
         const bool is_tilted = flags.find("xy") != std::string_view::npos;
@@ -89,7 +89,7 @@ class DumpReader : public FrameReader {
         read_periodic(cell, flags);
     }
 
-    /// Three edges, and at the end of their lines the origin.
+    /// Reads three edges. Each line ends with a coordinate of the origin.
     void read_general_box(Cell& cell) {
         for (std::size_t edge = 0; edge < 3; ++edge) {
             next_line("an edge of the box");
@@ -100,7 +100,7 @@ class DumpReader : public FrameReader {
         }
     }
 
-    /// "pp": both sides of an axis.
+    /// Reads the periodicity: "pp" is periodic on both sides of an axis.
     static void read_periodic(Cell& cell, std::string_view flags) {
         std::size_t axis = 0;
         while (axis < 3) {
@@ -135,7 +135,7 @@ class DumpReader : public FrameReader {
                                          ? static_cast<std::size_t>(name[0] - 'x')
                                          : std::size_t{3};
             const std::string_view rest = name.substr(1);
-            const bool is_scaled = rest == "s" || rest == "su"; // one of them: all
+            const bool is_scaled = rest == "s" || rest == "su"; // if one is scaled, all are
             if (axis < 3 && (rest.empty() || rest == "u" || is_scaled) && !seen[axis]) {
                 seen[axis] = true;
                 is_scaled_ = is_scaled_ || is_scaled;
@@ -165,7 +165,7 @@ class DumpReader : public FrameReader {
 
     void read_atoms(Structure& frame, std::string_view names, std::size_t count) {
         read_columns(frame, names);
-        // No more than the file can hold: each number has a byte and a blank.
+        // Reserves no more than the file can hold: each number takes a byte and a blank.
         const std::size_t bytes =
             file_.size() != 0 ? static_cast<std::size_t>(file_.size()) : std::size_t{1} << 23;
         const std::size_t room = bytes / (2 * columns_.size());
@@ -227,10 +227,10 @@ class DumpReader : public FrameReader {
         frame.kinds.push_back(static_cast<std::uint16_t>(kind));
     }
 
-    /// Of a word, as a molecule's name may be one, not a number.
+    /// Returns NaN for a word that is not a number, such as a molecule's name.
     static float value_of(std::string_view word) {
         if (const std::optional<float> nearest = to_float(word)) return *nearest;
-        const double value = number_in(word).value_or(std::nan("")); // a Fortran exponent, or none
+        const double value = number_in(word).value_or(std::nan("")); // Fortran exponent, or text
         constexpr auto most = static_cast<double>(std::numeric_limits<float>::max());
         return static_cast<float>(std::abs(value) <= most ? value : std::nan(""));
     }

@@ -8,12 +8,13 @@
 
 namespace raylane::scenes {
 
-/// What the shapes of a drawing stand for.
+/// The meaning of a drawing's shapes.
 struct Legend {
     Structure structure;
-    std::vector<AtomPair> atoms_of_shape; ///< by shape id; empty: no file of atoms
+    std::vector<AtomPair> atoms_of_shape; ///< by shape id; empty: not from a file of atoms
 
-    /// "atom 12, CA of ALA 25 in chain A (C)" and the like; empty of what is no atom's.
+    /// Returns "atom 12, CA of ALA 25 in chain A (C)" and the like; empty if the shape is not an
+    /// atom's.
     std::string of(core::ShapeId shape) const;
 };
 

@@ -60,7 +60,7 @@ bool Lines::next() {
     return true;
 }
 
-/// Moves what is left to the start of the buffer, and reads behind it.
+/// Moves the rest to the start of the buffer, and reads more. Returns false at the end of the file.
 bool Lines::refill() {
     if (at_end_) return false;
     const std::size_t left = end_ - begin_;
@@ -123,7 +123,7 @@ float Words::coordinate(std::string_view what) {
         }
     const std::optional<float> nearest = to_float(get(what));
     if (nearest && std::abs(*nearest) <= core::coordinate_limit) return *nearest;
-    position_ = before; // with a Fortran exponent, or none
+    position_ = before; // a Fortran exponent, or no number
     const double value = number(what);
     if (!(std::abs(value) <= static_cast<double>(core::coordinate_limit)))
         fail(std::string(what) + " must be from -1e30 to 1e30");

@@ -11,11 +11,11 @@ namespace raylane::scenes {
 
 /// Options of readers.
 struct ReaderOptions {
-    std::string atom_style; ///< of LAMMPS' data, as its command atom_style has it, or empty
+    std::string atom_style; ///< of LAMMPS' data, as in the command atom_style, or empty
     OnRemark on_remark;
 };
 
-/// A file's frames, one after the other.
+/// Reads a file's frames, one after the other.
 class FrameReader {
   public:
     FrameReader() = default;
@@ -23,23 +23,23 @@ class FrameReader {
     FrameReader(const FrameReader&) = delete;
     FrameReader& operator=(const FrameReader&) = delete;
 
-    /// Reads the next frame, in place of what is there; false if there are no more. Throws
-    /// BadInput, with the line, and SystemRefused.
+    /// Reads the next frame into `frame`, and replaces its contents. Returns false after the last
+    /// frame. Throws BadInput, with the line, and SystemRefused.
     virtual bool next(Structure& frame) = 0;
 };
 
-/// XYZ: the number of atoms, a remark, and lines of an element and three coordinates; with
-/// `Properties=` and `Lattice=` in the remark extended XYZ, as ASE and OVITO have it.
+/// Reads XYZ: the number of atoms, a comment, and lines of an element and three coordinates. With
+/// `Properties=` and `Lattice=` in the comment, reads extended XYZ, as written by ASE and OVITO.
 std::unique_ptr<FrameReader> open_xyz(InputFile& file);
-/// GROMACS' GRO, in nanometres, with as many decimals as it has.
+/// Reads GROMACS' GRO, in nanometres, with any number of decimals.
 std::unique_ptr<FrameReader> open_gro(InputFile& file);
-/// LAMMPS' dump of atoms: `ITEM: ATOMS` with x, y, z, scaled (xs) or unwrapped (xu, xsu).
+/// Reads LAMMPS' dump of atoms: `ITEM: ATOMS` with x, y, z, scaled (xs) or unwrapped (xu, xsu).
 std::unique_ptr<FrameReader> open_lammps_dump(InputFile& file);
-/// Reads LAMMPS' data of any atom style. The options or a remark behind "Atoms" name the style.
-/// Without them it follows from the columns, and BadInput is thrown if several styles fit these.
+/// Reads LAMMPS' data of any atom style. The options, or a comment after "Atoms", name the style.
+/// Without them the style follows from the columns. Throws BadInput if several styles fit these.
 std::unique_ptr<FrameReader> open_lammps_data(InputFile& file, const ReaderOptions& options);
-/// PDB, of which each MODEL is a frame; and mmCIF or a small molecule's CIF. By gemmi; without it,
-/// BadInput says so.
+/// Read PDB, in which each MODEL is a frame, and mmCIF or a small molecule's CIF. Without gemmi,
+/// throw BadInput.
 std::unique_ptr<FrameReader> open_pdb(InputFile& file);
 std::unique_ptr<FrameReader> open_cif(InputFile& file, const ReaderOptions& options);
 

@@ -52,7 +52,7 @@ Selected atoms_within(const Structure& structure, const Selected& of, float reac
     return result;
 }
 
-/// Words of the language, but for and, or and of.
+/// Words of the language, except and, or and of.
 constexpr std::array<std::string_view, 16> keywords = {
     "all",   "none",    "protein", "nucleic", "water", "hetero", "hydrogen", "backbone",
     "chain", "residue", "element", "name",    "type",  "index",  "within",   "not"};
@@ -76,7 +76,7 @@ class Parser {
     std::string place_of(std::string_view word) const {
         return "column " + std::to_string(word.data() - text_.data() + 1);
     }
-    /// At a word of the expression, be it behind the parser already.
+    /// Throws for a word of the expression, which may be behind the parser already.
     [[noreturn]] void fail_at(std::string_view word, const std::string& message) const {
         throw BadInput(option_, place_of(word), message);
     }
@@ -95,7 +95,7 @@ class Parser {
                                                "\"" + printable(word) + "\" matches no " + what}));
     }
 
-    /// Words end at blanks, parentheses and comparisons.
+    /// Goes to the next word. Words end at blanks, parentheses and comparisons.
     void advance() {
         while (position_ < text_.size() &&
                (text_[position_] == ' ' || text_[position_] == '\t' || text_[position_] == ','))
@@ -119,7 +119,7 @@ class Parser {
         advance();
         return true;
     }
-    /// The word that is there, for a message.
+    /// Returns the current word for a message.
     std::string got() const { return word_.empty() ? "nothing" : '"' + printable(word_) + '"'; }
     std::string_view taken(const char* what) {
         if (word_.empty()) fail(std::string("must be ") + what + ", got nothing");
@@ -235,7 +235,7 @@ class Parser {
                std::none_of(keywords.begin(), keywords.end(),
                             [&](std::string_view keyword) { return is_same(word_, keyword); });
     }
-    /// The words up to one of the language; at least one.
+    /// Returns the words up to a keyword; at least one.
     std::vector<std::string_view> list(const char* what) {
         if (!is_in_list()) fail(std::string("must be ") + what + ", got " + got());
         std::vector<std::string_view> result;
@@ -257,7 +257,7 @@ class Parser {
     }
 
     using Range = std::pair<long long, long long>;
-    /// "17" or "20-30"; a number may be negative.
+    /// Parses "17" or "20-30"; a number may be negative.
     static std::optional<Range> range_in(std::string_view word) {
         Range range;
         const char* const end = word.data() + word.size();

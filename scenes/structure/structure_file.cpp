@@ -6,7 +6,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// What `make` returns; a value that a scene refuses is the file's.
+/// Returns make(). Rethrows a value that a scene refuses as an error of the file.
 auto of_file(const std::string& file, const auto& make) {
     try {
         return make();
@@ -74,7 +74,7 @@ core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& 
             draw(structure, drawing, file.name(), builder, legend == nullptr ? nullptr : &atoms,
                  options.on_remark);
             if (legend != nullptr) *legend = {std::move(structure), std::move(atoms)};
-        } // before the hierarchy takes room
+        } // frees the structure before the hierarchy takes memory
         return std::move(builder).build();
     });
 }

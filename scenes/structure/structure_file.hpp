@@ -8,17 +8,18 @@
 
 namespace raylane::scenes {
 
-/// The reader of a file of atoms, which must outlive it. Throws BadInput for another format.
+/// Returns the reader of a file of atoms, which must outlive it. Throws BadInput for other formats.
 std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
                                             const ReaderOptions& options = {});
 
-/// The scene of a frame; `file` is what messages call it, and `scale` what draw() leaves there.
+/// Returns the scene of a frame. `file` is the name in messages. `scale` receives the result of
+/// draw().
 core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
                            const std::string& file, core::Workers* workers = nullptr,
                            DrawingScale* scale = nullptr, const OnRemark& on_remark = {});
 
-/// Reads the first frame of a file of atoms, and draws it; `legend`, if there is one, is left with
-/// what its shapes are. Throws BadInput, with the line, and SystemRefused.
+/// Returns the scene of a file's first frame of atoms. `legend`, if given, receives the meaning of
+/// its shapes. Throws BadInput, with the line, and SystemRefused.
 core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& options,
                            const Drawing& drawing, core::Workers* workers = nullptr,
                            Legend* legend = nullptr);

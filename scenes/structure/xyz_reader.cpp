@@ -13,7 +13,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// What a column, or several side by side, are.
+/// The meaning of a column, or of several adjacent ones.
 struct Column {
     enum class Is { species, position, radius, property, other };
     Is is;
@@ -26,8 +26,8 @@ std::vector<Column> usual_columns() {
     return {{Column::Is::species, 1, 'S', "species"}, {Column::Is::position, 3, 'R', "pos"}};
 }
 
-/// key=value pairs of a remark, perhaps with blanks around "=": values in quotes, or in braces as
-/// old files have them.
+/// The key=value pairs of a comment, perhaps with blanks around "=". Values may be in quotes, or in
+/// braces as in old files.
 class Pairs {
   public:
     explicit Pairs(std::string_view text) : text_(text) {}
@@ -77,7 +77,7 @@ class Pairs {
     std::string_view text_;
 };
 
-/// An atomic number stands for its element, unless numbers are types.
+/// An atomic number is its element, unless numbers are types.
 Element element_of_species(std::string_view label, bool has_types) {
     int number = 0;
     const auto [stop, error] = std::from_chars(label.data(), label.data() + label.size(), number);
@@ -119,7 +119,7 @@ class XyzReader : public FrameReader {
     }
 
   private:
-    /// No more than the file can hold: a number is soon written.
+    /// Reserves no more than the file can hold, as the number of atoms may be wrong.
     void reserve(Structure& frame, std::size_t count) const {
         constexpr std::size_t least_bytes = 8; // "C 0 0 0\n"
         if (file_.size() != 0)
@@ -252,7 +252,7 @@ class XyzReader : public FrameReader {
                     value = property_of(words, column.name);
                     sum += value * value;
                 }
-                // Of several, as a force's, the length.
+                // Several columns, such as a force, are replaced by their length.
                 frame.properties[of_column_[k]].values.push_back(
                     static_cast<float>(column.count == 1 ? value : std::sqrt(sum)));
                 break;

@@ -78,7 +78,7 @@ void read_shader_mode(TachyonWords& words, TachyonShading& shading) {
             shading.planar_fog = false;
         } else if (words.accept("SHADOW_FILTER_OFF")) {
             words.remark("SHADOW_FILTER_OFF: what is transparent casts its share of a shadow");
-        } else if (words.accept("SHADOW_FILTER_ON")) { // as here
+        } else if (words.accept("SHADOW_FILTER_ON")) { // as in raylane
         } else {
             words.refuse_next("AMBIENT_OCCLUSION, TRANS_VMD, TRANS_RASTER3D, TRANS_MAX_SURFACES, "
                               "FOG_VMD, SHADOW_FILTER_ON, SHADOW_FILTER_OFF or END_SHADER_MODE");
