@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t buffer_size = 64 << 10;
 constexpr unsigned permission_bits = 07777;
 
-/// The descriptor of this process that a path such as /dev/stdout names, if it does.
+/// Returns the descriptor of this process that a path such as /dev/stdout names, if any.
 std::optional<int> own_descriptor(const std::filesystem::path& path) {
     std::error_code unknown;
     const std::string folder =
@@ -39,13 +39,13 @@ std::optional<int> own_descriptor(const std::filesystem::path& path) {
 
 struct Target {
     std::filesystem::path path;
-    std::optional<int> descriptor; // if that is open already
+    std::optional<int> descriptor; // if the file is already open
 };
 
-/// End of a chain of symbolic links, there or not.
+/// Returns the end of a chain of symbolic links, whether or not that file exists.
 Target followed(std::filesystem::path path) {
     if (path == "-") return {path, STDOUT_FILENO};
-    constexpr int longest_chain = 40; // as in Linux, which then says ELOOP
+    constexpr int longest_chain = 40; // Linux's own limit, beyond which it reports ELOOP
     std::error_code no_link;
     for (int i = 0; i < longest_chain; ++i) {
         if (const std::optional<int> descriptor = own_descriptor(path)) return {path, descriptor};
@@ -56,19 +56,20 @@ Target followed(std::filesystem::path path) {
     return {path, std::nullopt};
 }
 
-/// Gives a file the owner and the mode of another one. False if its owner may not be changed.
+/// Gives a file the owner and mode of another one. Returns false if the owner cannot be changed.
 bool take_over(int descriptor, const struct stat& from) {
     struct stat made {};
     if (::fstat(descriptor, &made) != 0) return false;
     if ((made.st_uid != from.st_uid || made.st_gid != from.st_gid) &&
         ::fchown(descriptor, from.st_uid, from.st_gid) != 0)
         return false;
-    // Gives back what the umask took. A file system without permissions may refuse; so be it.
+    // Restores the permission bits that the umask removed. Errors are ignored, because file systems
+    // without permissions may refuse.
     static_cast<void>(::fchmod(descriptor, from.st_mode & permission_bits));
     return true;
 }
 
-/// Writes all, or returns false with errno set.
+/// Writes all bytes. Returns false with errno set if that fails.
 bool write_all(int descriptor, std::span<const char> bytes) {
     while (!bytes.empty()) {
         const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
@@ -87,7 +88,8 @@ std::string random_suffix() {
     return suffix;
 }
 
-/// The temporaries that there are. More than so many at a time are left to their owners.
+/// Names of the temporary files that exist now. With more than 16, the signal handler misses the
+/// rest, and only their AtomicFiles remove them.
 std::array<std::atomic<const char*>, 16> temporaries{};
 static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler must not wait");
 
@@ -98,7 +100,7 @@ void replace_known(const char* old_path, const char* new_path) {
     }
 }
 
-/// Keeps signals from this thread as long as it lives.
+/// Blocks all signals for the calling thread during the object's lifetime.
 class SignalsHeld {
   public:
     SignalsHeld() {
@@ -156,7 +158,7 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::reserve(std::int64_t bytes) {
     if (!has_temporary()) return;
-    // Claiming room beyond the size does not ask for the limit of the size.
+    // fallocate with FALLOC_FL_KEEP_SIZE does not check the limit on the file size.
     rlimit limit{};
     if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && static_cast<rlim_t>(bytes) > limit.rlim_cur)
         refuse(EFBIG);
@@ -196,7 +198,7 @@ void AtomicFile::commit() {
             }) < 0)
             refuse(errno);
     }
-    // Some file systems say only now that there is no room.
+    // Some file systems report only on close that the disk is full.
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
     if (closed != 0) refuse(errno);
@@ -209,7 +211,8 @@ void AtomicFile::commit() {
 void AtomicFile::open_existing(int descriptor) {
     const int flags = ::fcntl(descriptor, F_GETFL);
     if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY) refuse(EBADF);
-    // Another one for the same place in the same file, which may be closed.
+    // Duplicates the descriptor, so that this copy can be closed. Both share one position in the
+    // file.
     descriptor_ = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
     if (descriptor_ < 0) refuse(errno);
 }
@@ -233,7 +236,8 @@ void AtomicFile::copy_temporary() const {
     if (error_number != 0) refuse(error_number);
 }
 
-/// False where the file system, or the system, has no such files, or could not name them later.
+/// Opens an unnamed temporary file. Returns false if the system or the file system does not support
+/// these, or could not name the file later.
 bool AtomicFile::open_unnamed(unsigned mode) {
 #ifdef O_TMPFILE
     if (::access("/proc/self/fd", X_OK) != 0) return false;
@@ -255,11 +259,11 @@ void AtomicFile::open_temporary(unsigned mode, Temporary temporary) {
     if (descriptor_ < 0) refuse(errno);
 }
 
-/// Calls make(name), which returns what is negative where it fails, with names that nobody has; and
-/// returns that.
+/// Calls make(name) with random names until one is not taken, and returns its result. make returns
+/// a negative number on failure.
 template <class Make>
 int AtomicFile::make_temporary(const Make& make) {
-    // A name of the greatest length has no room for more.
+    // A file name of the maximum length leaves no space for the prefix and the suffix.
     constexpr std::size_t longest_part = 200;
     std::string name = ".";
     name.append(target_.filename().string(), 0, longest_part).append(".");
@@ -273,7 +277,7 @@ int AtomicFile::make_temporary(const Make& make) {
             return made;
         }
         const int error_number = errno;
-        temporary_.clear(); // of somebody else, or nothing
+        temporary_.clear(); // the name belongs to another file, or to none
         errno = error_number;
         if (error_number != EEXIST) return -1;
     }

@@ -8,22 +8,23 @@
 
 namespace raylane::scenes {
 
-/// A file that appears whole or not at all: written to a temporary beside it, which takes its name
-/// when all went well, and has none before where the system can do that: then nothing is left of it
-/// however the process ends. What is no regular file (a pipe, a device), or open already ("-",
-/// standard output; /dev/stdout, /proc/self/fd/3), is written directly, from where it stands.
+/// A file that appears complete or not at all. It is written to a temporary file in the same
+/// folder, which takes the final name on success. Where the system supports it, the temporary file
+/// has no name until then, so nothing is left of it however the process ends. Targets that are not
+/// regular files (pipes, devices), and files that are already open ("-" for standard output,
+/// /dev/stdout, /proc/self/fd/3), are written directly, from their current position.
 ///
-/// All that can be known is checked at construction, so before the work whose result is to be
-/// written. Functions throw SystemRefused; the temporary is gone when the object is, and a signal
-/// handler can remove it by remove_temporaries().
+/// The constructor makes all checks that are possible before the work whose result is written.
+/// Functions throw SystemRefused. The destructor removes the temporary file; a signal handler can
+/// remove it by remove_temporaries().
 class AtomicFile {
   public:
-    /// Whether its temporary has a name from the start, as it must where the system has no files
-    /// without one (on some network file systems, say).
+    /// Whether the temporary file has a name from the start. It always has one where the system
+    /// cannot create unnamed files (on some network file systems, for example).
     enum class Temporary : std::uint8_t { unnamed_if_possible, named };
 
-    /// A symbolic link is followed: what it leads to is replaced, and keeps its permissions and
-    /// owner. Where they can only be kept by not replacing it, it is overwritten in commit().
+    /// Follows symbolic links: the file that a link leads to is replaced, and keeps its permissions
+    /// and owner. If these can be kept only without replacing the file, commit() overwrites it.
     explicit AtomicFile(const std::filesystem::path& path,
                         Temporary temporary = Temporary::unnamed_if_possible);
     ~AtomicFile();
@@ -32,14 +33,15 @@ class AtomicFile {
 
     /// Name as the user wrote it, for messages.
     const std::string& name() const { return name_; }
-    /// Claims room on the disk, where the file system can tell.
+    /// Reserves disk space, where the file system supports that.
     void reserve(std::int64_t bytes);
     void write(std::span<const char> bytes);
-    /// Throws away what has been written. False where that cannot be (a pipe).
+    /// Discards everything written so far. Returns false if that is impossible (a pipe).
     bool restart();
-    /// It is to survive a loss of power as soon as it has its name: takes milliseconds.
+    /// Makes commit() flush the file to the disk before it gets its name, so that it survives a
+    /// loss of power. This takes milliseconds.
     void be_durable() { durable_ = true; }
-    /// Once, at the end.
+    /// Completes the file. Call it once, at the end.
     void commit();
 
   private:
@@ -57,15 +59,15 @@ class AtomicFile {
     std::string name_;
     std::filesystem::path target_;
     std::string temporary_;     // its name, once it has one
-    bool unnamed_ = false;      // it has none; where there is none at all, the target is written
-    bool keeps_target_ = false; // its content alone is replaced
+    bool unnamed_ = false;      // it has no name yet; without any temporary, the target is written
+    bool keeps_target_ = false; // only the content of the target is replaced
     bool durable_ = false;
     int descriptor_ = -1;
     std::vector<char> buffer_;
 };
 
-/// Removes the temporaries of all files that this process is writing, for it is about to end. May
-/// be called by a signal handler.
+/// Removes the temporary files of all AtomicFiles of this process, which is about to end. A signal
+/// handler may call this.
 void remove_temporaries() noexcept;
 
 } // namespace raylane::scenes

@@ -7,18 +7,18 @@
 
 namespace raylane::scenes {
 
-/// A file byte by byte, from start to end.
+/// Reads a file byte by byte, from start to end.
 class ByteSource {
   public:
     explicit ByteSource(InputFile& file) : file_(file) {}
 
-    /// The next byte, or -1 at the end.
+    /// Returns the next byte, or -1 at the end.
     int get() {
         if (position_ == filled_ && !refill()) return -1;
         return static_cast<unsigned char>(buffer_[position_++]);
     }
 
-    /// Fills `bytes` as far as the file goes; returns how many.
+    /// Fills `bytes` as far as the file goes. Returns the number of bytes read.
     std::size_t read(std::span<char> bytes) {
         std::size_t done = 0;
         while (done < bytes.size() && (position_ < filled_ || refill())) {

@@ -5,7 +5,7 @@
 
 namespace raylane::scenes {
 
-/// The ending of a file's name, such as ".json", in small letters.
+/// Returns the extension of a file name, such as ".json", in lower case.
 inline std::string ending_of(const std::filesystem::path& path) {
     std::string ending = path.extension().string();
     for (char& c : ending)

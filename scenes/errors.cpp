@@ -22,7 +22,7 @@ std::string lines_of(const std::vector<InputError>& errors, bool more) {
     return lines;
 }
 
-/// The length of the well-formed UTF-8 sequence at the start of `text`, or 0.
+/// Returns the length of the well-formed UTF-8 sequence at the start of `text`, or 0.
 std::size_t utf8_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const auto continues = [&](std::size_t count) {
@@ -92,7 +92,7 @@ void InputErrors::add(const BadInput& bad) {
 
 void InputErrors::report() const {
     if (errors_.empty()) return;
-    std::vector<std::string> files; // in the order in which they came
+    std::vector<std::string> files; // in the order of their first error
     for (const InputError& error : errors_)
         if (std::find(files.begin(), files.end(), error.file) == files.end())
             files.push_back(error.file);
@@ -100,7 +100,7 @@ void InputErrors::report() const {
         return std::tuple(std::find(files.begin(), files.end(), error.file), error.position.line,
                           error.position.column);
     };
-    std::vector<InputError> sorted; // ten of them, at most
+    std::vector<InputError> sorted; // at most InputErrors::most errors, so insertion is fast enough
     for (const InputError& error : errors_)
         sorted.insert(std::upper_bound(sorted.begin(), sorted.end(), error,
                                        [&](const InputError& a, const InputError& b) {
@@ -138,7 +138,7 @@ std::string printable(std::string_view text, std::size_t most) {
 
 namespace {
 
-/// What other programs call what a key or option is for.
+/// A name that other programs use for one of raylane's keys or options.
 struct Synonym {
     std::string_view elsewhere, here;
 };
@@ -194,7 +194,7 @@ std::optional<std::string_view> nearest_to(std::string_view unknown,
     };
     for (const Synonym& synonym : synonyms)
         if (synonym.elsewhere == start && known(synonym.here)) return synonym.here;
-    // Of a number there are no misspellings.
+    // An unknown number is not a misspelled word.
     if (start.find_first_not_of("0123456789+-.") == std::string_view::npos) return std::nullopt;
     const auto nearest =
         std::min_element(candidates.begin(), candidates.end(), [&](auto a, auto b) {

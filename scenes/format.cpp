@@ -46,7 +46,7 @@ std::string_view first_word(std::string_view line) {
     return line.substr(0, line.find_first_of(blanks));
 }
 
-/// The first lines of a file, as far as they are there; the last may be cut short.
+/// Returns up to `most` first lines of `head`. The last one may be incomplete.
 std::vector<std::string_view> lines_of(std::string_view head, std::size_t most) {
     std::vector<std::string_view> lines;
     while (!head.empty() && lines.size() < most) {
@@ -57,7 +57,7 @@ std::vector<std::string_view> lines_of(std::string_view head, std::size_t most) 
     return lines;
 }
 
-/// What comes first behind blanks and comments.
+/// Returns `head` without its leading blanks and comments.
 std::string_view without_comments(std::string_view head) {
     for (;;) {
         head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
@@ -68,12 +68,12 @@ std::string_view without_comments(std::string_view head) {
     }
 }
 
-/// JSON begins with '{', and no line of NFF does.
+/// JSON begins with '{', which begins no line of NFF.
 bool looks_like_json(std::string_view head) {
     return without_comments(head).starts_with('{');
 }
 
-/// One of POV-Ray's directives, or a statement.
+/// Returns true if the text begins with a POV-Ray directive or statement.
 bool looks_like_pov(std::string_view head) {
     static constexpr std::array<std::string_view, 13> words = {
         "#version", "#include",        "#declare",   "#local",       "#macro", "#default", "#if",
@@ -94,8 +94,8 @@ bool is_binary(std::string_view head) {
     });
 }
 
-/// True if the first entity is one of NFF: a view, on lines of its own, or another with a number.
-/// Wavefront's OBJ begins with some of the same letters.
+/// Returns true if the first entity is one of NFF: a view ("v", then "from"), or another one that
+/// a number follows. Wavefront OBJ files begin with some of the same letters.
 bool looks_like_nff(std::string_view head) {
     static constexpr std::string_view blanks_and_ends = " \t\r\n\v\f";
     const auto next_word = [&] {
@@ -109,13 +109,14 @@ bool looks_like_nff(std::string_view head) {
         head.remove_prefix(std::min(head.find('\n'), head.size()));
         word = next_word();
     }
-    if (word.empty()) return true; // remarks alone, so far
+    if (word.empty()) return true; // only comments so far
     if (word == "v") return next_word() == "from";
     static constexpr std::array<std::string_view, 7> others = {"b", "c", "f", "l", "p", "pp", "s"};
     return std::find(others.begin(), others.end(), word) != others.end() && is_number(next_word());
 }
 
-/// BEGIN_SCENE, in any case, after remarks. Its ending, .dat, may be that of anything.
+/// Returns true if the first word after comments is BEGIN_SCENE, in upper or lower case. The
+/// extension .dat is too common to decide.
 bool looks_like_tachyon(const std::vector<std::string_view>& lines) {
     static constexpr std::string_view begin = "BEGIN_SCENE";
     for (const std::string_view line : lines) {
@@ -136,7 +137,7 @@ bool looks_like_pdb(const std::vector<std::string_view>& lines) {
     });
 }
 
-/// A block after remarks.
+/// Returns true if the first word after comments begins a data block.
 bool looks_like_cif(const std::vector<std::string_view>& lines) {
     for (const std::string_view line : lines) {
         const std::string_view word = first_word(line);
@@ -150,7 +151,7 @@ bool is_count(std::string_view line) {
     return !text.empty() && to_int(text).value_or(-1) >= 0;
 }
 
-/// A number of atoms, a remark, and an element with three numbers.
+/// Returns true for a number of atoms, a comment line, and an element with its coordinates.
 bool looks_like_xyz(const std::vector<std::string_view>& lines) {
     if (lines.empty() || !is_count(lines[0])) return false;
     if (lines.size() < 3) return to_int(trimmed(lines[0])) == 0;
@@ -158,13 +159,13 @@ bool looks_like_xyz(const std::vector<std::string_view>& lines) {
            trimmed(lines[2]).find_first_of(blanks) != std::string_view::npos;
 }
 
-/// A remark, a number of atoms, and fields in columns.
+/// Returns true for a comment line, a number of atoms, and fields in columns.
 bool looks_like_gro(const std::vector<std::string_view>& lines) {
     return lines.size() > 2 && is_count(lines[1]) && lines[2].size() >= 44 &&
            is_number(first_word(lines[2].substr(0, 5))) && lines[2].find('.') >= 24;
 }
 
-/// "10 atoms" near its start.
+/// Returns true if one of the lines reads like "10 atoms".
 bool looks_like_lammps_data(const std::vector<std::string_view>& lines) {
     return std::any_of(lines.begin(), lines.end(), [](std::string_view line) {
         line = trimmed(line.substr(0, line.find('#')));

@@ -4,16 +4,16 @@
 
 namespace raylane::scenes {
 
-/// What files that are read hold.
+/// The formats of input files.
 enum class Format { json, nff, pov, tachyon, built, pdb, cif, xyz, gro, lammps_dump, lammps_data };
 
-/// True of atoms, which are drawn as the reader likes.
+/// Returns true for formats of atoms. These have no appearance; the user chooses how to draw them.
 constexpr bool is_structure(Format format) {
     return format >= Format::pdb;
 }
 
-/// By the file's ending (what is before ".gz", where it has that), or else by its content. Throws
-/// BadInput, with what there is, if neither tells.
+/// Detects the format by the file name's extension (the one before ".gz", if present), otherwise by
+/// the content. Throws BadInput with a list of the supported formats if neither decides.
 Format format_of(InputFile& file);
 
 } // namespace raylane::scenes

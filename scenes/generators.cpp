@@ -32,17 +32,17 @@ void require_positive(const char* field, float value) {
                            std::string(text, std::to_chars(text, text + sizeof text, value).ptr));
 }
 
-/// Makes room for exactly as many, but not for a few where there are many: a long row of small
-/// generators would copy everything each time.
+/// Reserves exactly `count` more shapes, but only if they are many compared to the existing ones.
+/// Otherwise a long series of small generators would copy all shapes each time.
 void reserve(core::SceneBuilder& builder, std::size_t count) {
     if (count >= builder.shape_count() / 2) builder.reserve(count);
 }
 
-/// The centres of nine spheres around one, as unit vectors in a frame whose z axis is the tip. They
-/// are the nine upper ones of the twelve that touch a sphere in the cubic close packing: the six of
-/// its own layer lie 60 degrees apart around the waist, and the three of the next layer in every
-/// other gap between those, at cos(polar angle) = sqrt(2/3). The databases begin at 45 degrees from
-/// the x axis.
+/// Returns the centres of nine spheres around one, as unit vectors in a frame whose z axis is the
+/// tip. They are the upper nine of the twelve spheres that touch a sphere in cubic close packing.
+/// Six lie in the sphere's own layer, 60 degrees apart around the waist. Three lie in the next
+/// layer, in every other gap between those, at cos(polar angle) = sqrt(2/3). As in the databases,
+/// the first azimuth is 45 degrees from the x axis.
 std::array<Vec3d, 9> nine_directions() {
     static constexpr double degree = std::numbers::pi / 180.0;
     std::array<Vec3d, 9> directions;
@@ -58,18 +58,18 @@ std::array<Vec3d, 9> nine_directions() {
     return directions;
 }
 
-/// Columns of a rotation.
+/// The columns of a rotation matrix.
 struct Frame {
     Vec3d x, y, z;
 
     Vec3d operator*(const Vec3d& v) const { return v.x * x + v.y * y + v.z * z; }
 };
 
-/// The smallest rotation that takes the z axis to the unit vector `z`; for the opposite, where
-/// every half turn is the smallest, the one about the y axis.
+/// Returns the smallest rotation that takes the z axis to the unit vector `z`. For -z, every half
+/// turn is the smallest, and this returns the one about the y axis.
 Frame frame_along(const Vec3d& z) {
     const double sin_squared = z.x * z.x + z.y * z.y;
-    // Directions straight down come with rounding errors, from which no axis can be told.
+    // A direction straight down has rounding errors in x and y, which define no axis.
     if (z.z < 0.0 && sin_squared < 1e-20)
         return {{-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, -1.0}};
     // 1 + cos, without cancellation
@@ -85,7 +85,8 @@ class FlakeBuilder {
         : builder_(builder), material_(material),
           world_(frame_along(core::normalized(core::convert<double>(flake.up)))) {}
 
-    /// `tip` is a unit vector in the flake's own frame, whose z axis is its "up".
+    /// Adds a sphere and those that it bears. `tip` is a unit vector in the flake's own frame,
+    /// whose z axis is its "up".
     void grow(const Vec3d& center, double radius, const Vec3d& tip, int depth) {
         builder_.add(core::Sphere{core::convert<float>(center), static_cast<float>(radius)},
                      material_);

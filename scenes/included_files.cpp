@@ -10,7 +10,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// Why a path is not that of a file that can be included.
+/// Returns the reason why a path cannot be included.
 std::string refused(const std::string& path, std::filesystem::file_status status,
                     std::error_code error) {
     switch (status.type()) {

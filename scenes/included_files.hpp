@@ -10,15 +10,15 @@
 
 namespace raylane::scenes {
 
-/// Opens the files that a scene includes, whatever its format. A pipe or a device is no file to
-/// include, as it may never end.
+/// Opens the files that a scene includes, in any format. Refuses pipes and devices, as they may
+/// never end.
 class IncludedFiles {
   public:
     static constexpr std::size_t deepest = 16, most = 1000;
-    static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30; ///< of each
+    static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30; ///< of each file
 
-    /// Opens a file as text. `name`: the scene's word for it. `depth`: of the including file, from
-    /// 0. Throws core::InvalidValue with the rule that the name breaks.
+    /// Opens a file as text. `name` is the file's name in the scene. `depth` is that of the
+    /// including file, from 0. Throws core::InvalidValue with the rule that the name breaks.
     std::unique_ptr<InputFile> open(const std::filesystem::path& path, std::string_view name,
                                     std::size_t depth);
 

@@ -11,7 +11,9 @@ namespace raylane::scenes {
 
 namespace {
 constexpr std::size_t packed_size = 64 << 10;
-/// Files of atoms and scenes mostly compress to a third to a twentieth of their size.
+/// Limits of the decompressed size: `most_for_each` times the compressed size, plus `most_besides`
+/// bytes. Files of atoms and scenes mostly compress to between a third and a twentieth of their
+/// size.
 constexpr std::uint64_t most_for_each = 200, most_besides = 64 << 20;
 } // namespace
 
@@ -39,7 +41,7 @@ struct Inflater::State {
     std::string name, packed;
     Source source;
     z_stream stream{};
-    bool is_between = false; // two pieces
+    bool is_between = false; // between two members
 };
 
 Inflater::Inflater(std::string name, std::string begin, Source source)

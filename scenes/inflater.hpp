@@ -8,14 +8,15 @@
 
 namespace raylane::scenes {
 
-/// Gives back what gzip has compressed, one piece or several one after the other. Built without
-/// zlib, it says that it cannot.
+/// Decompresses gzip data, which may consist of several members. Without zlib, the constructor
+/// throws BadInput.
 class Inflater {
   public:
-    /// Fills a buffer with what is compressed; 0 at the end.
+    /// Fills a buffer with compressed data. Returns the number of bytes, 0 at the end.
     using Source = std::function<std::size_t(std::span<char>)>;
 
-    /// `name`: what messages call the file; `begin`: its first bytes, which `source` follows.
+    /// `name`: the file's name in messages. `begin`: the first bytes of the compressed data;
+    /// `source` returns those that follow.
     Inflater(std::string name, std::string begin, Source source);
     ~Inflater();
 

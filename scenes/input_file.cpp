@@ -21,13 +21,14 @@ namespace {
 
 constexpr std::size_t head_size = 64 << 10;
 
-/// Throws std::bad_alloc for more than there can be in memory.
+/// Converts a size to std::size_t. Throws std::bad_alloc if it cannot fit into memory.
 std::size_t in_memory(std::uint64_t bytes) {
     if (bytes > std::string().max_size()) throw std::bad_alloc();
     return static_cast<std::size_t>(bytes);
 }
 
-/// Makes line feeds of carriage returns that no line feed follows. `next` is behind the text.
+/// Replaces carriage returns without a line feed by line feeds. `next` is the character after
+/// `text`.
 void end_lines(std::span<char> text, std::optional<char> next) {
     for (auto at = text.begin();; ++at) {
         at = std::find(at, text.end(), '\r');
@@ -105,7 +106,7 @@ std::size_t InputFile::read(std::span<char> buffer) {
 
 std::string InputFile::read_all() {
     std::string text;
-    text.resize(in_memory(size() + 1)); // one more, so that the end shows without growing
+    text.resize(in_memory(size() + 1)); // one more, so that the end is found without growing
     std::size_t filled = 0;
     while (const std::size_t count = read(std::span(text).subspan(filled))) {
         filled += count;
@@ -116,7 +117,7 @@ std::string InputFile::read_all() {
 }
 
 FileBytes InputFile::whole() {
-    head(); // tells whether it is compressed
+    head(); // detects compression
     if (descriptor_ >= 0 && inflater_ == nullptr && size_ > 0) {
         const std::size_t size = in_memory(size_);
         void* const memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor_, 0);

@@ -8,14 +8,14 @@ namespace raylane::scenes {
 
 namespace {
 
-/// from_chars knows no '+'.
+/// Removes a leading '+', which from_chars does not accept.
 std::string_view without_plus(std::string_view word) {
     const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
     return word.substr(plus ? 1 : 0);
 }
 
-/// Underflow: true if a decimal number that from_chars calls out of range is too small, which it
-/// does not say.
+/// Returns true if a decimal number is too small. Call it only for numbers that from_chars reports
+/// as out of range, since from_chars does not distinguish too small from too large.
 bool underflows(std::string_view number) {
     const std::size_t e = number.find_first_of("eE");
     const std::string_view mantissa = number.substr(0, e);
@@ -33,15 +33,15 @@ bool underflows(std::string_view number) {
 
 } // namespace
 
-// Digits and power of ten are floats then, and their quotient is rounded once, so it is what
-// from_chars gives.
+// The digits and the power of ten are exact in float, and their quotient is rounded once. So the
+// result is the one that from_chars gives.
 std::optional<LeadingNumber> leading_number(std::string_view text) {
     constexpr std::array<float, 11> powers = {1e0F, 1e1F, 1e2F, 1e3F, 1e4F, 1e5F,
                                               1e6F, 1e7F, 1e8F, 1e9F, 1e10F};
-    constexpr std::size_t longest = 18; // its digits fit into 64 bits
+    constexpr std::size_t longest = 18; // the digits fit into 64 bits
     const std::size_t first = text.starts_with('-') ? 1 : 0;
     std::uint64_t digits = 0;
-    std::size_t end = first, point = 0; // behind the point; 0: there is none
+    std::size_t end = first, point = 0; // index after the point; 0: no point
     for (; end < text.size(); ++end) {
         const char c = text[end];
         if (c >= '0' && c <= '9') {

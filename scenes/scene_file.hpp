@@ -14,24 +14,25 @@
 namespace raylane::scenes {
 
 struct LoadOptions {
-    core::Workers* workers = nullptr; ///< who builds the hierarchy; default: the caller's thread
+    core::Workers* workers = nullptr; ///< build the hierarchy; default: the caller's thread
     OnRead on_read = {};
-    OnRemark on_remark = {};     ///< of files of other programs, and of scenes without objects
-    std::string atom_style = {}; ///< of LAMMPS' data; empty: the file's
-    Drawing drawing = {};        ///< of files of atoms
-    Legend* legend = nullptr;    ///< is left with what the shapes are, of a file of atoms
-    /// What a scene is refused with: an option that says how atoms are drawn; empty: none is given.
+    OnRemark on_remark = {};     ///< for files of other programs, and for scenes without objects
+    std::string atom_style = {}; ///< of LAMMPS data files; empty: the one that the file names
+    Drawing drawing = {};        ///< how atoms are drawn
+    Legend* legend = nullptr;    ///< receives the meaning of the shapes of a file of atoms
+    /// The name of an option that says how atoms are drawn, or empty. Scenes are refused with it.
     std::string option_for_atoms = {};
-    TachyonShading tachyon = {}; ///< in place of what a scene of Tachyon's says
-    /// What "$name" stands for in JSON, in place of what the file says; each has to be used.
+    TachyonShading tachyon = {}; ///< overrides the shading that a Tachyon scene requests
+    /// Values for "$name" in JSON, which override those of the file. A name that the file does not
+    /// use is an error.
     std::map<std::string, double> parameters = {};
 };
 
-/// Reads a scene, or atoms, of which it makes one; scenes/format.hpp has the formats. Throws
-/// BadInput for what is malformed, with file and place, and SystemRefused.
+/// Reads a scene, or atoms, from which it makes a scene. scenes/format.hpp lists the formats.
+/// Throws BadInput with file and place for malformed input, and SystemRefused.
 core::Scene load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
 
-/// The same for the text of a file; `name` is what messages call it.
+/// Does the same for the text of a file. `name` is the file's name in messages.
 core::Scene parse_scene(const std::string& name, std::string_view text,
                         const LoadOptions& options = {});
 
