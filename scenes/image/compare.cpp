@@ -30,7 +30,7 @@ void require_same_kind(const Image& a, const Image& b) {
     require_same(kind_of(a), kind_of(b));
 }
 
-/// Component `channel` of a pixel, of which 3 is the alpha, as it is compared.
+/// Returns component `channel` of a pixel in the form that is compared. Channel 3 is the alpha.
 float component(const Image& image, std::size_t pixel, std::size_t channel) {
     const float alpha = image.alpha.size() != 0 ? image.alpha[pixel] : 1.0F;
     if (channel == 3) return alpha;
@@ -44,7 +44,7 @@ double difference(float a, float b) {
     return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
 }
 
-/// Of two pictures' components.
+/// The differences between the components of two pictures.
 class Differences {
   public:
     Differences(const Image& a, const Image& b)

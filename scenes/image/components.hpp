@@ -9,8 +9,9 @@
 
 namespace raylane::scenes {
 
-/// Components of a picture's pixels, one after the other: floats, or codes of 8 or 16 bits, which
-/// stand for their fraction of the largest code and take no more room than in their file.
+/// The components of a picture's pixels in one sequence: floats, or codes of 8 or 16 bits. A code
+/// stands for its fraction of the largest code. Codes are stored in the size that they have in the
+/// file.
 class Components {
   public:
     Components() = default;
@@ -29,7 +30,7 @@ class Components {
         return (*std::get_if<std::vector<float>>(&components_))[i];
     }
 
-    /// True if they are as many, and the same to the bit.
+    /// Returns true if both have the same type, number and bits of components.
     bool is_same(const Components& other) const {
         return std::visit(
             [&]<class Component>(const std::vector<Component>& all) {
@@ -41,7 +42,7 @@ class Components {
             components_);
     }
 
-    /// All of them as floats.
+    /// Returns all components as floats.
     std::vector<float> floats() const {
         std::vector<float> floats(size());
         for (std::size_t i = 0; i < floats.size(); ++i)

@@ -54,7 +54,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// A file in memory: the library writes its table of rows last, into its beginning.
+/// A file in memory. OpenEXR writes the table of row offsets last, near the beginning of the file.
 class MemoryOut : public Imf::OStream {
   public:
     MemoryOut() : OStream("memory") {}
@@ -75,17 +75,18 @@ class MemoryOut : public Imf::OStream {
     std::size_t at_ = 0;
 };
 
-/// OpenEXR makes room for what an attribute claims to have before it reads any of it.
+/// Throws MalformedPicture if an attribute claims to be larger than the rest of the file. OpenEXR
+/// allocates the claimed size before it reads.
 void check_attributes(std::string_view bytes) {
     constexpr std::size_t head = 8; // magic number and version
     const bool has_parts = bytes.size() > 5 && (static_cast<unsigned char>(bytes[5]) & 0x10U) != 0;
     const auto is_end = [&](std::size_t at) { return at >= bytes.size() || bytes[at] == '\0'; };
     for (std::size_t at = head;;) {
-        if (is_end(at)) { // of a header; behind that of the last part is another
+        if (is_end(at)) { // end of a header; in a multi-part file, another header may follow
             if (!has_parts || is_end(++at)) return;
         }
-        at = bytes.find('\0', at);                           // of the name
-        if (at != bytes.npos) at = bytes.find('\0', at + 1); // of the type
+        at = bytes.find('\0', at);                           // end of the name
+        if (at != bytes.npos) at = bytes.find('\0', at + 1); // end of the type
         if (at == bytes.npos || bytes.size() - at < 5) throw damaged("EXR");
         std::uint32_t size = 0;
         for (int byte = 4; byte > 0; --byte)
@@ -117,7 +118,7 @@ class MemoryIn : public Imf::IStream {
     std::size_t at_ = 0;
 };
 
-/// The values of a channel, one after the other with others in between.
+/// Describes the values of one channel, `step` bytes apart.
 template <class Value>
 Imf::Slice slice_of(Imf::PixelType type, const Value* values, std::size_t step, int width) {
     char* const base = const_cast<char*>(reinterpret_cast<const char*>(values)); // NOLINT: is read
@@ -146,12 +147,13 @@ void add_floats(const core::Film& film, Channels& channels) {
     if (film.has_alpha()) channels.add("A", Imf::FLOAT, film.alphas().data());
 }
 
-/// What a film's components are rounded to while they are written.
+/// The components of a film as halves, while they are written.
 struct Halves {
     std::vector<Imath::half> rgb, alpha;
 };
 
-/// Halves are rounded by the library, but what is beyond the largest is to be white, not infinite.
+/// Clamps components to the largest half before OpenEXR rounds them, because larger ones are to be
+/// white rather than infinite.
 void add_halves(const core::Film& film, Halves& halves, Channels& channels) {
     constexpr float most = 65504.0F;
     halves.rgb.reserve(3 * film.pixels().size());
@@ -179,7 +181,7 @@ void add_layers(const core::Layers& layers, Channels& channels) {
 void add_attributes(const PictureOptions& options, Imf::Header& header) {
     if (options.dpi) Imf::addXDensity(header, *options.dpi);
     for (const auto& [name, content] : options.texts) {
-        std::string key = name == "Comment" ? "comments" : name; // as the format calls it
+        std::string key = name == "Comment" ? "comments" : name; // OpenEXR's standard name
         for (char& c : key)
             if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
         header.insert(key, Imf::StringAttribute(content));
@@ -196,7 +198,7 @@ std::string all_of(ByteSource& source) {
     return bytes;
 }
 
-/// As add_attributes has written them, in capitals.
+/// Returns the texts that add_attributes() wrote, with a capital first letter.
 std::vector<std::pair<std::string, std::string>> texts_of(const Imf::Header& header) {
     std::vector<std::pair<std::string, std::string>> texts;
     for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
@@ -210,8 +212,9 @@ std::vector<std::pair<std::string, std::string>> texts_of(const Imf::Header& hea
     return texts;
 }
 
-/// Refuses before there is room for pixels: without a channel OpenEXR fills in black, and of one
-/// that has few samples a small file may claim a large window.
+/// Throws MalformedPicture if a channel is missing or subsampled. Call it before memory for pixels
+/// is allocated. OpenEXR fills a missing channel with black, and a small file with a subsampled
+/// channel may claim a large window.
 void require_channels(const Imf::Header& header, const std::vector<const char*>& names) {
     for (const char* name : names)
         if (header.channels().findChannel(name) == nullptr)
@@ -222,13 +225,13 @@ void require_channels(const Imf::Header& header, const std::vector<const char*>&
             throw MalformedPicture("must be an EXR whose channels have a sample for each pixel");
 }
 
-/// What the display window shows, of a file that may have more or less.
+/// Reads the pixels of the display window. The file's data window may be larger or smaller.
 void read_pixels(Imf::InputFile& file, Image& image) {
     const Imath::Box2i shown = file.header().displayWindow(), there = file.header().dataWindow();
     const std::int64_t across = std::int64_t{there.max.x} - there.min.x + 1;
     const std::int64_t down = std::int64_t{there.max.y} - there.min.y + 1;
     check_size(across, down);
-    if (!file.isComplete()) throw damaged("EXR"); // before there is room for what it claims
+    if (!file.isComplete()) throw damaged("EXR"); // before memory is allocated for the claimed size
     const auto columns = static_cast<std::size_t>(across), rows = static_cast<std::size_t>(down);
     const auto has = [&](const char* name) {
         return file.header().channels().findChannel(name) != nullptr;
@@ -269,7 +272,7 @@ void read_pixels(Imf::InputFile& file, Image& image) {
     image.alpha = Components(std::move(alpha));
 }
 
-/// Into arrays of a picture's size.
+/// Reads channels into arrays of the picture's size.
 class ChannelReader {
   public:
     ChannelReader(Imf::InputFile& file, int width) : file_(file), width_(width) {}
@@ -292,13 +295,13 @@ class ChannelReader {
     Imf::FrameBuffer buffer_;
 };
 
-/// Texts have the names that add_attributes() writes.
+/// Returns true if the attribute is a text with a name that add_attributes() may write.
 bool is_text(const Imf::Attribute& attribute, std::string_view name) {
     return dynamic_cast<const Imf::StringAttribute*>(&attribute) != nullptr &&
            std::all_of(name.begin(), name.end(), [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-/// Throws MalformedPicture, without a text, for a file that exr_of() cannot have written.
+/// Throws MalformedPicture with an empty text for a file that exr_of() cannot have written.
 void require_own_header(const Imf::InputFile& file) {
     constexpr std::string_view written[] = {
         "channels",         "compression",        "dataWindow",        "displayWindow", "lineOrder",
@@ -361,7 +364,7 @@ ExrPicture read_own_exr(InputFile& input) {
         ByteSource source(input);
         MemoryIn in(all_of(source));
         constexpr int no_threads = 0, most = core::Settings::max_size;
-        Imf::Header::setMaxImageSize(most, most); // before it makes room for so many rows
+        Imf::Header::setMaxImageSize(most, most); // before memory is allocated for so many rows
         Imf::InputFile file(in, no_threads);
         return read_own(file);
     } catch (const std::bad_alloc&) {
@@ -394,7 +397,7 @@ std::string exr_of(const core::Film& film, const core::Layers* layers,
         Imf::OutputFile file(out, header, no_threads);
         file.setFrameBuffer(channels.buffer);
         file.writePixels(film.height());
-    } // which writes the rest
+    } // the destructor writes the rest
     return out.take();
 }
 
@@ -402,7 +405,7 @@ void read_exr(ByteSource& source, Image& image) {
     try {
         MemoryIn in(all_of(source));
         constexpr int no_threads = 0, most = core::Settings::max_size;
-        Imf::Header::setMaxImageSize(most, most); // before it makes room for so many rows
+        Imf::Header::setMaxImageSize(most, most); // before memory is allocated for so many rows
         Imf::InputFile file(in, no_threads);
         const Imath::Box2i shown = file.header().displayWindow();
         const std::int64_t width = std::int64_t{shown.max.x} - shown.min.x + 1;
@@ -417,7 +420,7 @@ void read_exr(ByteSource& source, Image& image) {
         throw damaged("EXR");
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const std::exception&) { // of several kinds, those of Iex among them
+    } catch (const std::exception&) { // of several types, including those of Iex
         throw damaged("EXR");
     }
 }

@@ -14,30 +14,30 @@
 
 namespace raylane::scenes {
 
-/// OpenEXR, by its library, which raylane may have been built without.
+/// Returns true if raylane was built with the OpenEXR library.
 bool has_exr();
 
-/// The bytes of a file: R G B, linear, and A if the film has an alpha, in halves, or with 32 bits
-/// in floats; of layers, if there are any, Z, N.X, N.Y and N.Z in floats, and id.shape, id.material
-/// and samples in whole numbers. Where there is nothing, Z is infinite, N is 0 and ids are
-/// 4294967295. Throws std::bad_alloc.
+/// Returns the bytes of an EXR file. It has linear R, G, B, and A if the film has an alpha, as
+/// halves, or as floats if `options` requests 32 bits. If `layers` is not null, it also has Z, N.X,
+/// N.Y and N.Z as floats, and id.shape, id.material and samples as integers. In pixels without a
+/// hit, Z is infinite, N is 0 and ids are 4294967295. Throws std::bad_alloc.
 std::string exr_of(const core::Film& film, const core::Layers* layers,
                    const PictureOptions& options);
 
-/// All that exr_of has written, but what the options say beside the texts.
+/// The contents of a file of exr_of(); of the options, only the texts.
 struct ExrPicture {
     core::Film film{1, 1};
     std::optional<core::Layers> layers;
     std::vector<std::pair<std::string, std::string>> texts;
 };
 
-/// Throws BadInput for a file that has more or less than exr_of writes, and SystemRefused: other
-/// attributes, channels and parts may change how a viewer shows it.
+/// Throws BadInput for a file that has more or less than exr_of() writes, since other attributes,
+/// channels and parts may change how a viewer shows it. Throws SystemRefused.
 ExrPicture read_own_exr(const std::filesystem::path& path);
 ExrPicture read_own_exr(InputFile& file);
 
-/// R, G and B, or Y alone, and A, of what the display window shows; what the file does not have of
-/// that is 0. Throws MalformedPicture and std::bad_alloc.
+/// Reads the display window: R, G and B, or Y alone, and A. Pixels outside of the data window are
+/// 0. Throws MalformedPicture and std::bad_alloc.
 void read_exr(ByteSource& source, Image& image);
 
 } // namespace raylane::scenes

@@ -37,13 +37,13 @@ std::string header_line(ByteSource& source) {
 using Pixel = std::array<unsigned char, 4>; // red, green, blue, exponent
 
 void add_pixel(std::vector<float>& rgb, const Pixel& pixel) {
-    // A mantissa is a fraction of 256; the exponent's bias is 128.
+    // The mantissa counts 256ths; the exponent's bias is 128.
     const float scale = pixel[3] == 0 ? 0.0F : std::ldexp(1.0F, pixel[3] - (128 + 8));
     for (int channel = 0; channel < 3; ++channel)
         rgb.push_back(static_cast<float>(pixel[channel]) * scale);
 }
 
-/// One component of a row: runs of one byte, and bytes as they are.
+/// Reads one component of a row, which consists of runs of one byte and of literal bytes.
 void read_runs(ByteSource& source, std::vector<Pixel>& row, int component) {
     constexpr std::size_t run_flag = 128;
     for (std::size_t x = 0; x < row.size();) {
@@ -65,7 +65,7 @@ void read_row(ByteSource& source, std::vector<Pixel>& row) {
             component = hdr_byte(source);
     };
     read_pixel(row[0]);
-    // No pixel begins like this: its largest component is at least 128.
+    // No flat row begins like this: the largest component of its first pixel would be at least 128.
     const auto width = static_cast<std::size_t>(row[0][2]) << 8 | row[0][3];
     if (row[0][0] == 2 && row[0][1] == 2 && row[0][2] < 128 && width == row.size()) {
         for (int component = 0; component < 4; ++component)
@@ -74,7 +74,7 @@ void read_row(ByteSource& source, std::vector<Pixel>& row) {
     }
     for (std::size_t x = 1; x < row.size(); ++x)
         read_pixel(row[x]);
-    // Pixels 1 1 1 n, which are none, repeat the last in files older than 1991.
+    // In files older than 1991, 1 1 1 n is not a pixel but a repetition of the previous one.
     for (const Pixel& pixel : row)
         if (pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1) throw damaged("HDR");
 }

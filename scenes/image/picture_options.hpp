@@ -9,14 +9,14 @@
 
 namespace raylane::scenes {
 
-/// How a file has a picture, and what it has beside it.
+/// Encoding of a picture's file, and its metadata.
 struct PictureOptions {
-    core::Transfer transfer = core::Transfer::srgb; ///< of .png alone
-    /// Of a component: of .png 8 or 16, of .exr 16 or 32; 0: the fewer.
+    core::Transfer transfer = core::Transfer::srgb; ///< for .png only
+    /// Bits per component: 8 or 16 in .png, 16 or 32 in .exr; 0: the smaller one.
     int bits = 0;
     std::optional<float> dpi; ///< pixels per inch, in .png and .exr
-    /// Names and what they stand for, in UTF-8, in .png and .exr. Names are those that PNG knows:
-    /// Title, Software, Comment, ...
+    /// Names and texts in UTF-8, for .png and .exr. The names are PNG's keywords: Title, Software,
+    /// Comment, ...
     std::vector<std::pair<std::string, std::string>> texts;
 };
 

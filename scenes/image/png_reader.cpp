@@ -14,8 +14,8 @@ namespace raylane::scenes {
 
 namespace {
 
-/// A reading by libpng, which says what is wrong by a jump out of its functions: nothing that has a
-/// destructor may be alive in between, and no exception may pass through.
+/// Reads by libpng, which reports errors by a longjmp out of its functions. So no object with a
+/// destructor may live across that jump, and no exception may pass through libpng.
 class PngReading {
   public:
     explicit PngReading(ByteSource& source) : source_(source) {
@@ -32,11 +32,11 @@ class PngReading {
     PngReading(const PngReading&) = delete;
     PngReading& operator=(const PngReading&) = delete;
 
-    /// Width, height, bits of a component and whether there is an alpha.
+    /// Reads width, height, bits per component and whether there is an alpha.
     void begin() {
         step([this] {
             png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-            png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX); // check_size has others
+            png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX); // check_size() checks
             png_read_info(png_, info_);
             png_get_IHDR(png_, info_, &width, &height, &bits, &color_type, nullptr, nullptr,
                          nullptr);
@@ -46,7 +46,7 @@ class PngReading {
     }
     std::size_t channels() const { return has_alpha ? 4 : 3; }
 
-    /// `rows`: one pointer for each. They become RGB or RGBA.
+    /// Reads all pixels as RGB or RGBA. `rows`: one pointer per row.
     template <class Code>
     void read(Code** rows) {
         step([this, rows] {
@@ -64,7 +64,7 @@ class PngReading {
             png_read_end(png_, info_);
         });
     }
-    /// Those that have been read.
+    /// Returns the texts read so far.
     std::vector<std::pair<std::string, std::string>> texts() {
         png_textp first = nullptr;
         const int count = png_get_text(png_, info_, &first, nullptr);
@@ -85,7 +85,7 @@ class PngReading {
   private:
     template <class Act>
     void step(const Act& act) {
-        if (setjmp(png_jmpbuf(png_)) == 0) { // NOLINT: what libpng has for exceptions
+        if (setjmp(png_jmpbuf(png_)) == 0) { // NOLINT: libpng's replacement for exceptions
             act();
             return;
         }
@@ -99,7 +99,8 @@ class PngReading {
     [[noreturn]] static void jump_on_error(png_structp png, png_const_charp) {
         png_longjmp(png, 1);
     }
-    /// Data behind that of the last row is no more than a warning to libpng, and may be gigabytes.
+    /// Treats data after that of the last row as an error. libpng only warns of it, and it may be
+    /// gigabytes.
     static void look_at_warning(png_structp png, png_const_charp message) {
         if (std::strncmp(message, "IDAT", 4) == 0) png_longjmp(png, 1);
     }

@@ -16,8 +16,8 @@ namespace raylane::scenes {
 
 namespace {
 
-/// A writing by libpng, which says what is wrong by a jump out of its functions: nothing that has a
-/// destructor may be alive in between, and no exception may pass through.
+/// Writes by libpng, which reports errors by a longjmp out of its functions. So no object with a
+/// destructor may live across that jump, and no exception may pass through libpng.
 class PngWriting {
   public:
     explicit PngWriting(AtomicFile& file) : file_(file) {
@@ -33,16 +33,16 @@ class PngWriting {
     PngWriting(const PngWriting&) = delete;
     PngWriting& operator=(const PngWriting&) = delete;
 
-    /// What comes before the rows. `metre`: pixels that it has; 0: not known.
+    /// Writes everything before the rows. `metre`: pixels per metre; 0 if unknown.
     void begin(const core::Film& film, int bits, png_uint_32 metre, std::vector<png_text>& texts) {
         step([&] {
             png_set_IHDR(png_, info_, static_cast<png_uint_32>(film.width()),
                          static_cast<png_uint_32>(film.height()), bits,
                          film.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
                          PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-            // To search for each row's best filter takes longer than the rest, and saves nothing to
-            // speak of; of what this one leaves, zlib finds runs as good as all that it would find
-            // at its lowest level, in three quarters of the time.
+            // Searching the best filter for each row takes longer than the rest and saves next to
+            // nothing. The data that this filter leaves compresses by run lengths as well as by
+            // zlib's lowest level, in three quarters of the time.
             png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
             png_set_compression_level(png_, Z_BEST_SPEED);
             png_set_compression_strategy(png_, Z_RLE);
@@ -64,12 +64,12 @@ class PngWriting {
   private:
     template <class Act>
     void step(const Act& act) {
-        if (setjmp(png_jmpbuf(png_)) == 0) { // NOLINT: what libpng has for exceptions
+        if (setjmp(png_jmpbuf(png_)) == 0) { // NOLINT: libpng's replacement for exceptions
             act();
             return;
         }
         if (failure_) std::rethrow_exception(failure_);
-        throw std::bad_alloc(); // nothing else is left to go wrong
+        throw std::bad_alloc(); // the only failure that is left
     }
 
     [[noreturn]] static void jump_on_error(png_structp png, png_const_charp) {
@@ -97,7 +97,7 @@ class PngWriting {
     std::exception_ptr failure_;
 };
 
-/// They point into the options: to Latin-1 if that is what they are in as well, else to UTF-8.
+/// Returns texts that point into the options. ASCII texts are marked as Latin-1, others as UTF-8.
 std::vector<png_text> png_texts(const PictureOptions& options) {
     std::vector<png_text> texts;
     for (const auto& [name, content] : options.texts) {
@@ -113,7 +113,7 @@ std::vector<png_text> png_texts(const PictureOptions& options) {
     return texts;
 }
 
-/// Components as a row of the file has them, the high byte first.
+/// Encodes the components of a row for the file, the high byte first.
 class RowEncoder {
   public:
     explicit RowEncoder(const PictureOptions& options)
@@ -139,7 +139,7 @@ class RowEncoder {
         else
             add_word(core::encode_in_16_bits(component, options_.transfer));
     }
-    /// Which is a share, and not light: it has no curve.
+    /// Adds an alpha without a transfer curve, since it is a fraction and not light.
     void add_alpha(float alpha) {
         if (bits() == 8)
             codes_.push_back(core::encode(alpha, core::Transfer::linear));

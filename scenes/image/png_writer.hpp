@@ -6,8 +6,8 @@
 
 namespace raylane::scenes {
 
-/// PNG by libpng, in RGB, or RGBA if the film has an alpha, by which PNG's colours are not
-/// multiplied. The same bytes for the same picture and options. Throws SystemRefused.
+/// Writes PNG by libpng as RGB, or as RGBA if the film has an alpha; PNG's colours are not
+/// multiplied by alpha. The same picture and options give the same bytes. Throws SystemRefused.
 void write_png(AtomicFile& file, const core::Film& film, const PictureOptions& options);
 
 } // namespace raylane::scenes

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-// Its functions stay in this file: a program that links the library may have them as well.
+// Static, because a program that links the library may contain stb_image_write, too.
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #include <stb_image_write.h>
@@ -27,8 +27,8 @@ namespace {
 
 static_assert(sizeof(core::Color) == 3 * sizeof(float), "a film is rows of RGB floats");
 
-/// Takes what stb_image_write writes. No exception may pass through it: it would not free its
-/// memory.
+/// Receives the output of stb_image_write. No exception may pass through stb_image_write, as it
+/// would not free its memory.
 struct Sink {
     AtomicFile& file;
     std::exception_ptr failure;
@@ -43,14 +43,14 @@ struct Sink {
         }
     }
 
-    /// `encoded`: what the writing function returned; 0 if it had no memory.
+    /// Throws if writing failed. `encoded`: the result of the stb function; 0 if it had no memory.
     void finish(int encoded) const {
         if (failure) std::rethrow_exception(failure);
         if (encoded == 0) throw SystemRefused(file.name(), "write", ENOMEM);
     }
 };
 
-/// Component as a shared exponent can hold it; its largest power of two is 2^127.
+/// Clamps a component to the range of a shared exponent, below 2^127. NaN becomes 0.
 float radiance_component(float value) {
     constexpr float largest = 0x1.FFFFFEp126F;
     return std::isnan(value) ? 0.0F : std::clamp(value, 0.0F, largest);
@@ -84,7 +84,7 @@ OutputFile::OutputFile(const std::filesystem::path& path, PictureFormat format,
     : encode_exr_(encode_exr), format_(format), file_(path) {}
 
 void OutputFile::reserve(int width, int height) {
-    // Those that are compressed: any room may do.
+    // The size of compressed formats is unknown; reserving one byte detects a full disk.
     const std::int64_t components = std::int64_t{3} * width * height;
     switch (format_) {
     case PictureFormat::png:
@@ -145,8 +145,8 @@ void OutputFile::write_codes(const core::Film& film, core::Transfer transfer) {
         file_.write({reinterpret_cast<const char*>(codes.data()), codes.size()});
         return;
     }
-    // Not all that reads Targa reads what is compressed.
-    static const int uncompressed = stbi_write_tga_with_rle = 0; // once
+    // Some readers of Targa do not support compression.
+    static const int uncompressed = stbi_write_tga_with_rle = 0; // set once
     static_cast<void>(uncompressed);
     Sink sink{file_, nullptr};
     sink.finish(format_ == PictureFormat::tga
@@ -174,7 +174,7 @@ void OutputFile::write_hdr(const core::Film& film) {
                                        components.data()));
 }
 
-/// The format is Paul Debevec's: rows from the bottom up, a negative scale for little-endian.
+/// Writes Paul Debevec's format: rows from the bottom up, a negative scale for little-endian.
 void OutputFile::write_pfm(const core::Film& film) {
     const std::string header =
         "PF\n" + std::to_string(film.width()) + " " + std::to_string(film.height()) + "\n-1.0\n";

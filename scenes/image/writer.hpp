@@ -7,41 +7,46 @@
 
 namespace raylane::scenes {
 
-/// How a picture is written: PNG has 8 or 16 bits through the transfer curve; Targa, BMP and PPM 8,
-/// without compression; EXR is OpenEXR's, linear, in halves or floats; HDR Radiance's, linear, with
-/// a shared exponent; PFM has linear floats, unchanged.
+/// The encoding of a picture:
+/// - PNG: 8 or 16 bits through the transfer curve
+/// - Targa, BMP, PPM: 8 bits through the transfer curve, uncompressed
+/// - EXR (OpenEXR): linear, halves or floats
+/// - HDR (Radiance): linear, with a shared exponent
+/// - PFM: linear floats, unchanged
 enum class PictureFormat : std::uint8_t { png, exr, hdr, pfm, tga, bmp, ppm };
 
-/// The format that a file's ending tells: .png, .exr, ... "-" is standard output, in PNG. Throws
-/// BadInput if the ending is none of these, or .exr and that is not to be.
+/// Returns the format for a file name's extension: .png, .exr, ... "-" is standard output, in PNG.
+/// Throws BadInput if the extension is unknown, or .exr without `with_exr`.
 PictureFormat picture_format_of(const std::filesystem::path& path, bool with_exr);
 
-/// The bytes of a file in OpenEXR (scenes/image/exr.hpp), which the library does without. `layers`
-/// may be null.
+/// Returns the bytes of an OpenEXR file (scenes/image/exr.hpp). A function pointer, because the
+/// library is built without OpenEXR. `layers` may be null.
 using EncodeExr = std::string (*)(const core::Film& film, const core::Layers* layers,
                                   const PictureOptions& options);
 
-/// A picture's file. Of a film's alpha .png and .exr tell; in the others it lies over black.
+/// The file of a picture. PNG and EXR store a film's alpha; in other formats the picture lies over
+/// black.
 class OutputFile {
   public:
-    /// In the format that the ending tells, which is a BadInput if it is none, or .exr and there is
-    /// nothing to encode that. Throws SystemRefused if the file cannot be written, as far as can be
-    /// known without writing it.
+    /// Chooses the format by the extension. Throws BadInput if the extension is unknown, or .exr
+    /// while `encode_exr` is null. Throws SystemRefused if it is already certain that the file
+    /// cannot be written.
     explicit OutputFile(const std::filesystem::path& path, EncodeExr encode_exr = nullptr);
     OutputFile(const std::filesystem::path& path, PictureFormat format,
                EncodeExr encode_exr = nullptr);
 
     PictureFormat format() const { return format_; }
 
-    /// Claims what is known of the room that a picture of this size takes. Throws SystemRefused if
-    /// there is none.
+    /// Reserves as much of the disk space that a picture of this size takes as is known. Throws
+    /// SystemRefused if there is not enough.
     void reserve(int width, int height);
 
-    /// It is to survive a loss of power as soon as it is there: takes milliseconds.
+    /// Makes commit() flush the file to the disk before it gets its name, so that it survives a
+    /// loss of power. This takes milliseconds.
     void be_durable() { file_.be_durable(); }
 
-    /// Writes the picture, and into .exr its layers, unless that is null; once. Throws
-    /// SystemRefused, and then there is no new file; it may be tried again.
+    /// Writes the picture, and in EXR also the layers, unless null. Call it once. Throws
+    /// SystemRefused; then there is no new file, and the call may be repeated.
     void commit(const core::Film& film, const PictureOptions& options,
                 const core::Layers* layers = nullptr);
     void commit(const core::Film& film, core::Transfer transfer);
@@ -54,7 +59,7 @@ class OutputFile {
     void write_pfm(const core::Film& film);
 
     EncodeExr encode_exr_;
-    PictureFormat format_; // before the file: a wrong ending leaves no trace
+    PictureFormat format_; // before file_: a wrong extension leaves no trace
     AtomicFile file_;
     bool has_failed_ = false;
 };
