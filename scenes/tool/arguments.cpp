@@ -18,7 +18,8 @@ namespace {
     throw BadInput(option, "", "must be " + must + ", got \"" + printable(got) + "\"");
 }
 
-/// True if both names lead to one file, there or not. Devices can be written twice.
+/// Returns true if both names lead to the same file, whether or not it exists. Returns false for
+/// devices, which can be written twice.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code unknown;
     if (a == "-" || b == "-") return false; // standard input and output
@@ -30,7 +31,8 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     return !resolved(a).empty() && resolved(a) == resolved(b);
 }
 
-/// True if both names lead to one stream that is there, where what is written mingles.
+/// Returns true if both names lead to the same existing file or stream, where both outputs would
+/// mingle.
 bool same_stream(const std::string& a, const std::string& b) {
     const auto status_of = [](const std::string& name, struct stat& status) {
         return (name == "-" ? ::fstat(STDOUT_FILENO, &status) : ::stat(name.c_str(), &status)) == 0;
@@ -39,7 +41,7 @@ bool same_stream(const std::string& a, const std::string& b) {
     struct stat of_b {};
     return status_of(a, of_a) && status_of(b, of_b) && of_a.st_dev == of_b.st_dev &&
            of_a.st_ino == of_b.st_ino &&
-           // Nothing is lost in a /dev/null.
+           // Writing twice to /dev/null and similar devices is harmless; to a terminal it is not.
            (!S_ISCHR(of_a.st_mode) || ((a == "-" || b == "-") && ::isatty(STDOUT_FILENO) == 1));
 }
 

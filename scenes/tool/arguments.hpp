@@ -9,41 +9,42 @@
 #include <utility>
 #include <vector>
 
-/// Values on the command line. All functions throw BadInput, in the manner of
-/// "--spp: must be ..., got ...".
+/// Parsing of values on the command line. All functions throw BadInput in the form "--spp: must be
+/// ..., got ...".
 namespace raylane::scenes {
 
-/// The name of a file.
+/// Returns the name of a file, which must not be empty.
 const std::string& file_argument(const std::string& option, const std::string& text);
 
-/// Refuses a file to be written that is another argument's as well, by whatever name.
+/// Throws BadInput if `file`, which is to be written, is the file of another argument, under any
+/// name.
 void require_other_file(const std::string& option, const std::string& file,
                         const std::string& other_option, const std::string& other_file);
-/// The same of the argument SCENE. A file that is no scene is refused as such.
+/// Does the same for the argument SCENE. If that file is not a scene, the error says so instead.
 void require_other_than_scene(const std::string& option, const std::string& file,
                               const std::string& scene);
-/// The same of two files to be written: standard output, too, takes one of them.
+/// Does the same for two output files. Only one of them may be standard output.
 void require_other_output(const std::string& option, const std::string& file,
                           const std::string& other_option, const std::string& other_file);
 
-/// What is between the separators of "1:2:3": at least one part, and each may be empty.
+/// Returns the parts of a text such as "1:2:3". There is at least one part; parts may be empty.
 std::vector<std::string_view> parts_of(std::string_view text, char separator);
 
 int whole_argument(const std::string& option, const std::string& text, int least, int most);
 
-/// The number of threads that --threads says, if it does; else default_threads(), which the
-/// environment may say.
+/// Returns the value of --threads, or default_threads() if it is not given. That default may depend
+/// on the environment.
 int threads_argument(const std::optional<std::string>& text);
 
 float number_argument(const std::string& option, const std::string& text, float least, float most);
 
-/// WIDTHxHEIGHT of a picture.
+/// Parses the size of a picture, WIDTHxHEIGHT.
 std::pair<int, int> size_argument(const std::string& option, const std::string& text);
 
-/// The whole root of a square number.
+/// Returns the integer root of a square number.
 int square_argument(const std::string& option, const std::string& text, int most_root);
 
-/// The value of the choice that `text` names.
+/// Returns the value of the choice named `text`.
 template <class Value>
 Value choice_argument(const std::string& option, const std::string& text,
                       const std::vector<std::pair<std::string_view, Value>>& choices) {

@@ -14,7 +14,7 @@ bool take_options(const std::string& text, const std::function<void(CLI::App& co
     add(command);
     try {
         command.parse(text);
-    } catch (const CLI::RequiredError&) { // comes before unknown options
+    } catch (const CLI::RequiredError&) { // thrown before unknown options are reported
         return command.remaining().empty();
     } catch (const CLI::ParseError&) {
         return false;
@@ -24,7 +24,7 @@ bool take_options(const std::string& text, const std::function<void(CLI::App& co
 
 CLI::Option* add_option(CLI::App& command, const std::string& names, Argument& value,
                         const std::string& help, const std::string& type) {
-    // CLI11 itself would take an empty text for no value.
+    // CLI11 itself would treat an empty text as a missing value.
     const auto take = [&value](const std::string& text) { value = text; };
     return command.add_option_function<std::string>(names, take, help)->type_name(type);
 }

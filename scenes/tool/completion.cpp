@@ -13,7 +13,7 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
-/// "-o --output".
+/// Returns the names of an option, such as "-o" and "--output".
 std::vector<std::string> names_of(const CLI::Option& option) {
     std::vector<std::string> names;
     for (const std::string& name : option.get_snames())
@@ -35,7 +35,8 @@ bool takes_file(const CLI::Option& option) {
     return option.get_type_name() == "FILE";
 }
 
-/// Within single quotes, of which there are none in a shell's.
+/// Quotes a text for a shell. A text in single quotes cannot contain one, so each is escaped
+/// outside.
 std::string in_quotes(std::string_view text) {
     std::string result = "'";
     for (const char c : text)
@@ -43,14 +44,14 @@ std::string in_quotes(std::string_view text) {
     return result + "'";
 }
 
-/// The first sentence or clause: what fits beside a name.
+/// Returns the first sentence or clause of the description, which fits beside a name.
 std::string brief(const CLI::Option& option) {
     const std::string& text = option.get_description();
     const std::size_t end = std::min(text.find_first_of(":;("), text.size());
     return text.substr(0, text.find_last_not_of(' ', end - 1) + 1);
 }
 
-/// "render:-o|render:--output".
+/// Returns a pattern for a `case`, such as "render:-o|render:--output".
 std::string bash_pattern(const CLI::App& command, const CLI::Option& option) {
     std::string pattern;
     for (const std::string& name : names_of(option))
@@ -58,7 +59,8 @@ std::string bash_pattern(const CLI::App& command, const CLI::Option& option) {
     return pattern;
 }
 
-/// What may follow options: branches of a `case`. Numbers and the like complete to nothing.
+/// Returns branches of a `case` for the values of options. Numbers and other free text have no
+/// completions.
 std::string bash_values(const CLI::App& app) {
     std::string chosen, others;
     for (const CLI::App* command : commands_of(app))
@@ -73,7 +75,7 @@ std::string bash_values(const CLI::App& app) {
     return chosen + others + ") compopt +o default ;;\n";
 }
 
-/// What else may come: branches of a `case`.
+/// Returns branches of a `case` for all other words: options, and arguments with choices.
 std::string bash_words(const CLI::App& app) {
     std::string text;
     for (const CLI::App* command : commands_of(app)) {
@@ -137,7 +139,7 @@ std::string zsh_script(const CLI::App& app) {
     for (const CLI::App* command : commands_of(app)) {
         commands +=
             "        " + in_quotes(command->get_name() + ":" + command->get_description()) + "\n";
-        if (command->get_prefix_command()) { // whose options are its own
+        if (command->get_prefix_command()) { // it parses its arguments itself
             cases += "        " + command->get_name() + ") _files ;;\n";
             continue;
         }

@@ -15,7 +15,7 @@ const CLI::App& command_named(const CLI::App& app, const std::string& name) {
     std::vector<std::pair<std::string_view, const CLI::App*>> choices;
     const std::vector<const CLI::App*> commands = commands_of(app);
     choices.reserve(commands.size());
-    for (const CLI::App* command : commands) // whose names outlive this
+    for (const CLI::App* command : commands) // the names outlive `choices`
         choices.emplace_back(command->get_name(), command);
     return *choice_argument<const CLI::App*>("COMMAND", name, choices);
 }

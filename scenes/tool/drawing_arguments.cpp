@@ -86,7 +86,7 @@ Drawing DrawingArguments::drawing() const {
     if (repeat) drawing.repeat = repeat_argument(*repeat);
     drawing.show_cell = cell;
     drawing.ellipsoids = ellipsoids;
-    if (ellipsoids && !style) drawing.style = Style::balls; // of what has none
+    if (ellipsoids && !style) drawing.style = Style::balls; // for atoms without displacements
     return drawing;
 }
 

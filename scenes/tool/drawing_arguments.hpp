@@ -9,7 +9,7 @@
 
 namespace raylane::scenes {
 
-/// How atoms are drawn, as the command line says it.
+/// Command line options that say how atoms are drawn.
 struct DrawingArguments {
     Argument style, color, select, opacity, repeat, atom_style;
     bool cell = false, ellipsoids = false;
@@ -17,9 +17,9 @@ struct DrawingArguments {
     void add_to(CLI::App& command);
     /// Throws BadInput.
     Drawing drawing() const;
-    /// Names of those that are given, and their values; of flags these are empty.
+    /// Returns names and values of the options that are given. Flags have empty values.
     std::vector<std::pair<std::string, std::string>> given() const;
-    /// The first of these names; empty if none is given.
+    /// Returns the first of these names, or an empty text.
     std::string first_given() const;
 };
 

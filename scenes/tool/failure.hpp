@@ -4,17 +4,17 @@
 
 namespace raylane::scenes {
 
-/// What the program exits with.
+/// Exit codes of the program.
 enum ExitCode { done = 0, bad_input = 2, refused = 3 };
 
-/// What is to be said of an exception, a line for each error, and what the program is to exit with.
+/// The message for an exception, one line per error, and the exit code of the program.
 struct Failure {
-    int code; ///< an ExitCode, or 128 + the signal that has stopped it
+    int code; ///< an ExitCode, or 128 + the number of the signal that stopped the program
     std::string_view text;
 };
 
-/// Of the exception that is being handled, for as long as it is. Takes no memory: that may be what
-/// there is none of.
+/// Describes the exception that is being handled. The text is valid until the handler ends.
+/// Allocates no memory, because memory may have run out.
 Failure failure_being_handled();
 
 } // namespace raylane::scenes

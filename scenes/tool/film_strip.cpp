@@ -18,14 +18,14 @@ namespace {
     throw BadInput("--frames", "", "must be of at least one picture, got none");
 }
 
-/// A picture that is to be drawn.
+/// A picture to draw.
 struct Picture {
     std::size_t place;
     std::string name;
-    std::optional<core::Scene> scene; ///< none: it is there already
+    std::optional<core::Scene> scene; ///< empty if the file exists already
 };
 
-/// Makes scenes, one after the other, with the cameras that they are seen by.
+/// Makes the scenes one after the other, each with its camera.
 class Stage {
   public:
     explicit Stage(const FilmStrip& strip) : strip_(strip), change_(strip.view) {
@@ -33,16 +33,16 @@ class Stage {
         if (strip.fit_to == FitTo::all && strip.source->count() != 1) fit_to_all();
     }
 
-    /// True if there is one scene, which is only gone around.
+    /// Returns true if there is only one scene, around which the camera may turn.
     bool is_still() const { return strip_.source->count() == 1; }
     std::size_t count() const {
         return is_still() && strip_.turn ? strip_.turn->count : strip_.source->count();
     }
 
-    /// True if there were any, whoever draws them.
+    /// Returns true if there were any pictures, including those of other processes.
     bool has_any() const { return made_ > 0; }
 
-    /// That of the first picture.
+    /// Returns the scene and the file name of the first picture.
     Shot first() {
         const std::optional<std::size_t> number = strip_.source->next();
         if (!number) refuse_none();
@@ -64,7 +64,7 @@ class Stage {
                 number_ = *number;
             }
             const std::size_t place = made_++;
-            // How long a film is shows at its end alone.
+            // The source may not know the number of pictures before its end.
             if (strip_.turn && made_ > strip_.turn->count)
                 refuse_turn(*strip_.turn, "at least " + std::to_string(made_));
             const bool is_ours = strip_.only ? place == *strip_.only
@@ -72,14 +72,15 @@ class Stage {
             Picture picture{place, strip_.name(is_still() && strip_.turn ? place : number_),
                             std::nullopt};
             if (is_ours && is_wanted(picture.name)) picture.scene = scene(place);
-            // The others need to know what the first one is like.
+            // The view of the first picture fixes that of the others, so its scene is needed in any
+            // case.
             else if (place == 0 && strip_.fit_to == FitTo::first && !is_still())
                 static_cast<void>(scene(place));
             if (is_ours) return picture;
         }
     }
 
-    /// A scene that has been drawn, for the next picture to be made of if that is the same one.
+    /// Takes back a scene that has been drawn. If it is the only scene, the next picture reuses it.
     void take_back(core::Scene scene) {
         if (is_still()) still_ = std::move(scene);
     }
@@ -90,7 +91,8 @@ class Stage {
             refuse_turn(*strip_.turn, std::to_string(count));
     }
 
-    /// What lost its content with the power is empty.
+    /// Returns true if the picture must be drawn. A loss of power may leave an empty file, which
+    /// does not count.
     bool is_wanted(const std::string& name) const {
         std::error_code unknown;
         return strip_.overwrites || !std::filesystem::is_regular_file(name, unknown) ||
@@ -103,7 +105,7 @@ class Stage {
         if (!is_still() || !is_set_up_) {
             const core::Settings settings = strip_.settings(scene.settings());
             scene = seen(std::move(scene), change_, settings, frame_);
-            // A scene that has a camera of its own is seen by that.
+            // Scenes with an explicit camera keep it (below).
             if (!is_set_up_ && (is_still() || strip_.fit_to != FitTo::each))
                 fixed_ = view_of(scene);
             is_set_up_ = true;
@@ -124,7 +126,7 @@ class Stage {
         return std::move(scene).seen(staging, view);
     }
 
-    /// All of them once, for what is to be seen in the end.
+    /// Reads all scenes once to find the frame that contains their shapes.
     void fit_to_all() {
         std::atomic<std::size_t> count = 0;
         const ProgressLine line(strip_.verbosity,
@@ -146,14 +148,14 @@ class Stage {
 
     const FilmStrip& strip_;
     ViewChange change_;
-    std::optional<core::Frame> frame_; // of all
+    std::optional<core::Frame> frame_; // contains the shapes of all scenes
     std::optional<core::View> fixed_;
     std::optional<core::Scene> still_;
     bool is_set_up_ = false;
     std::size_t made_ = 0, number_ = 0;
 };
 
-/// Progress over all pictures, for another thread to ask.
+/// Progress over all pictures. Another thread may read it.
 class StripProgress {
   public:
     explicit StripProgress(std::size_t count) : count_(count) {}
@@ -223,7 +225,7 @@ void draw(const FilmStrip& strip) {
         while (picture) {
             ++pictures;
             std::future<std::optional<Picture>> next;
-            // What is the same scene cannot be made anew before it has been drawn.
+            // If there is only one scene, the next picture reuses it after this one is drawn.
             if (!stage.is_still()) next = std::async(std::launch::async, make_next);
             if (picture->scene) {
                 strip.draw(*picture->scene, picture->place, picture->name,

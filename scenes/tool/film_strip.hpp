@@ -12,23 +12,23 @@
 
 namespace raylane::scenes {
 
-/// Several pictures that belong together: frames of atoms, values of parameters, ways around.
+/// Several pictures that belong together: frames of atoms, values of parameters, views of a turn.
 struct FilmStrip {
-    std::shared_ptr<core::Workers> workers; ///< of the source
+    std::shared_ptr<core::Workers> workers; ///< used by `source`
     std::unique_ptr<SceneSource> source;
-    std::function<std::string(std::size_t)> name; ///< of the file of the picture with a number
+    std::function<std::string(std::size_t)> name; ///< the file name for a picture's number
     ViewChange view;
     FitTo fit_to = FitTo::first;
     std::optional<Turn> turn;
-    bool overwrites = true; ///< files that are there already
-    /// Of several processes that draw them, this one's number, from 0, and how many: they take
-    /// turns.
+    bool overwrites = true; ///< draw pictures whose files exist already
+    /// The share of this process: its number, from 0, and the number of processes, which take the
+    /// pictures in turn.
     struct Share {
         std::size_t number = 0, of = 1;
     } share;
-    std::optional<std::size_t> only; ///< the picture at this place alone, whoever's it is
+    std::optional<std::size_t> only; ///< draw only the picture at this place, regardless of `share`
     Verbosity verbosity = Verbosity::normal;
-    /// What a scene's settings become.
+    /// Returns the settings to use for a scene, given the scene's own.
     std::function<core::Settings(const core::Settings&)> settings;
     /// Draws the scene of the picture at a place, from 0, into a file.
     std::function<void(const core::Scene&, std::size_t place, const std::string& name,
@@ -36,22 +36,23 @@ struct FilmStrip {
         draw;
 };
 
-/// Throws BadInput: there are so many pictures `otherwise`.
+/// Throws BadInput. `otherwise`: the number of pictures without the turn.
 [[noreturn]] void refuse_turn(const Turn& turn, const std::string& otherwise);
 
-/// What a picture shows, and the name of its file.
+/// The scene of a picture and the name of its file.
 struct Shot {
     core::Scene scene;
     std::string name;
 };
 
-/// That of the first picture, for others to draw, whether it is there already or not. Throws what
-/// the source does.
+/// Returns the scene and file name of the first picture, whether or not that file exists. The
+/// caller draws it. Exceptions of the source propagate.
 Shot first_shot(const FilmStrip& strip);
 
-/// Draws all of them; while one is drawn the scene of the next is made. Throws what the source and
-/// the drawing do, once what came before is drawn, and BadInput where a turn is in other than as
-/// many pictures as there are: before the first one too many, or behind the last.
+/// Draws all pictures. The scene of the next one is made while one is drawn. Exceptions of the
+/// source and of `strip.draw` propagate after the previous pictures are drawn. Throws BadInput if
+/// the turn has another number of pictures than the source: before the first picture too many, or
+/// after the last one.
 void draw(const FilmStrip& strip);
 
 } // namespace raylane::scenes

@@ -55,7 +55,7 @@ std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
     strip.verbosity = verbosity;
     if (verbosity != Verbosity::quiet)
         options.on_remark = [](const std::string& remark) {
-            // In place of the line of progress, which is drawn anew.
+            // Replaces the progress line, which is drawn again afterwards.
             std::fprintf(stderr, is_terminal() ? "\r%s\x1B[K\n" : "%s\n", remark.c_str());
         };
     strip.source = range ? trajectory_of(scene, options, *range)

@@ -9,14 +9,14 @@
 
 namespace raylane::scenes {
 
-/// The names of pictures' files, by the pictures' numbers, as --output says them. `is_one`: a
-/// single picture, whose name needs no number. Throws BadInput, and so does what it returns, for
-/// the scene's own name.
+/// Returns a function from the number of a picture to the name of its file, according to --output.
+/// `is_one`: there is a single picture, whose name needs no number. Both functions throw BadInput
+/// for the name of the scene's file.
 std::function<std::string(std::size_t)> picture_names(const std::string& scene,
                                                       const Argument& output, bool is_one);
 
-/// The pictures of a scene that a command line asks for, if they may be several; it is for others
-/// to say how they are drawn. Scenes are made with `threads` threads. Throws BadInput.
+/// Returns the pictures that the command line requests, if there may be several. The caller sets
+/// how they are drawn. Scenes are made with `threads` threads. Throws BadInput.
 std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
                                        const SceneArguments& scene_arguments,
                                        const std::string& scene, const Argument& output,

@@ -14,7 +14,7 @@ FrameRange FrameRange::of(long count) const {
         return std::max(0L, *at + count);
     };
     FrameRange range{place(start), place(stop), step, is_one};
-    // Before the first there is none.
+    // A single frame before the first one does not exist.
     if (is_one && *start < -count) range.start = std::numeric_limits<long>::max();
     return range;
 }

@@ -11,41 +11,41 @@
 
 namespace raylane::scenes {
 
-/// What options of several pictures are under in the help.
+/// The heading in the help of options for several pictures.
 inline constexpr const char* group_of_several = "Parameters and several pictures";
 inline constexpr int most_pictures = 1'000'000;
 
-/// Python's start:stop:step; what is negative counts from the end.
+/// Python's start:stop:step; negative numbers count from the end.
 struct FrameRange {
     std::optional<long> start, stop;
     long step = 1;       ///< > 0
-    bool is_one = false; ///< start alone
+    bool is_one = false; ///< only the frame `start`
 
     bool counts_from_end() const { return (start && *start < 0) || (stop && *stop < 0); }
-    /// The same from the start, where it is known how many frames there are.
+    /// Returns the same range counted from the start, for `count` frames.
     FrameRange of(long count) const;
 };
 
-/// What fits several pictures of one film.
+/// The pictures that an automatic camera and the ranges of colours are fitted to.
 enum class FitTo : std::uint8_t { first, all, each };
 
-/// A whole turn, or another angle, in so many pictures.
+/// A turn by `degrees`, divided into `count` pictures.
 struct Turn {
     double degrees;
     std::size_t count;
 };
 
-/// How a command line asks for several pictures.
+/// Command line options for several pictures.
 struct FrameArguments {
     Argument frames, camera_from, turn;
-    bool overwrite = false; ///< files that are there already
+    bool overwrite = false; ///< draw pictures whose files exist already
 
     void add_to(CLI::App& command);
-    /// Those that are given, of which a picture of a film is made again: names and values.
+    /// Returns names and values of the options that are given and that pictures depend on.
     std::vector<std::pair<std::string, std::string>> given() const;
     // Throw BadInput.
     std::optional<FrameRange> range() const;
-    /// True if they ask for one picture: that of a frame, by its number.
+    /// Returns true if the options request the picture of one frame by its number.
     bool is_one() const;
     std::optional<Turn> turning() const;
     FitTo fit_to() const;
