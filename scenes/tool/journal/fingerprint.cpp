@@ -44,7 +44,7 @@ class Hash {
     std::unique_ptr<XXH3_state_t, Free> state_;
 };
 
-/// Arrays of numbers, without anything between them.
+/// Adds an array of numbers without padding.
 template <class T>
 void add_array(Hash& hash, const core::BigArray<T>& array) {
     hash.add(array.size());

@@ -7,18 +7,19 @@
 #include <span>
 #include <string>
 
-/// Digits that tell one thing from another: xxHash's XXH3 (128 bits, 32 hexadecimal digits; 64 bits
-/// of records). They find accidents, and keep nobody from forging.
+/// Hashes that tell scenes and pictures apart: xxHash's XXH3 (128 bits as 32 hexadecimal digits; 64
+/// bits for records). They detect accidents, not forgery.
 namespace raylane::scenes {
 
-/// Of all that a picture of the scene depends on but its settings: shapes with their tables'
-/// order, which depends on nothing else, materials, lights, camera and fog.
+/// Returns the fingerprint of everything in a scene that a picture depends on, except the settings:
+/// shapes in the order of their tables (which follows from the shapes alone), materials, lights,
+/// camera and fog.
 std::string fingerprint_of(const core::Scene& scene);
 
-/// Of a picture's size and the bits of its colours and alphas.
+/// Returns the fingerprint of a picture's size and of the bits of its colours and alphas.
 std::string fingerprint_of(const core::Film& film);
 
-/// Other ones by other seeds.
+/// Returns a checksum. Different seeds give different checksums.
 std::uint64_t checksum_of(std::span<const char> bytes, std::uint64_t seed);
 
 } // namespace raylane::scenes

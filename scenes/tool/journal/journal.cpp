@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::string_view magic = "raylane journal ";
 
-/// Before each tile's bytes; a checksum of both is behind them.
+/// Precedes each tile's bytes. A checksum of both follows them.
 struct RecordHead {
     std::uint32_t number;
     std::uint32_t bytes;
@@ -31,12 +31,12 @@ struct RecordHead {
 
 constexpr std::size_t bytes_around = sizeof(RecordHead) + sizeof(std::uint64_t);
 
-/// The bytes of a file that is read from its beginning to its end, many at a time.
+/// Reads a file from start to end, in large blocks.
 class Window {
   public:
     explicit Window(int descriptor) : descriptor_(descriptor) {}
 
-    /// Those from a place on. Fewer than asked for at the end of what can be read.
+    /// Returns `count` bytes from a position on, or fewer at the end of the readable part.
     std::span<const char> at(std::int64_t place, std::size_t count) {
         const bool has_all = place >= start_ && place + static_cast<std::int64_t>(count) <=
                                                     start_ + static_cast<std::int64_t>(have_);
@@ -50,7 +50,7 @@ class Window {
             std::span(buffer_).first(have_).subspan(static_cast<std::size_t>(place - start_));
         return from.first(std::min(count, from.size()));
     }
-    /// Whether it was not the file's end that the last ones ended at.
+    /// Returns true if the last bytes ended at a read error, not at the end of the file.
     bool is_refused() const { return is_refused_; }
 
   private:
@@ -68,7 +68,7 @@ std::string head_of(const JournalSubject& subject) {
            subject.options + "\n\n";
 }
 
-/// As many bytes as there are from a place on, at most `most`.
+/// Returns the bytes from a position on, at most `most`.
 std::string bytes_at(int descriptor, std::int64_t place, std::size_t most) {
     std::string bytes(most, '\0');
     bytes.resize(read_at(descriptor, place, bytes));
@@ -86,7 +86,7 @@ bool write_at(int descriptor, std::int64_t place, std::string_view bytes) {
     return true;
 }
 
-/// So that the file's name survives, too.
+/// Flushes the folder to the disk, so that the file's name survives a loss of power, too.
 void sync_folder_of(const std::filesystem::path& path) {
     const std::filesystem::path folder = path.parent_path();
     const int descriptor =
@@ -96,7 +96,7 @@ void sync_folder_of(const std::filesystem::path& path) {
     ::close(descriptor);
 }
 
-/// False if another process has it. File systems without locks have none for anybody.
+/// Returns false if another process has locked the file. Without support for locks, returns true.
 bool take_lock(int descriptor) {
     int result;
     do {
@@ -105,7 +105,7 @@ bool take_lock(int descriptor) {
     return result == 0 || errno != EWOULDBLOCK;
 }
 
-/// A tile's bytes as the file has them. `seed`: of the journal, whose records alone are read again.
+/// Returns the record of a tile. `seed`: that of the journal, which accepts only such records.
 std::string record_of(std::size_t number, std::string_view bytes, std::uint64_t seed) {
     const RecordHead head{static_cast<std::uint32_t>(number),
                           static_cast<std::uint32_t>(bytes.size())};
@@ -116,7 +116,7 @@ std::string record_of(std::size_t number, std::string_view bytes, std::uint64_t 
     return record;
 }
 
-/// Whether a record that is to be of that size is all there as it was written.
+/// Returns true if a record is complete and has the right checksum. `size`: its expected size.
 bool is_whole(std::span<const char> record, std::size_t size, std::uint64_t seed) {
     if (record.size() < size) return false;
     const std::span<const char> summed = record.first(size - sizeof(std::uint64_t));
@@ -132,7 +132,7 @@ std::filesystem::path shared_name(const std::filesystem::path& picture) {
     return picture.string().append(ending);
 }
 
-/// The name of a journal whose output's shared name another subject has.
+/// Returns the name of a checkpoint if another subject has the output's shared name.
 std::filesystem::path own_name(const std::filesystem::path& picture, std::uint64_t seed) {
     char digits[digits_of_seed + 1];
     std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(seed));
@@ -147,13 +147,13 @@ bool is_name_of_journal(std::string_view name, std::string_view picture) {
            name.substr(1, digits_of_seed).find_first_not_of("0123456789abcdef") == name.npos;
 }
 
-/// -1, and errno, if it cannot be opened.
+/// Opens a checkpoint. Returns -1 with errno set if that fails.
 int open_journal(const std::filesystem::path& path) {
     return ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
 }
 
-/// The first bytes of a journal, which may be cut off in these. Nothing if the file is no journal
-/// of this user's: others may write anything.
+/// Returns the first bytes of a checkpoint, which may be cut off within the header. Returns nothing
+/// if the file is not a checkpoint of this user, because other users may write anything.
 std::optional<std::string> head_in(int descriptor, std::size_t most) {
     struct stat status {};
     if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode) ||
@@ -164,7 +164,7 @@ std::optional<std::string> head_in(int descriptor, std::size_t most) {
     return head;
 }
 
-/// False if the file has been removed, or another file has its name.
+/// Returns false if the file was removed, or if another file has its name.
 bool is_at(const std::filesystem::path& path, int descriptor) {
     struct stat own {
     }, there{};
@@ -192,7 +192,7 @@ Journal::~Journal() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-/// Takes the journal of this subject, under whichever name it is, or the name for a new one.
+/// Opens the checkpoint of this subject under either name, or chooses the name of a new one.
 void Journal::open() {
     path_ = found_at_ = own_name(picture_, seed_);
     const Found own = look_at(path_);
@@ -214,7 +214,7 @@ void Journal::open() {
     is_ours_ = true;
 }
 
-/// Keeps the file open, and locked, if it is this subject's or cut off.
+/// Keeps the file open and locked if it belongs to this subject or was cut off.
 Journal::Found Journal::look_at(const std::filesystem::path& path) {
     const int descriptor = open_journal(path);
     if (descriptor < 0)
@@ -245,7 +245,8 @@ Journal::Found Journal::kind_of(const std::string& head) const {
     return is_of_version && !is_of_scene ? Found::other_scene : Found::other_options;
 }
 
-/// Where one is damaged, whatever byte of it that be, the next one that is whole is looked for.
+/// Finds the complete records. After a damaged one, whichever of its bytes that is, it searches
+/// byte by byte for the next complete record.
 void Journal::read_records() {
     std::vector<std::size_t> sizes(places_.size());
     for (std::size_t number = 0; number < sizes.size(); ++number)
@@ -268,10 +269,10 @@ void Journal::read_records() {
     }
     struct stat status {};
     if (window.is_refused() && ::fstat(descriptor_, &status) == 0) {
-        end_ = std::max<std::int64_t>(end_, status.st_size); // it may be readable another time
+        end_ = std::max<std::int64_t>(end_, status.st_size); // the rest may be readable later
         return;
     }
-    // What is behind it was being written when its process ended. If it stays, no harm is done.
+    // The rest was being written when its process ended. It does no harm if it stays.
     [[maybe_unused]] const int shortened = ::ftruncate(descriptor_, end_);
 }
 
@@ -319,13 +320,13 @@ void Journal::drop_oldest() {
     waiting_.pop_front();
 }
 
-/// As much of it as the system lets.
+/// Writes as many of the waiting records as the system accepts.
 void Journal::write_waiting() {
     if (is_given_up_ || waiting_.empty()) return;
     bool goes_on = is_ours_ || begin();
     if (goes_on && end_ == 0) {
         goes_on = append(head_);
-        if (goes_on) static_cast<void>(::fdatasync(descriptor_)); // before any record
+        if (goes_on) static_cast<void>(::fdatasync(descriptor_)); // before any record is written
     }
     while (goes_on && !waiting_.empty()) {
         goes_on = append(waiting_.front());
@@ -354,7 +355,8 @@ bool Journal::begin() {
     return true;
 }
 
-/// Tiles may be minutes apart: whoever writes the next one is no help to the last.
+/// Writes and flushes at intervals. Tiles may be minutes apart, so the last one must not wait until
+/// note() is called for the next one.
 void Journal::keep_up() {
     std::unique_lock lock(mutex_);
     const auto is_ending = [this] { return is_ending_; };
@@ -363,16 +365,16 @@ void Journal::keep_up() {
         write_waiting();
         if (std::exchange(is_to_be_synced_, false) && is_ours_ && !is_given_up_) {
             lock.unlock();
-            static_cast<void>(::fdatasync(descriptor_)); // others may go on
+            static_cast<void>(::fdatasync(descriptor_)); // unlocked for other threads
             lock.lock();
         }
         ends = ends_.wait_for(lock, sync_every, is_ending);
     }
 }
 
-/// With all in it before it has a name, where the system can do that: so no file is there that is
-/// not known for what it is, or that lacks what has been waiting. As private as the picture that is
-/// there. False, and that is told, if it cannot be.
+/// Makes the file. Where the system supports it, the file is complete before it has a name. So a
+/// named file is always identifiable and contains the waiting records. It is as private as an
+/// existing picture. Returns false after an error, which it reports.
 bool Journal::make() {
     struct stat picture {};
     const bool is_there = ::stat(picture_.c_str(), &picture) == 0;
@@ -388,7 +390,7 @@ bool Journal::make() {
             ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) == 0;
         const int error_number = errno;
         if (!done) ::close(made);
-        if (!done && error_number != ENOENT) { // or else there is no /proc
+        if (!done && error_number != ENOENT) { // ENOENT: /proc does not exist
             errno = error_number;
             fail();
             return false;
@@ -412,8 +414,8 @@ bool Journal::make() {
     return true;
 }
 
-/// The head and what has been waiting, into an empty file. Where it ends then; none if it could
-/// not.
+/// Writes the header and the waiting records into an empty file. Returns the end of the file, or
+/// nothing after an error.
 std::optional<std::int64_t> Journal::write_all(int descriptor) const {
     if (!write_at(descriptor, 0, head_)) return std::nullopt;
     auto end = static_cast<std::int64_t>(head_.size());
@@ -425,7 +427,7 @@ std::optional<std::int64_t> Journal::write_all(int descriptor) const {
 }
 
 void Journal::fail() {
-    const bool is_others = errno == EEXIST; // since this began
+    const bool is_others = errno == EEXIST; // made after open() searched for it
     problem_ = is_others ? printable(path_.string(), 4096) +
                                ": is in use by another process, so this one kept none"
                          : SystemRefused(path_.string(), "write", errno).what();
@@ -433,14 +435,14 @@ void Journal::fail() {
     if (const auto tell = std::exchange(tell_, {})) tell(problem_);
 }
 
-/// Nothing more is written.
+/// Stops writing for good.
 void Journal::give_up() {
     is_given_up_ = true;
     waiting_.clear();
     waiting_bytes_ = 0;
 }
 
-/// All of it or nothing. False, and that is told, if it cannot be.
+/// Appends all bytes or none. Returns false after an error, which it reports.
 bool Journal::append(const std::string& bytes) {
     if (write_at(descriptor_, end_, bytes)) {
         end_ += static_cast<std::int64_t>(bytes.size());
@@ -449,7 +451,7 @@ bool Journal::append(const std::string& bytes) {
     }
     fail();
     [[maybe_unused]] const int shortened =
-        ::ftruncate(descriptor_, end_); // or it has half a record
+        ::ftruncate(descriptor_, end_); // removes a partial record
     return false;
 }
 
@@ -467,18 +469,18 @@ bool Journal::give_room(std::size_t bytes) {
     struct stat own {};
     if (!is_ours_ || ::fstatvfs(descriptor_, &disk) != 0 || ::fstat(descriptor_, &own) != 0)
         return false;
-    constexpr std::uint64_t block = 512; // as POSIX counts
+    constexpr std::uint64_t block = 512; // POSIX counts st_blocks in 512 bytes
     const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize +
                                block * static_cast<std::uint64_t>(own.st_blocks);
     if (room < bytes || ::ftruncate(descriptor_, 0) != 0) return false;
-    give_up(); // or it would take it again
+    give_up(); // otherwise the journal would use the space again
     if (problem_.empty()) problem_ = path_.string() + ": has given its room to the picture";
     return true;
 }
 
 void Journal::remove() {
     const std::lock_guard lock(mutex_);
-    give_up(); // or what waits would begin one
+    give_up(); // otherwise waiting records would make a new file
     if (!is_ours_ && found_ == Found::nothing) return;
     std::error_code unknown;
     const std::filesystem::path target = std::filesystem::canonical(picture_, unknown);

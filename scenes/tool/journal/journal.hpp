@@ -18,44 +18,44 @@
 
 namespace raylane::scenes {
 
-/// What a journal is of; only the same goes on with it.
+/// The picture that a checkpoint belongs to. A rendering resumes only from its own subject.
 struct JournalSubject {
-    std::string scene;   ///< fingerprint_of
-    std::string options; ///< one line: all that the picture depends on beside the scene
+    std::string scene;   ///< fingerprint_of() the scene
+    std::string options; ///< one line with everything else that the picture depends on
 };
 
-/// The finished tiles of a picture that is being drawn, in a file beside it, from which another
-/// process can go on when this one ends before its time, however that be. Each tile is written as
-/// it comes, with a checksum. If the process dies, the tiles under way are lost at most; if the
-/// power fails, those of the last `sync_every`, too. No file is made before `begin_after`, but one
-/// that is there is written from the first tile on.
+/// A checkpoint: the finished tiles of a picture that is being drawn, in a file beside the output.
+/// Another process can resume from it, however this one ends. Each tile is written as soon as it is
+/// finished, with a checksum. If the process dies, at most the tiles in progress are lost. If the
+/// power fails, those of the last `sync_every` are lost, too. A new file is made only after
+/// `begin_after`; an existing one is extended from the first tile on.
 ///
-/// Journals of one output and different subjects exist side by side. The first is "OUTPUT.part",
-/// the others are "OUTPUT.CHECKSUM.part", with 16 hexadecimal digits that follow from the subject.
-/// A complete picture removes all that no other process uses.
+/// Checkpoints of one output and different subjects exist side by side. The first is "OUTPUT.part",
+/// the others are "OUTPUT.CHECKSUM.part", with 16 hexadecimal digits computed from the subject. A
+/// complete picture removes all that no other process uses.
 ///
-/// To be used by one process at a time, which the file's lock sees to. Nothing that goes wrong with
-/// the file ends the drawing: problem() tells it. What could not be written is kept, as far as
-/// `most_waiting` goes, and tried again every `sync_every`.
+/// A lock on the file ensures that one process uses it at a time. Errors of the file do not end the
+/// drawing; problem() returns them. Records that cannot be written are kept in memory, up to
+/// `most_waiting` bytes, and tried again every `sync_every`.
 class Journal {
   public:
     static constexpr std::chrono::seconds begin_after{2}, sync_every{3};
     static constexpr std::size_t most_waiting = std::size_t{256} << 20;
 
-    /// What there was of a file.
+    /// The file that was found at construction, and what the journal does with it.
     enum class Found : std::uint8_t {
         nothing,
-        same,           ///< goes on with it
-        other_scene,    ///< stays; this journal takes another name
-        other_options,  ///< or another version's, likewise
-        cut_off,        ///< in its first lines: empties it
-        none_of_ours,   ///< leaves it alone, and keeps no journal
-        in_use,         ///< likewise
-        named_too_long, ///< likewise
+        same,           ///< resumes from it
+        other_scene,    ///< keeps it; this journal takes another name
+        other_options,  ///< or another version: the same
+        cut_off,        ///< within the header: truncates it
+        none_of_ours,   ///< no checkpoint of this user: keeps it and writes none
+        in_use,         ///< by another process: the same
+        named_too_long, ///< the same
     };
 
-    /// `picture`: the output. `tell` receives the first problem() as soon as there is one, from
-    /// whichever thread has it.
+    /// `picture`: the output. `tell` receives the first problem() as soon as it occurs, in the
+    /// thread in which it occurs.
     Journal(std::filesystem::path picture, const JournalSubject& subject, TileRecords records,
             std::function<void(const std::string&)> tell = {});
     ~Journal();
@@ -64,30 +64,30 @@ class Journal {
 
     const std::filesystem::path& path() const { return path_; }
     Found found() const { return found_; }
-    /// The file that found() is about.
+    /// Returns the file that found() is about.
     const std::filesystem::path& found_at() const { return found_at_; }
-    /// Pixels of the tiles that were found.
+    /// Returns the number of pixels of the tiles that were found.
     std::int64_t found_pixels() const;
 
-    /// True if a tile was found.
+    /// Returns true if the tile was found.
     bool has(std::size_t number) const { return places_[number] >= 0; }
 
-    /// For simd::RenderOptions: by several threads.
+    /// Callbacks for simd::RenderOptions. Thread-safe.
     bool recall(const simd::TileToFill& tile);
     void note(const simd::FinishedTile& tile);
-    /// The same of a tile of which the bytes are there.
+    /// Notes a tile whose bytes exist already.
     void note(std::size_t number, std::string_view bytes);
 
-    /// Writes what is not written yet, for the drawing ends before its time. False if it could not.
+    /// Writes everything that waits, because the drawing ends early. Returns false if that fails.
     bool keep();
-    /// The drawing is done, and there is no room on the disk for so many bytes of a picture: gives
-    /// its own, if that is enough.
+    /// Frees the file's space for a complete picture of `bytes` bytes that the disk has no space
+    /// for. Returns false, and keeps the file, if that is not enough.
     bool give_room(std::size_t bytes);
-    /// The picture is there: removes this journal and those of other subjects, once the picture is
-    /// sure to survive them.
+    /// Removes this checkpoint and those of other subjects after the picture is written, once the
+    /// picture is certain to survive on the disk.
     void remove();
-    /// What the system said last, as long as something is not written that should be; or else
-    /// empty. One line.
+    /// Returns the system's last error in one line as long as something is not written that should
+    /// be, otherwise an empty text.
     std::string problem();
 
   private:
@@ -113,23 +113,22 @@ class Journal {
     std::filesystem::path picture_, path_, found_at_;
     TileRecords records_;
     std::string head_;
-    std::uint64_t seed_; // of checksums: another journal's records are none of this one's
+    std::uint64_t seed_; // of the checksums, so that records of other journals are invalid here
     Found found_ = Found::nothing;
-    std::vector<std::int64_t> places_; // of the tiles' bytes in the file; -1: not there
+    std::vector<std::int64_t> places_; // of the tiles' bytes in the file; -1: missing
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
-    std::mutex mutex_; // of what follows
+    std::mutex mutex_; // protects the members below
     int descriptor_ = -1;
-    bool is_ours_ = false; // this picture's tiles are in it
+    bool is_ours_ = false; // the file has this picture's tiles
     bool is_given_up_ = false;
-    std::deque<std::string> waiting_; // records that are not written
+    std::deque<std::string> waiting_; // records that are not written yet
     std::size_t waiting_bytes_ = 0;
-    std::chrono::steady_clock::time_point next_try_; // to write them
+    std::chrono::steady_clock::time_point next_try_; // the time to write them
     std::int64_t end_ = 0;
     std::string problem_;
-    std::function<void(const std::string&)> tell_; // none: it has been told
-    std::thread
-        keeping_; // up with what is noted; without one, it is up to who notes, and the system
+    std::function<void(const std::string&)> tell_; // empty after it was called
+    std::thread keeping_;                          // runs keep_up(); without it, only note() writes
     std::condition_variable ends_;
     bool is_ending_ = false, is_to_be_synced_ = false;
 };

@@ -19,7 +19,8 @@ namespace raylane::scenes {
 
 namespace {
 
-/// A link may lead to a stream that happens to be a file.
+/// Returns true if the name, or a link that it leads to, is in /proc or is a link in /dev. Such a
+/// stream may be a regular file.
 bool leads_to_stream(const std::string& output) {
     std::error_code unknown;
     std::filesystem::path path = output;
@@ -62,7 +63,7 @@ ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
                                          [this](const std::string& problem) { say(problem); });
 }
 
-/// On a line of its own, where the progress may be on another.
+/// Prints a line in place of the progress line, which is redrawn below it.
 void ResumableRendering::say(const std::string& what) const {
     const bool has_bar = verbosity_ != Verbosity::quiet && is_terminal();
     std::fprintf(stderr, "%sraylane: %s\n", has_bar ? "\r\x1B[K" : "", what.c_str());
@@ -109,7 +110,7 @@ std::int64_t ResumableRendering::pixels() const {
     return grid_.part().pixels() - pixels_of_others();
 }
 
-/// Of what is to be drawn.
+/// Returns the percentage of the pixels to draw.
 int ResumableRendering::percent(std::int64_t pixels) const {
     return static_cast<int>(100 * pixels / std::max<std::int64_t>(1, this->pixels()));
 }
@@ -130,7 +131,7 @@ simd::Rendering ResumableRendering::draw_alone(simd::Progress& progress) {
     options_.recall = [&](const simd::TileToFill& tile) {
         if (is_others(grid_.number_of(tile.region))) {
             left_out += tile.region.pixels();
-            return true; // it stays black
+            return true; // the tile stays black
         }
         return journal_ && journal_->recall(tile);
     };
@@ -195,7 +196,7 @@ void ResumableRendering::write(OutputFile& output, const core::Film& film,
     } catch (const SystemRefused& refused) {
         const bool is_full = refused.error_number == ENOSPC || refused.error_number == EDQUOT;
         if (!is_full || !journal_) throw;
-        // Not before it is known that this helps.
+        // Measures the picture in memory first, to give the checkpoint up only if that helps.
         const MemoryFile memory("raylane picture");
         OutputFile(memory.path(), output.format(), exr_of).commit(film, options, layers);
         if (!journal_->give_room(memory.bytes())) throw;

@@ -16,38 +16,40 @@
 
 namespace raylane::scenes {
 
-/// A signal has ended the drawing of a picture, of which a journal is kept. Exit code 128 + signal.
+/// A signal has stopped the drawing of a picture. Exit code 128 + signal.
 struct Stopped : std::exception {
     int signal;
-    std::string text; ///< how to go on, or why that cannot be
+    std::string text; ///< how to resume, or why that is impossible
     Stopped(int signal_, std::string text_) : signal(signal_), text(std::move(text_)) {}
     const char* what() const noexcept override { return text.c_str(); }
 };
 
-/// The drawing of a picture that goes on where an earlier process was ended, if that has left a
-/// journal beside the output of the same scene and options; and that leaves one.
+/// The drawing of a picture. It resumes where an earlier process ended, if that process left a
+/// checkpoint of the same scene and options beside the output. It keeps a checkpoint itself.
 class ResumableRendering {
   public:
-    /// For a picture that is written to `output`: "-" and what is no regular file have no journal,
-    /// and so if it is not `wanted`.
+    /// `output`: the file of the picture. There is no checkpoint for "-", for other files that are
+    /// not regular, or if `wanted` is false.
     ResumableRendering(const std::string& output, bool wanted, const core::Scene& scene,
                        const std::string& fingerprint, const core::Settings& settings,
                        simd::RenderOptions options, const std::optional<PicturePart>& part,
                        Verbosity verbosity);
 
-    /// Says on standard error what there was. Throws Stopped. With a job of several ranks,
-    /// together, which part then: rank 0 has the picture. If there is a journal, the first signal
-    /// does not end the process from here until end_if_signalled().
+    /// Draws the picture, and reports a checkpoint that was found on standard error. Throws
+    /// Stopped. With a job of several ranks, this is collective, and the ranks part at its end;
+    /// rank 0 has the picture. With a checkpoint, the first signal does not end the process from
+    /// here until end_if_signalled().
     simd::Rendering draw(simd::Progress& progress, Job* job = nullptr);
-    /// Writes the picture; where the disk is full, in the room that its journal gives. Throws
+    /// Writes the picture. If the disk is full, it takes the space of the checkpoint. Throws
     /// SystemRefused.
     void write(OutputFile& output, const core::Film& film, const PictureOptions& options,
                const core::Layers* layers);
-    /// The picture has been written.
+    /// Removes the checkpoint. Call it when the picture is written.
     void finished();
-    /// Behind that: throws Stopped if a signal has come since the last tiles were begun.
+    /// Throws Stopped if a signal has arrived since the last tiles were begun. Call it after
+    /// finished().
     void end_if_signalled();
-    /// How many pixels are to be drawn, by whichever run: those of the part.
+    /// Returns the number of pixels that all runs together draw: those of the part.
     std::int64_t pixels() const;
 
   private:
@@ -68,8 +70,8 @@ class ResumableRendering {
     std::optional<PicturePart> part_;
     Verbosity verbosity_;
     std::optional<StopOnSignal> stop_on_signal_;
-    std::unique_ptr<Journal> journal_; // null: none
-    std::int64_t drawn_ = 0;           // pixels, with those that were found
+    std::unique_ptr<Journal> journal_; // null: no checkpoint
+    std::int64_t drawn_ = 0;           // pixels, including those of the checkpoint
 };
 
 } // namespace raylane::scenes

@@ -34,7 +34,7 @@ class Reader {
     std::span<const char> bytes_;
 };
 
-/// Visits all numbers of a tile, in the order of its record, to be read or written.
+/// Visits all numbers of a tile in the order of its record, to read or write them.
 template <class Film, class Layers, class Visit>
 void visit_pixels(const core::Region& tile, const core::Region& crop, Film& film, Layers* layers,
                   const Visit& visit) {

@@ -8,20 +8,20 @@
 
 namespace raylane::scenes {
 
-/// What the tiles of a picture show, as bytes, each by itself: its counters, and for each pixel,
-/// row by row, three floats, an alpha if the picture has one, and of those in the crop the layers
-/// if it has any. In this machine's order of bytes, as all are that this runs on.
+/// Converts single tiles of a picture to bytes: the counters; three floats for each pixel, row by
+/// row; the alphas, if the picture has any; and, if it has layers, those of the pixels in the crop.
+/// The byte order is that of this machine, and of all machines that raylane runs on.
 class TileRecords {
   public:
-    /// Of this rendering.
+    /// For the tiles of this rendering.
     TileRecords(const core::Settings& settings, const simd::RenderOptions& options);
 
     const simd::TileGrid& grid() const { return grid_; }
     std::size_t bytes(std::size_t number) const;
 
-    /// Adds the bytes of a tile to a text.
+    /// Appends the bytes of a tile.
     void append(const simd::FinishedTile& tile, std::string& bytes) const;
-    /// From as many bytes as that tile has.
+    /// Fills a tile from as many bytes as its record has.
     void fill(const simd::TileToFill& tile, std::span<const char> bytes) const;
 
   private:

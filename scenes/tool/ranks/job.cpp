@@ -26,7 +26,7 @@ std::string host_name() {
     return name;
 }
 
-/// Without a processor for it, unlike MPI itself.
+/// Waits without using a processor, unlike MPI itself.
 void wait_for_all(Ranks& ranks) {
     while (!ranks.all_are_here())
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -45,8 +45,8 @@ std::vector<std::string> gathered(Ranks& ranks, const std::string& text) {
     return texts;
 }
 
-/// Fills a piece with what comes from standard input, up to its end: how many bytes that are, or -1
-/// as errno says.
+/// Fills a piece from standard input. Returns the number of bytes, which is smaller at the end of
+/// the input, or -1 with errno set.
 std::int64_t read_input(std::vector<char>& piece) {
     std::size_t filled = 0;
     while (filled < piece.size()) {
@@ -60,7 +60,8 @@ std::int64_t read_input(std::vector<char>& piece) {
     return static_cast<std::int64_t>(filled);
 }
 
-/// Standard input of all ranks, as it comes. What refuses it is told at its end, when all are.
+/// Collects the standard input that all ranks share. Errors are thrown at the end, when all ranks
+/// have received it.
 class SharedInput {
   public:
     void append(std::span<const char> piece) {
@@ -92,7 +93,7 @@ class SharedInput {
 
     std::optional<MemoryFile> memory_;
     std::optional<AtomicFile> file_;
-    int refusal_ = 0; // errno's
+    int refusal_ = 0; // errno of the first error
 };
 
 } // namespace
@@ -104,7 +105,8 @@ Job::Job() : ranks_(join_ranks()) {
 }
 
 Job::~Job() {
-    // The others know nothing of it, and would be waited for; the process's end will be their own.
+    // The other ranks do not know of the exception, so parting would wait for them. The end of this
+    // process ends them.
     if (std::uncaught_exceptions() > exceptions_ && !fails_together_)
         static_cast<void>(ranks_.release());
     part();
@@ -163,7 +165,7 @@ void Job::share_standard_input() {
             count = read_input(piece);
             if (count < 0) unreadable = errno;
         }
-        wait_for_all(*ranks_); // for as long as the input takes to come
+        wait_for_all(*ranks_); // for as long as the input takes to arrive
         ranks_->broadcast(&count, sizeof count);
         if (count <= 0) break;
         ranks_->broadcast(piece.data(), static_cast<std::size_t>(count));

@@ -1,6 +1,6 @@
 #include "scenes/tool/ranks/ranks.hpp"
 
-// Its C++ bindings have been withdrawn.
+// Disables MPI's C++ bindings, which have been withdrawn.
 #define OMPI_SKIP_MPICXX 1
 #define MPICH_SKIP_MPICXX 1
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// Counts of MPI are ints: longer messages are sent in pieces of this many bytes.
+/// Counts in MPI are ints, so longer messages are sent in pieces of this many bytes.
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
 class MpiRanks : public Ranks {
@@ -121,7 +121,7 @@ class MpiRanks : public Ranks {
 
   private:
     static constexpr int tag = 1;
-    static constexpr MPI_Aint counter = 0, mark = 1; // in the window
+    static constexpr MPI_Aint counter = 0, mark = 1; // indices in the window
 
     std::uint64_t change(MPI_Aint which, std::uint64_t by, MPI_Op how) {
         std::uint64_t before = 0;
@@ -146,7 +146,8 @@ class MpiRanks : public Ranks {
 
 extern "C" [[gnu::visibility("default")]] Ranks* raylane_join_ranks(const char** why) {
 #if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION < 5
-    // Of its ways to reach another host's memory it takes one that TCP cannot do, and fails.
+    // Before version 5, Open MPI chooses a component for one-sided communication that fails over
+    // TCP.
     ::setenv("OMPI_MCA_osc", "^rdma", 0);
 #endif
     int provided = MPI_THREAD_SINGLE;

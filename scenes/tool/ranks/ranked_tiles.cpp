@@ -7,7 +7,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// All together: rank 0's.
+/// Collective: returns the numbers of rank 0.
 std::vector<std::uint32_t> shared(Ranks& ranks, std::vector<std::uint32_t> numbers) {
     std::uint64_t count = numbers.size();
     ranks.broadcast(&count, sizeof count);

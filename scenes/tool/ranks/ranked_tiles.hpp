@@ -12,30 +12,31 @@
 
 namespace raylane::scenes {
 
-/// The tiles of a picture that the ranks of a job draw together. The picture is rank 0's, which
-/// gets the tiles that others have drawn as they come; theirs has those alone that they draw.
+/// The tiles of a picture that the ranks of a job draw together. Rank 0 has the whole picture, and
+/// receives the tiles of other ranks as they arrive. The pictures of other ranks have only the
+/// tiles that these draw.
 class RankedTiles : public simd::TileSource {
   public:
-    /// What there is to be done, for rank 0 to say.
+    /// The work to do, which rank 0 determines.
     struct Tiles {
         std::vector<std::uint32_t> to_draw;  ///< by any rank, in order
-        std::vector<std::uint32_t> to_visit; ///< by rank 0, which knows what they show
+        std::vector<std::uint32_t> to_visit; ///< by rank 0, which has their contents
     };
 
-    /// All together, on so many threads here. `stop` as SharedWork has it.
+    /// Collective, with `threads` threads here. `stop`: see SharedWork.
     RankedTiles(Ranks& ranks, Tiles tiles, const TileRecords& records, int threads,
                 std::atomic<bool>& stop);
 
     std::optional<std::size_t> next() override;
     void cancel() override { work_.cancel(); }
 
-    /// For simd::RenderOptions: fills a tile that another rank has drawn, and returns its bytes;
-    /// sends one to rank 0.
+    /// Callbacks for simd::RenderOptions. recall() fills a tile that another rank has drawn and
+    /// returns its bytes; note() sends a tile to rank 0.
     std::optional<std::string> recall(const simd::TileToFill& tile);
     void note(const simd::FinishedTile& tile);
 
-    /// All together, behind the drawing. Of tiles that have come too late to be drawn, as it was
-    /// stopped, the numbers and bytes.
+    /// Collective, after the drawing. Returns numbers and bytes of tiles that arrived too late to
+    /// be filled in, because the drawing was stopped.
     std::vector<std::pair<std::size_t, std::string>> finish();
 
   private:
@@ -43,7 +44,7 @@ class RankedTiles : public simd::TileSource {
     Tiles tiles_;
     const TileRecords& records_;
     SharedWork work_;
-    std::mutex mutex_; // of what follows
+    std::mutex mutex_; // protects the members below
     std::size_t visited_ = 0;
     std::unordered_map<std::size_t, std::string> drawn_elsewhere_; // not filled in yet
 };

@@ -14,15 +14,15 @@ namespace {
 bool has_joined = false;
 bool speaks = false;
 
-/// Of a variable, if it is a number.
+/// Returns the value of an environment variable, if it is a number.
 std::optional<int> number_in(const char* variable) {
     const char* const text = std::getenv(variable);
-    return text != nullptr ? to_int(text) : std::nullopt; // takes no memory
+    return text != nullptr ? to_int(text) : std::nullopt; // allocates no memory
 }
 
 } // namespace
 
-// Slurm's own variables are there for single programs of a job, too: with srun, PMI's tell.
+// Slurm sets its own variables for single programs of a job, too. With srun, those of PMI decide.
 bool is_one_of_several() {
     for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
         if (number_in(variable).value_or(0) > 1) return true;

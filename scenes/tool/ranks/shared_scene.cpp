@@ -18,7 +18,8 @@ bool is_built(const std::filesystem::path& path) {
     return std::filesystem::is_regular_file(path, none) && looks_built(InputFile(path).head());
 }
 
-/// Where others find a scene that is in `memory` now; empty, and no memory, where that cannot be.
+/// Writes a scene to `memory` and returns the path by which other processes find it. If that is
+/// impossible, returns an empty path and resets `memory`.
 std::string put(std::optional<MemoryFile>& memory, const core::Scene& scene) {
     if (scene.solids().any()) return "";
     try {
@@ -26,7 +27,7 @@ std::string put(std::optional<MemoryFile>& memory, const core::Scene& scene) {
         write_built(file, scene);
         file.commit();
         return memory->path_for_others();
-    } catch (const SystemRefused&) { // it is too large, for one thing
+    } catch (const SystemRefused&) { // it is too large, for example
         memory.reset();
         return "";
     }
@@ -38,7 +39,7 @@ std::optional<core::Scene> take(const std::string& place, int threads) {
         InputFile file(place);
         simd::ParallelWorkers workers(threads);
         return read_built(file, &workers);
-    } catch (const BadInput&) { // another namespace's processes
+    } catch (const BadInput&) { // /proc shows the processes of another namespace
         return std::nullopt;
     } catch (const SystemRefused&) {
         return std::nullopt;
@@ -59,14 +60,14 @@ core::Scene load_together(Job& job, const std::filesystem::path& path, int threa
     const int share = job.share_of_threads(threads);
     std::optional<MemoryFile> memory;
     std::string place;
-    // Hosts may differ in all of this, but not in what they do together.
+    // Hosts may take different branches here, but all ranks make the same collective calls.
     job.together([&] {
         if (!job.shares_host()) {
             scene = load(share);
         } else if (job.is_first_of_host() && !is_built(path)) {
             scene = load(threads);
             place = put(memory, *scene);
-            if (!place.empty()) scene.reset(); // it is there twice
+            if (!place.empty()) scene.reset(); // otherwise it is in memory twice
         }
     });
     place = job.told_on_host(place);

@@ -8,11 +8,11 @@
 
 namespace raylane::scenes {
 
-/// All together: the scene that `load` gives of a file, with so many threads. Of several ranks on
-/// one host the first loads it, by as many threads as it may have for all of them, and the others
-/// have its shapes in the same memory; those that cannot, load it themselves. What is built already
-/// is in memory once anyway, and each loads it. Standard input ("-") is shared first. Errors are
-/// those of Job::together.
+/// Collective: returns the scene of a file, which `load` loads with a number of threads. Of several
+/// ranks on one host, the first loads it with the threads of all of them, and the others share its
+/// shapes in memory. Ranks that cannot share load it themselves. A built file is in memory only
+/// once in any case, so each rank loads it. Standard input ("-") is shared first. Throws the same
+/// as Job::together().
 core::Scene load_together(Job& job, const std::filesystem::path& path, int threads,
                           const std::function<core::Scene(int)>& load);
 

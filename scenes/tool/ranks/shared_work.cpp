@@ -12,8 +12,8 @@ namespace {
 using std::chrono_literals::operator""us;
 using std::chrono_literals::operator""ms;
 
-/// Before the bytes of a piece in a message. Pieces with these numbers have none: the ranks are to
-/// stop; this rank has sent all.
+/// Precedes the bytes of a piece in a message. Two numbers have special meanings and no bytes: all
+/// ranks must stop; this rank has sent everything.
 struct PieceHead {
     std::uint64_t number;
     std::uint64_t bytes;
@@ -21,7 +21,7 @@ struct PieceHead {
 constexpr std::uint64_t stop_number = ~std::uint64_t{0}, end_number = stop_number - 1;
 constexpr std::uint64_t beyond_all = std::uint64_t{1} << 60;
 
-/// A message gets no more pieces.
+/// Messages of this size get no more pieces.
 constexpr std::size_t long_message = std::size_t{1} << 24;
 
 constexpr double seconds_at_once = 0.1;
@@ -41,7 +41,7 @@ double seconds(std::chrono::steady_clock::duration duration) {
 SharedWork::SharedWork(Ranks& ranks, std::size_t count, int threads, std::atomic<bool>& stop,
                        std::size_t window)
     : ranks_(ranks), count_(count), threads_(threads), window_(window), stop_(stop),
-      // Where hosts share no memory, the counter waits for rank 0 to look.
+      // Where hosts share no memory, the counter waits until rank 0 calls MPI.
       pause_(ranks.size_of_host() == ranks.size() ? Clock::duration(1ms) : Clock::duration(100us)) {
     ranks_.reset_counter();
     thread_ = std::thread([this] { run(); });
@@ -69,12 +69,12 @@ std::optional<SharedWork::Piece> SharedWork::next() {
             return Piece{number, false, {}};
         }
         if (taken_.empty() && is_exhausted() && (!is_first() || here_ + there_ == count_)) {
-            more_.notify_all(); // nobody else has a reason to wait
+            more_.notify_all(); // no other thread has a reason to wait
             return std::nullopt;
         }
         ++waiting_;
         wake_.notify_one();
-        more_.wait_for(lock, 50ms); // by then somebody may have set stop_
+        more_.wait_for(lock, 50ms); // by then, stop_ may have been set
         --waiting_;
     }
 }
@@ -119,12 +119,12 @@ bool SharedWork::may_begin(std::size_t number) const {
     return window_ == no_window || number < written_ + window_;
 }
 
-/// True if a piece that has been taken may not be begun yet, as far as this rank knows.
+/// Returns true if a taken piece may not be begun yet, as far as this rank knows.
 bool SharedWork::lacks_room() const {
     return !taken_.empty() && !may_begin(taken_.back());
 }
 
-/// True if more pieces are to be asked for.
+/// Returns true if more pieces should be taken.
 bool SharedWork::is_short() const {
     if (is_exhausted() || stop_) return false;
     if (waiting_ > 0 && taken_.empty()) return true;
@@ -139,7 +139,7 @@ std::size_t SharedWork::chunk() const {
         1, static_cast<std::size_t>(std::ceil(latency_ * pieces_per_second())));
     const std::size_t wanted = std::max(least, std::min(fair, static_cast<std::size_t>(soon)));
     if (window_ == no_window) return wanted;
-    // Or the others had no room beside it.
+    // Otherwise the other ranks would have no space in the window.
     const std::size_t share = window_ / (4 * static_cast<std::size_t>(ranks_.size()));
     return std::min(wanted, std::max<std::size_t>(1, share));
 }
@@ -161,7 +161,7 @@ void SharedWork::take(std::unique_lock<std::mutex>& lock) {
     more_.notify_all();
 }
 
-/// At rank 0: the others are to know.
+/// At rank 0: tells the other ranks how many pieces are written.
 void SharedWork::tell_written(std::unique_lock<std::mutex>& lock) {
     const std::uint64_t more = written_ - told_;
     told_ = written_;
@@ -170,7 +170,7 @@ void SharedWork::tell_written(std::unique_lock<std::mutex>& lock) {
     lock.lock();
 }
 
-/// At another rank.
+/// At other ranks: asks rank 0 how many pieces are written.
 void SharedWork::ask_written(std::unique_lock<std::mutex>& lock) {
     lock.unlock();
     const std::uint64_t written = ranks_.add_to_mark(0);
@@ -180,7 +180,7 @@ void SharedWork::ask_written(std::unique_lock<std::mutex>& lock) {
     more_.notify_all();
 }
 
-/// At rank 0: true if something has come.
+/// At rank 0: receives a message. Returns true if there was one.
 bool SharedWork::receive() {
     std::size_t bytes = 0;
     if (!ranks_.has_message(bytes)) return false;
@@ -205,7 +205,7 @@ bool SharedWork::receive() {
     return true;
 }
 
-/// True if there is something that is not sent yet.
+/// Sends waiting pieces. Returns true if something is not sent yet.
 bool SharedWork::send(std::unique_lock<std::mutex>& lock) {
     if (is_sending_) {
         lock.unlock();
@@ -225,13 +225,13 @@ bool SharedWork::send(std::unique_lock<std::mutex>& lock) {
     return true;
 }
 
-/// What has been told to one rank is told to all: by rank 0, which leaves no pieces.
+/// Stops all ranks after one of them was stopped. Rank 0 does this by leaving no pieces.
 void SharedWork::spread_stop(std::unique_lock<std::mutex>& lock) {
     has_spread_ = true;
     if (!is_first()) return outbox_.push_back(piece_of(stop_number, {}));
     lock.unlock();
     ranks_.add_to_counter(beyond_all);
-    ranks_.add_to_mark(beyond_all); // nothing is written any more: nobody is to wait for that
+    ranks_.add_to_mark(beyond_all); // nothing is written any more, so no rank must wait for it
     lock.lock();
 }
 

@@ -15,22 +15,23 @@
 
 namespace raylane::scenes {
 
-/// Pieces of work, by number, that the ranks of a job share: each takes some when it has none left,
-/// by the counter at rank 0, and sends there what came of them. A thread of its own does all that
-/// is to do with MPI. Others call next() and done(), any number of them.
+/// Pieces of work, by number, that the ranks of a job share. A rank that has none left takes some
+/// by the counter at rank 0, and sends their results there. A separate thread makes all calls of
+/// MPI. Any number of other threads call next() and done().
 ///
-/// Where rank 0 has to write what comes of them in their order, it says how far it is, and no rank
-/// begins a piece that is a window ahead of that: what has to be kept is bounded.
+/// If rank 0 must write the results in their order, it tells the others how far it is. No rank
+/// begins a piece that is `window` pieces ahead of that. So the number of results to keep is
+/// bounded.
 ///
-/// A rank takes as many pieces at a time as last it some tenth of a second, fewer towards the end,
-/// and asks for more as long before it needs them as the answer takes.
+/// A rank takes as many pieces at a time as last it about a tenth of a second, fewer towards the
+/// end. It takes more before it needs them, earlier by the time that an answer takes.
 class SharedWork {
   public:
-    /// All together: `count` pieces, for `threads` threads here. `stop` says from outside that no
-    /// more are to be begun: if one rank is told so, none begins any, and rank 0's is set.
+    /// Collective: `count` pieces, for `threads` threads here. When `stop` becomes true, no more
+    /// pieces are begun. If it is set at one rank, all ranks stop, and rank 0's `stop` is set.
     SharedWork(Ranks& ranks, std::size_t count, int threads, std::atomic<bool>& stop,
                std::size_t window = no_window);
-    /// Without finish(): what has not been sent is lost.
+    /// Loses results that are not sent, unless finish() was called.
     ~SharedWork();
     SharedWork(const SharedWork&) = delete;
     SharedWork& operator=(const SharedWork&) = delete;
@@ -38,20 +39,20 @@ class SharedWork {
     static constexpr std::size_t no_window = 0;
     struct Piece {
         std::size_t number;
-        bool is_done; ///< by another rank, with these bytes; at rank 0 alone
+        bool is_done; ///< by another rank, with these bytes; only at rank 0
         std::string bytes;
     };
-    /// The next piece for the calling thread, for which it waits; none if there are no more. Rank 0
-    /// has all: it does pieces, and is given those that others have done.
+    /// Waits for the next piece of the calling thread and returns it, or nothing if there are no
+    /// more. Rank 0 gets all pieces: some to do, and those that other ranks have done.
     std::optional<Piece> next();
-    /// What came of a piece, unless it is rank 0 that has done it.
+    /// Sends the result of a piece, except at rank 0.
     void done(std::size_t number, std::string_view bytes);
-    /// At rank 0, if there is a window: all pieces before that one have been written.
+    /// At rank 0 with a window: reports that all pieces before `next` are written.
     void written(std::size_t next);
-    /// No thread is to wait any more.
+    /// Releases all waiting threads.
     void cancel();
-    /// All together, once next() has said that there are no more: returns when all has been sent.
-    /// What nobody has been given, as it came behind a stop.
+    /// Collective, after next() has returned nothing. Waits until everything is sent. Returns
+    /// pieces that next() has not returned, because they arrived after a stop.
     std::deque<Piece> finish();
 
   private:
@@ -77,27 +78,27 @@ class SharedWork {
     const std::size_t window_; // pieces
     std::atomic<bool>& stop_;
     const Clock::time_point start_ = Clock::now();
-    const Clock::duration pause_; // between looks at what has come
+    const Clock::duration pause_; // between checks for messages
 
-    std::mutex mutex_; // of what follows
+    std::mutex mutex_; // protects the members below
     std::condition_variable more_, wake_;
     std::deque<std::size_t> taken_;
     std::deque<Piece> received_;
     std::deque<std::string> outbox_;
-    std::size_t begun_ = 0;            // here
-    std::size_t here_ = 0, there_ = 0; // taken by this rank, and of others received
-    int ended_ = 0;                    // ranks from which nothing more will come
-    std::size_t counter_ = 0;          // as last seen
-    std::uint64_t written_ = 0;        // as last seen
-    std::uint64_t told_ = 0;           // to the others, of that
+    std::size_t begun_ = 0;            // at this rank
+    std::size_t here_ = 0, there_ = 0; // taken by this rank; received from other ranks
+    int ended_ = 0;                    // ranks that have sent everything
+    std::size_t counter_ = 0;          // last known value
+    std::uint64_t written_ = 0;        // last known value
+    std::uint64_t told_ = 0;           // part of it that the other ranks know
     double latency_ = 0.0;             // of the counter, in seconds
-    int waiting_ = 0;                  // threads
+    int waiting_ = 0;                  // threads in next()
     bool is_over_ = false, is_finishing_ = false, has_spread_ = false, has_ended_ = false;
     bool is_exhausted() const { return counter_ >= count_; }
 
-    std::string sending_; // the thread's own, until it is sent
+    std::string sending_; // used by the thread only, until it is sent
     bool is_sending_ = false;
-    std::thread thread_; // the last: it uses the others
+    std::thread thread_; // last, because it uses the other members
 };
 
 } // namespace raylane::scenes

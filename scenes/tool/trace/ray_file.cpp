@@ -21,7 +21,7 @@ using std::string_view_literals::operator""sv;
 constexpr std::string_view magic = "\x93NUMPY"sv;
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 62;
 
-/// The head: a dictionary, as a literal of Python's.
+/// Parser of the header, a dictionary as a Python literal.
 class Literal {
   public:
     Literal(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -29,7 +29,7 @@ class Literal {
     [[noreturn]] void refuse(const std::string& message) const {
         throw BadInput(file_, "", message);
     }
-    /// True if a character is next, which is then behind.
+    /// Consumes the character and returns true if it is next.
     bool takes(char character) {
         skip_space();
         if (!text_.starts_with(character)) return false;
@@ -87,7 +87,7 @@ bool order_of(Literal& text) {
     return false;
 }
 
-/// A tuple: that of one number has a comma.
+/// Parses a tuple. A tuple of one number has a comma.
 std::vector<std::uint64_t> shape_of(Literal& text) {
     constexpr const char* none = "has a shape that is none";
     std::vector<std::uint64_t> numbers;
@@ -174,7 +174,7 @@ void RayFile::read_head() {
     if (::fstat(descriptor_, &status) != 0) throw SystemRefused(name_, "read", errno);
     if (!S_ISREG(status.st_mode)) refuse("must be a file");
     const auto size = static_cast<std::uint64_t>(status.st_size);
-    // Standard input may stand elsewhere.
+    // Standard input may have another position than the start.
     const auto begin = std::min<std::uint64_t>(
         size, static_cast<std::uint64_t>(::lseek(descriptor_, 0, SEEK_CUR)));
     char start[12] = {};

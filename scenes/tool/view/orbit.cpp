@@ -17,7 +17,7 @@ using core::Vec3d, core::Vec3f;
 constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr double highest = 89.0;
 
-/// From what is looked at to the camera.
+/// Returns the vector from the point that the camera looks at to the camera.
 Vec3d arm_of(const core::Camera& camera) {
     return core::convert<double>(camera.from) - core::convert<double>(camera.at);
 }
@@ -72,7 +72,7 @@ void Orbit::zoom(double times) {
     }
     const Vec3d arm = arm_of(camera);
     camera.from = core::convert<float>(core::convert<double>(camera.at) + 1.0 / times * arm);
-    // Linear fog stays with what it is seen on.
+    // Linear fog keeps its place at the point that the camera looks at.
     const auto nearer = static_cast<float>(core::length(arm) * (1.0 - 1.0 / times));
     if (start_.fog.kind == core::FogKind::linear) {
         start_.fog.start = std::max(start_.fog.start - nearer, 0.0F);

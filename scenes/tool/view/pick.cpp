@@ -23,7 +23,7 @@ std::string kind_of_shape(const core::Scene& scene, core::ShapeId wanted) {
     return kind;
 }
 
-/// "3", or "3 (glass)".
+/// Returns "3", or "3 (glass)".
 std::string material_text(const core::Scene& scene, core::ShapeId shape) {
     const core::MaterialIndex material = scene.material_index_of(shape);
     const std::string_view name = scene.material_name(material);

@@ -7,13 +7,13 @@
 
 namespace raylane::scenes {
 
-/// What a camera sees through the middle of a pixel of a picture of the settings' size, in one
-/// line: which atom by the legend, which shape, its material's number and name, where, how far
-/// away, as real arithmetic says.
+/// Returns one line about the shape that a camera sees through the middle of a pixel, in a picture
+/// of the settings' size: its atom in the legend, the shape, the number and name of its material,
+/// the point, and the exact distance, rounded.
 std::string what_is_at(const core::Scene& scene, const core::Settings& settings, int x, int y,
                        const Legend& legend = {});
 
-/// A scene's camera as its JSON says it: `"camera": {...}`.
+/// Returns a camera in the form of JSON scenes: `"camera": {...}`.
 std::string camera_text(const core::Camera& camera);
 
 } // namespace raylane::scenes

@@ -9,8 +9,8 @@ namespace raylane::scenes {
 
 namespace {
 
-/// Within which there is to be a picture: as long again is for stopping the one before, and
-/// showing.
+/// The time limit for the first picture. Stopping the previous one, and showing this one, may take
+/// as long again.
 constexpr double soon = 0.02; // seconds
 
 double samples_of(const core::Settings& settings) {
@@ -40,7 +40,7 @@ void PictureMaker::interrupt() {
 
 void PictureMaker::show(core::View view, const core::Settings& settings) {
     const std::lock_guard lock(mutex_);
-    is_interrupted_ = true; // at once with the wish: it may not be taken for an earlier one's
+    is_interrupted_ = true; // together with the wish, or an earlier wish could reset it
     progress_.abandon = true;
     wish_ = {std::move(view), settings};
     wake_.notify_all();
@@ -104,7 +104,7 @@ void PictureMaker::draw(const std::stop_token& stop, const core::Settings& setti
         result.height = (settings.height + of.step - 1) / of.step;
         return result;
     };
-    // The first picture is the finest that is there soon.
+    // The first picture is the finest one that is expected within this time limit.
     while (seconds_per_sample_ > 0.0 && level + 1 < levels.size() - 1 &&
            samples_of(settings_of(levels[level + 1])) * seconds_per_sample_ < soon)
         ++level;

@@ -11,29 +11,29 @@
 
 namespace raylane::scenes {
 
-/// Draws a scene on a thread of its own, coarse to fine, and anew whenever it is seen otherwise.
+/// Draws a scene on a separate thread, coarse to fine, and starts again whenever the view changes.
 class PictureMaker {
   public:
     struct Picture {
-        core::Film film; ///< at first of fewer pixels than the settings say
-        bool is_last;    ///< as good as the settings say
+        core::Film film; ///< at first with fewer pixels than the settings request
+        bool is_last;    ///< with the quality that the settings request
     };
 
-    /// `on_picture` is called by that thread whenever there is one to be taken.
+    /// The thread calls `on_picture` whenever a picture can be taken.
     PictureMaker(core::Scene scene, simd::RenderOptions options, std::function<void()> on_picture);
     ~PictureMaker();
     PictureMaker(const PictureMaker&) = delete;
     PictureMaker& operator=(const PictureMaker&) = delete;
 
-    /// Begins anew with this view, and these settings for the last picture.
+    /// Starts again with this view. The last picture has these settings.
     void show(core::View view, const core::Settings& settings);
-    /// In place of the scene; the view is for show() to say.
+    /// Stops drawing and replaces the scene. Call show() afterwards with the view.
     void replace(core::Scene scene);
-    /// The newest picture since the last call, if there is one.
+    /// Returns the newest picture since the last call, if any.
     std::optional<Picture> take();
-    /// Calls it with the scene as it is seen now; drawing waits.
+    /// Stops drawing and calls `use` with the scene in its current view. Call show() to draw again.
     void with_scene(const std::function<void(const core::Scene&)>& use);
-    /// What ended the drawing, if anything did: thrown again.
+    /// Rethrows the exception that ended the drawing, if any.
     void rethrow();
 
   private:
@@ -41,10 +41,10 @@ class PictureMaker {
         core::View view;
         core::Settings settings;
     };
-    /// One picture of several that become finer.
+    /// One of several pictures of increasing resolution.
     struct Level {
-        int step; ///< pixels of the window along a side of one of the picture's
-        int grid; ///< 0: as the settings say
+        int step; ///< pixels of the window per pixel of the picture, along a side
+        int grid; ///< 0: as in the settings
     };
 
     void run(const std::stop_token& stop);
@@ -54,10 +54,10 @@ class PictureMaker {
     simd::RenderOptions options_;
     std::function<void()> on_picture_;
 
-    std::mutex scene_mutex_; // held while it is drawn, or changed
+    std::mutex scene_mutex_; // held while the scene is drawn or changed
     core::Scene scene_;
 
-    std::mutex mutex_; // of what follows
+    std::mutex mutex_; // protects the next five members
     std::condition_variable_any wake_;
     std::optional<Wish> wish_;
     std::optional<Picture> picture_;
@@ -65,8 +65,8 @@ class PictureMaker {
     bool is_interrupted_ = false;
 
     simd::Progress progress_;
-    double seconds_per_sample_ = 0.0; // of the last one; by the thread alone
-    std::jthread thread_;             // the last: it uses the others
+    double seconds_per_sample_ = 0.0; // of the last picture; used by the thread only
+    std::jthread thread_;             // last, because it uses the other members
 };
 
 } // namespace raylane::scenes

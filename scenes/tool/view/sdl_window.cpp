@@ -1,4 +1,4 @@
-// A module of its own: see open_window().
+// This file is a separate module; see open_window().
 #include "scenes/tool/view/window.hpp"
 
 #include <SDL.h>
@@ -11,7 +11,7 @@ namespace {
 
 using raylane::scenes::Window, raylane::scenes::WindowEvent;
 
-constexpr int farthest_click = 3; // pixels that a hand may move
+constexpr int farthest_click = 3; // pixels that the pointer may move during a click
 
 class SdlWindow final : public Window {
   public:
@@ -37,7 +37,7 @@ class SdlWindow final : public Window {
     void show(const std::uint32_t* pixels, int width, int height) override {
         SDL_FreeSurface(picture_);
         picture_ = SDL_CreateRGBSurfaceWithFormat(0, width, height, 32, SDL_PIXELFORMAT_RGB888);
-        if (picture_ == nullptr) return; // without memory, none is shown
+        if (picture_ == nullptr) return; // out of memory: no picture is shown
         for (int y = 0; y < height; ++y)
             std::copy_n(
                 pixels + static_cast<std::ptrdiff_t>(y) * width, width,
@@ -119,12 +119,12 @@ class SdlWindow final : public Window {
     }
 
     SDL_Window* window_;
-    SDL_Surface* picture_ = nullptr; // as last shown
-    int from_x_ = 0, from_y_ = 0;    // where a button went down
+    SDL_Surface* picture_ = nullptr; // shown last
+    int from_x_ = 0, from_y_ = 0;    // where the button was pressed
     bool is_dragged_ = false;
 };
 
-/// True of what SDL takes where there is no display, unless it is asked for.
+/// Returns true for drivers that SDL chooses without a display, unless the user has chosen one.
 bool shows_nothing(const char* driver) {
     if (driver == nullptr || std::getenv("SDL_VIDEODRIVER") != nullptr) return false;
     const std::string_view name = driver;
@@ -135,7 +135,7 @@ bool shows_nothing(const char* driver) {
 
 extern "C" __attribute__((visibility("default"))) Window*
 raylane_open_window(const char* title, int width, int height, const char** why) {
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); // which are the tool's own
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); // the tool has its own handlers
     SDL_Window* window = nullptr;
     static std::string reason;
     const bool is_there = SDL_Init(SDL_INIT_VIDEO) == 0;

@@ -27,7 +27,7 @@ struct ViewCommandArguments {
     SceneArguments scene_arguments;
 };
 
-/// A name that no file has yet: "scene-1.png", "scene-2.png", ...
+/// Returns a name that no file has yet: "scene-1.png", "scene-2.png", ...
 std::string free_name(const std::string& scene) {
     const std::string stem = default_output(scene, "");
     for (int number = 1;; ++number) {
@@ -37,7 +37,7 @@ std::string free_name(const std::string& scene) {
     }
 }
 
-constexpr int longest_wait = 250; // milliseconds; so often is asked whether the file was written
+constexpr int longest_wait = 250; // milliseconds between checks whether the file was written
 
 class Viewer {
   public:
@@ -113,7 +113,7 @@ class Viewer {
             maker_->replace(loaded(legend));
             legend_ = std::move(legend);
             is_moved_ = true;
-        } catch (const BadInput& bad) { // it may be in the middle of being written
+        } catch (const BadInput& bad) { // the file may be incomplete while it is written
             std::fprintf(stderr, "raylane: %s\n", bad.what());
         }
     }
@@ -141,7 +141,7 @@ class Viewer {
                             what_is_at(scene, settings_, event.x, event.y, legend_).c_str());
             });
             std::fflush(stdout);
-            break; // what was stopped is drawn again
+            break; // with_scene() stopped the drawing, so start again
         case Kind::key:
             press(event.key);
             return;
@@ -202,7 +202,7 @@ class Viewer {
     core::View first_;
     std::optional<Orbit> orbit_;
     std::unique_ptr<Window> window_;
-    std::unique_ptr<PictureMaker> maker_; // the last: its thread wakes the window
+    std::unique_ptr<PictureMaker> maker_; // last, because its thread wakes the window
     bool is_moved_ = false, is_closed_ = false;
 };
 

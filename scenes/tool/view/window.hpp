@@ -6,16 +6,16 @@
 
 namespace raylane::scenes {
 
-/// What hands do to a window.
+/// A user's action on a window.
 struct WindowEvent {
     enum class Kind : std::uint8_t {
         none,
         woken, ///< wake() was called
         resized,
         turned,  ///< dragged by the left button: `across` and `down`, in pixels
-        moved,   ///< dragged by another one, or with shift held
+        moved,   ///< dragged by another button, or with shift pressed
         zoomed,  ///< by `notches` of the wheel
-        clicked, ///< at (x, y), by the left button, without being dragged
+        clicked, ///< at (x, y), by the left button, without a drag
         key,     ///< an ASCII character
         closed,
     };
@@ -25,7 +25,7 @@ struct WindowEvent {
     char key = '\0';
 };
 
-/// A window that shows pictures. To be used by the thread that has opened it, but for wake().
+/// A window that shows pictures. Only the thread that opened it may use it, except for wake().
 class Window {
   public:
     Window() = default;
@@ -36,19 +36,20 @@ class Window {
     virtual int width() const = 0;
     virtual int height() const = 0;
     virtual void set_title(const char* title) = 0;
-    /// width * height pixels 0xRRGGBB, row by row, over all of the window.
+    /// Shows width * height pixels 0xRRGGBB, row by row, scaled to the whole window.
     virtual void show(const std::uint32_t* pixels, int width, int height) = 0;
-    /// The next event; of kind none if there is none for so many milliseconds.
+    /// Returns the next event, or one of kind `none` after `milliseconds` without any.
     virtual WindowEvent wait(int milliseconds) = 0;
-    /// Has wait() return, by any thread.
+    /// Makes wait() return. Thread-safe.
     virtual void wake() = 0;
 };
 
-/// Opens one, by a module that is loaded for it: what opens windows takes longer to load than many
-/// a picture to draw. Throws SystemRefused where there is no display, or no such module.
+/// Opens a window by a module that is loaded on demand, because loading the libraries for windows
+/// takes longer than drawing many a picture. Throws SystemRefused if there is no display or no such
+/// module.
 std::unique_ptr<Window> open_window(const std::string& title, int width, int height);
 
-/// What the module has. Null, and why, where there is no window.
+/// The function of the module. It returns null and sets the reason if it cannot open a window.
 extern "C" using OpenWindow =
     Window * (*)(const char* title, int width, int height, const char** why);
 inline constexpr const char* open_window_name = "raylane_open_window";
