@@ -16,7 +16,8 @@ namespace {
 std::atomic<bool> ending = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not wait");
 
-// In what follows, only calls that POSIX lists as safe in a signal handler.
+// The functions from here to catch_signals() call only functions that POSIX lists as safe in a
+// signal handler.
 
 void say(const char* text) {
     const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
@@ -33,7 +34,7 @@ static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler m
 extern "C" void end_process(int signal) {
     ending = true;
     remove_temporaries();
-    if (is_shown()) say("\n"); // the prompt shall not follow a progress bar
+    if (is_shown()) say("\n"); // the prompt must not follow a progress bar
     if (const char* const line = last_words; line != nullptr) say(line);
     ::_exit(128 + signal);
 }
@@ -53,11 +54,12 @@ extern "C" void stop_first(int signal) {
 }
 
 extern "C" void abandon(int signal) {
-    if (stopped_by == 0) return end_process(signal); // not by our timer
+    if (stopped_by == 0) return end_process(signal); // not sent by our timer
     if (simd::Progress* const progress = stopped; progress != nullptr) progress->abandon = true;
 }
 
-/// Pages of a built scene have gone, or cannot be read: all threads that ask for them come here.
+/// Handles SIGBUS: pages of a mapped file are gone or cannot be read. All threads that read them
+/// arrive here; the first one ends the process.
 extern "C" void lose_pages(int) {
     static std::atomic_flag is_said;
     while (is_said.test_and_set())
@@ -76,7 +78,8 @@ void on(int signal, void (*handler)(int)) {
     ::sigaction(signal, &action, nullptr);
 }
 
-/// `nohup` and shells in the background ask for a signal to be ignored.
+/// Returns true if the signal is ignored from the start, as `nohup` and shells arrange for
+/// background jobs.
 bool is_ignored(int signal) {
     struct sigaction action {};
     return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
@@ -97,7 +100,7 @@ void catch_signals() {
 
 StopOnSignal::StopOnSignal(simd::Progress& progress) {
     stopped_by = 0;
-    ::timer_create(CLOCK_MONOTONIC, nullptr, &patience); // which sends SIGALRM
+    ::timer_create(CLOCK_MONOTONIC, nullptr, &patience); // sends SIGALRM
     stopped = &progress;
 }
 

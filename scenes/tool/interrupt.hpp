@@ -2,18 +2,19 @@
 
 #include "simd/render.hpp"
 
-/// Ctrl-C and its kin, which may come at any moment.
+/// Handling of signals such as Ctrl-C, which may arrive at any moment.
 namespace raylane::scenes {
 
-/// Makes SIGINT, SIGTERM, SIGHUP and all others that come from outside to end a process, from now
-/// on, remove the temporaries and end it at once, with 128 + the signal's number; and writes to
-/// closed pipes and beyond file size limits fail rather than kill. What is mapped and then is no
-/// longer there ends a process as what the system refuses does.
+/// Installs the signal handlers. SIGINT, SIGTERM, SIGHUP and the other signals from outside that
+/// end a process then remove the temporary files and end it at once, with exit code 128 + the
+/// signal's number. Writes to closed pipes and beyond the limit on file sizes fail instead of
+/// killing the process. If a mapped file loses its pages, the process ends with the exit code
+/// `refused`.
 void catch_signals();
 
-/// While it lives, the first SIGINT or SIGTERM stops a rendering instead of the process: no tile is
-/// begun any more, and after half a second those under way are abandoned. The second signal ends
-/// the process. There may be one object at a time.
+/// While an object exists, the first SIGINT or SIGTERM stops a rendering instead of the process: no
+/// new tile is begun, and after half a second the tiles in progress are abandoned. The second
+/// signal ends the process. Only one object may exist at a time.
 class StopOnSignal {
   public:
     explicit StopOnSignal(simd::Progress& progress);
@@ -21,16 +22,16 @@ class StopOnSignal {
     StopOnSignal(const StopOnSignal&) = delete;
     StopOnSignal& operator=(const StopOnSignal&) = delete;
 
-    /// The one that has come; 0: none.
+    /// Returns the signal that has arrived, or 0.
     static int signal();
 };
 
-/// What a signal that ends the process at once says from now on: a line, which stays where it is.
-/// Null: nothing.
+/// Sets a line to print when a signal ends the process at once; null: none. `line` must remain
+/// valid.
 void say_when_ended(const char* line);
 
-/// True if a signal is ending the process at this moment, in another thread: nothing shall be shown
-/// any more.
+/// Returns true if a signal is ending the process at this moment, in another thread. Then nothing
+/// may be shown any more.
 bool is_ending();
 
 } // namespace raylane::scenes

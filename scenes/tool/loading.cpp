@@ -20,7 +20,7 @@ std::string millions(std::size_t shapes) {
     return text;
 }
 
-/// Reads and builds, and knows how far it is; for another thread to ask.
+/// Reads and builds a scene and counts its progress. Another thread may call text().
 class Loader : public simd::ParallelWorkers {
   public:
     using ParallelWorkers::ParallelWorkers;
@@ -41,7 +41,7 @@ class Loader : public simd::ParallelWorkers {
         placed_ += count;
     }
 
-    /// Of the file, once it has been read.
+    /// Returns the remarks on the file. Call it after load().
     const std::vector<std::string>& remarks() const { return remarks_; }
 
     std::string text() const {
@@ -52,7 +52,8 @@ class Loader : public simd::ParallelWorkers {
             return bar_text(share(placed_.load(), to_place_.load())) + "  of " +
                    millions(to_place_) + " placed";
         std::string read = millions(added_) + " read";
-        // A pipe has no end in sight, and a few bytes may stand for many shapes.
+        // The size of a pipe is unknown (0). A file of a few bytes may be read completely while it
+        // still generates many shapes.
         if (bytes_ >= all_bytes_) return read;
         return bar_text(share(bytes_.load(), all_bytes_.load())) + "  " + read;
     }

@@ -8,8 +8,8 @@
 
 namespace raylane::scenes {
 
-/// load_scene with `threads` threads (0: default_threads()), and a line that shows how far it is.
-/// Remarks on the file go to standard error, unless it is to be quiet.
+/// Calls load_scene() with `threads` threads (0: default_threads()) and shows a line of progress.
+/// Remarks on the file go to standard error, unless `verbosity` is quiet.
 core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions options,
                                Verbosity verbosity, int threads = 0);
 

@@ -21,10 +21,11 @@ namespace raylane::scenes {
 
 namespace {
 
-/// Each line of the message on one of its own. Takes no memory: that may be what there is none of.
+/// Prints each line of the message and returns the exit code. Allocates no memory, because memory
+/// may have run out.
 int complain(std::string_view message, int code) {
     if (message.empty()) return code;
-    if (first_rank_says_the_same()) return done; // or mpirun would not let it
+    if (first_rank_says_the_same()) return done; // a failure makes mpirun end rank 0 too early
     while (true) {
         const std::string_view line = message.substr(0, message.find('\n'));
         std::fprintf(stderr, "raylane: %.*s\n", static_cast<int>(line.size()), line.data());
@@ -71,31 +72,31 @@ int run(int argc, const char* const* argv) {
     return bad_input;
 }
 
-/// Where a standard stream was closed, the next file that is opened would be in its place, and what
-/// is said would go into a picture: there is something else, which cannot be read or written
-/// either.
+/// If a standard stream is closed, the next opened file would take its descriptor, and messages
+/// would be written into a picture. So /dev/null takes the descriptor, opened such that reading
+/// standard input, or writing the others, still fails.
 void hold_places_of_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        if (::fcntl(stream, F_GETFD) < 0) // what is opened then has the first free place
+        if (::fcntl(stream, F_GETFD) < 0) // open() returns the lowest free descriptor
             static_cast<void>(::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
-/// Complains of the exception that is being handled, for main and the handler below.
+/// Reports the exception that is being handled, for main and the handler below.
 int complain_about_exception() {
     const Failure failure = failure_being_handled();
     return complain(failure.text, failure.code);
 }
 
-/// Several threads may fail at once: the first complains and ends the program, the others wait for
-/// that.
+/// Several threads may fail at once. The first one reports its failure and ends the program; the
+/// others wait here.
 void be_the_first_to_fail() {
     static std::atomic_flag has_failed;
     while (has_failed.test_and_set())
         ::pause();
 }
 
-/// oneTBB's threads start each other, and where the system refuses one its exception has nowhere to
-/// go.
+/// Ends the program after an exception that nothing can catch: oneTBB's threads start each other,
+/// and the system may refuse a thread.
 [[noreturn]] void end_by_terminate() {
     be_the_first_to_fail();
     remove_temporaries();

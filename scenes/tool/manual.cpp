@@ -9,14 +9,14 @@ namespace raylane::scenes {
 
 namespace {
 
-/// Text as it is, for roff: no escapes, and no requests at the beginning of lines.
+/// Returns a text that roff prints literally: no escapes, and no requests at the start of lines.
 std::string plain(std::string_view text, bool is_typed = false) {
     std::string result;
     for (const char c : text) {
         if (c == '\\')
             result += "\\e";
         else if (c == '-' && is_typed)
-            result += "\\-"; // and no hyphen, which is another character
+            result += "\\-"; // a minus sign; a plain '-' is a hyphen in roff
         else if ((c == '.' || c == '\'') && (result.empty() || result.back() == '\n'))
             result.append("\\&").push_back(c);
         else
@@ -38,7 +38,7 @@ std::string in_capitals(std::string text) {
     return text;
 }
 
-/// "draws scenes" of "raylane draws scenes.", "draw" of "Draw".
+/// Returns "draws scenes" for "raylane draws scenes.", and "draw" for "Draw".
 std::string without_subject(std::string text) {
     constexpr std::string_view subject = "raylane ";
     if (text.starts_with(subject)) text.erase(0, subject.size());
@@ -142,7 +142,7 @@ std::string manual_page(const CLI::App& app, const CLI::App& command) {
             page += ".TP\n" + italic(option->get_name()) + "\n" + plain(option->get_description()) +
                     "\n";
     }
-    if (command.get_prefix_command()) // it has a help of its own
+    if (command.get_prefix_command()) // it has a custom help text
         page += ".SH OPTIONS\n.EX\n" + plain(command.get_footer(), true) + ".EE\n";
     else
         add_options_to(page, command);

@@ -5,26 +5,28 @@
 #include <string>
 #include <vector>
 
-/// What is made of the same table of commands and options as the help.
+/// Documents that are generated from the same table of commands and options as the help.
 namespace raylane::scenes {
 
 enum class Shell { bash, zsh, fish };
 
-/// A command's page for man(1), in the macros of man(7); that of the whole tool for `app` itself.
+/// Returns a command's page for man(1), in the macros of man(7). For `app` itself, returns the page
+/// of the whole tool.
 std::string manual_page(const CLI::App& app, const CLI::App& command);
 
-/// What a shell reads to complete commands, options, their choices and names of files.
+/// Returns the script by which a shell completes commands, options, their choices and file names.
 std::string completion_script(const CLI::App& app, Shell shell);
 
-/// "vector" and "reference" of what the help calls "vector|reference"; none of what it calls "N".
+/// Returns the choices in an option's type name: "vector" and "reference" for "vector|reference",
+/// none for "N".
 std::vector<std::string> choices_of(const CLI::Option& option);
 
-/// Commands, and options of one, in the order of the help.
+/// Returns all commands. This function and the next two keep the order of the help.
 std::vector<const CLI::App*> commands_of(const CLI::App& app);
-/// Those with dashes.
+/// Returns the options with dashes.
 std::vector<const CLI::Option*> options_of(const CLI::App& command);
 std::vector<const CLI::Option*> positionals_of(const CLI::App& command);
-/// True of what stands for itself, without a value.
+/// Returns true for an option without a value.
 bool is_flag(const CLI::Option& option);
 
 } // namespace raylane::scenes

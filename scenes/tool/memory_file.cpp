@@ -29,7 +29,7 @@ std::filesystem::path MemoryFile::path_for_others() const {
 void MemoryFile::become_standard_input() {
     if (::lseek(descriptor_, 0, SEEK_SET) != 0 || ::dup2(descriptor_, STDIN_FILENO) < 0)
         throw SystemRefused("standard input", "keep in memory", errno);
-    if (descriptor_ != STDIN_FILENO) ::close(descriptor_); // which it is where that was closed
+    if (descriptor_ != STDIN_FILENO) ::close(descriptor_); // equal if standard input was closed
     descriptor_ = -1;
 }
 

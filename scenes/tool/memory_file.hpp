@@ -5,21 +5,21 @@
 
 namespace raylane::scenes {
 
-/// A file in memory, which goes with it: for what is written to be read again. Throws
-/// SystemRefused.
+/// A file in memory, for data that is written and read again. It exists as long as the object.
+/// Functions throw SystemRefused.
 class MemoryFile {
   public:
-    /// `what` is for who looks at the process.
+    /// `what` is the name that /proc shows to users.
     explicit MemoryFile(const char* what);
     ~MemoryFile();
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
 
-    /// For AtomicFile and InputFile, here.
+    /// Returns a path for AtomicFile and InputFile in this process.
     std::filesystem::path path() const;
-    /// For the same user's other processes, as long as this one has it.
+    /// Returns a path for other processes of the same user, valid as long as the object exists.
     std::filesystem::path path_for_others() const;
-    /// From its start, and without this object, which is of no more use.
+    /// Makes the file standard input, read from its start. The object must not be used afterwards.
     void become_standard_input();
     std::size_t bytes() const;
 

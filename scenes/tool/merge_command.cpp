@@ -22,7 +22,7 @@ struct MergeArguments {
     Argument output, bits, dpi;
 };
 
-/// Puts together what the parts of one picture have drawn, one after the other.
+/// Combines the parts of one picture, one after the other.
 class Merger {
   public:
     explicit Merger(PictureFormat output) : output_(output) {}
@@ -59,13 +59,14 @@ class Merger {
         const std::optional<RayTiers> rays = ray_tiers_of(text_in(name, picture.texts, "Rays"));
         if (!rays) throw BadInput(name, "", "says what its rays were in vain");
         rays_ += *rays;
-        // Names of scenes may differ: whatever the order, the same one is taken.
+        // Parts may name the scene differently. Part 1's name is used, whatever the order of the
+        // arguments.
         if (part.number == 1) texts_ = picture.texts;
         for (std::size_t number = 0; number < grid_->count(); ++number)
             if (part.has(number)) copy(picture, grid_->tile(number).within(crop_));
     }
 
-    /// The whole. Throws BadInput if it is not.
+    /// Returns the complete picture. Throws BadInput if parts are missing.
     ExrPicture take() {
         std::string missing;
         for (std::size_t i = 0; i < has_.size(); ++i)
@@ -74,7 +75,7 @@ class Merger {
             throw BadInput("PARTS", "",
                            "must be all " + std::to_string(has_.size()) +
                                ", but there is no part " + printable(missing, 200));
-        // In the order in which render writes them.
+        // Same order as in the files that render writes.
         PictureTexts texts;
         for (const char* key : {"Title", "Software", "Comment", "Film", "Scene", "Options"})
             if (has_text(texts_, key)) texts.emplace_back(key, text_in(first_name_, texts_, key));
@@ -94,18 +95,20 @@ class Merger {
         if (!part || tile_of(texts) == 0) throw BadInput(name, "", "says which part it is in vain");
         return *part;
     }
-    /// The place in a film, or what parts drawn before do not say; empty: there is none.
+    /// Returns the text, or an empty one if it is missing. Only parts of a film have Film, and
+    /// parts drawn by older versions have no Options.
     static std::string optional_text(const char* key, const PictureTexts& texts) {
         return has_text(texts, key) ? text_in("", texts, key) : "";
     }
-    /// Pixels on a side; 0: it does not say.
+    /// Returns the side of a tile in pixels, or 0 if the text has no valid one.
     static int tile_of(const PictureTexts& texts) {
         const std::string& text = text_in("", texts, "Part");
         const int side = to_int(text.substr(text.rfind(' ') + 1)).value_or(0);
         return side >= 8 && side <= 64 ? side : 0;
     }
 
-    /// Without a word nothing is left out that was asked for.
+    /// Throws BadInput if the output's format cannot store the layers or the alpha that the parts
+    /// were drawn with.
     void require_fit(const std::string& name, const ExrPicture& picture, bool alpha) const {
         const bool is_exr = output_ == PictureFormat::exr;
         if (picture.layers && !is_exr)
@@ -117,7 +120,7 @@ class Merger {
 
     void begin(const std::string& name, const ExrPicture& picture) {
         RenderArguments arguments = arguments_of(name, picture.texts, name);
-        arguments.isa.reset(); // nothing is drawn here, and parts may be another processor's
+        arguments.isa.reset(); // nothing is drawn here, and parts may come from other processors
         settings_ = Overrides(arguments).applied_to({});
         const PictureChoice choice(arguments.picture);
         require_fit(name, picture, choice.alpha);
@@ -155,7 +158,7 @@ class Merger {
     }
 
     PictureFormat output_;
-    std::optional<ExrPicture> first_; // and what has been put into it
+    std::optional<ExrPicture> first_; // the first part; the others are copied into it
     std::string first_name_;
     PictureTexts texts_; // of part 1
     core::Settings settings_;
@@ -176,7 +179,7 @@ int merge(const MergeArguments& arguments) {
     OutputFile output(name, exr_of);
     choice.require_fit(output.format());
     if (output.format() == PictureFormat::exr && choice.bits == 0)
-        choice.bits = 32; // as parts have
+        choice.bits = 32; // the parts have floats
     Merger merger(output.format());
     for (const std::string& part : arguments.parts)
         merger.add(file_argument("PARTS", part));

@@ -4,16 +4,16 @@
 
 namespace raylane::scenes {
 
-/// A part of the program that is loaded when it is asked for, as others have no use of the
-/// libraries that it wants: beside the program as it is built, or where it is installed.
+/// A part of the program that is loaded on demand, because most commands do not need its libraries.
+/// It lies beside the program in the build folder, or in the module folder after installation.
 struct Module {
     const char* file;        ///< raylane-window.so
-    const char* function;    ///< what it has
+    const char* function;    ///< the function that it exports
     const char* built_where; ///< "SDL2 is (Debian: libsdl2-dev)"
 };
 
-/// Its function; it stays loaded for as long as the program runs. Throws SystemRefused, with
-/// `what_fails` and why.
+/// Loads the module and returns its function. The module stays loaded as long as the program runs.
+/// Throws SystemRefused with `what_fails` and the reason.
 void* function_of(const Module& module, const std::string& what_fails);
 
 } // namespace raylane::scenes

@@ -8,7 +8,7 @@
 namespace raylane::scenes {
 
 std::string default_output(const std::filesystem::path& scene, const std::string& ending) {
-    // A name that ends in a slash has no stem. It is refused when it is to be read.
+    // A name that ends in a slash has no stem. Reading it fails later.
     if (!scene.has_stem() || scene == "-") return "scene" + ending;
     std::filesystem::path name = scene.filename();
     if (name.extension() == ".gz") name = name.stem();

@@ -6,15 +6,16 @@
 
 namespace raylane::scenes {
 
-/// That of a picture without a name: the scene's, here, with another ending.
+/// Returns the default name of an output: the scene's file name without its folder and with another
+/// extension.
 std::string default_output(const std::filesystem::path& scene, const std::string& ending);
 
-/// The name of each of several files: of a pattern with one number, such as "frame-%05d.png", where
-/// %% is one %.
+/// The names of several files, made from a pattern with one number, such as "frame-%05d.png". "%%"
+/// stands for one %.
 class NumberedName {
   public:
-    /// Throws BadInput, by the name of the option, for what is none. `needs_number`: false if one
-    /// without will do, for one file.
+    /// Throws BadInput with the option's name if the pattern is malformed. `needs_number`: false if
+    /// a pattern without a number is acceptable, for a single file.
     NumberedName(const std::string& option, const std::string& pattern, bool needs_number);
     std::string operator()(std::size_t number) const;
 

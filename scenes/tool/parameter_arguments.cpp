@@ -51,7 +51,7 @@ Setting setting_argument(const std::string& text) {
     const std::optional<int> count = to_int(parts[2]);
     if (!last || !count || *count < 1 || *count > most_pictures) refuse();
     setting.values.resize(static_cast<std::size_t>(*count), *last);
-    // Divided last: whole numbers stay whole.
+    // The division comes last, so that whole numbers stay whole.
     for (int i = 0; i + 1 < *count; ++i)
         setting.values[static_cast<std::size_t>(i)] = *first + i * (*last - *first) / (*count - 1);
     if (*count == 1) setting.values = {*first};

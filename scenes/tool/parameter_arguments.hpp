@@ -8,17 +8,17 @@
 
 namespace raylane::scenes {
 
-/// Values of a scene's parameters.
+/// Command line values of a scene's parameters.
 struct ParameterArguments {
     std::vector<std::string> set; ///< "n=1.5", or "n=1.2:1.8:20"
 
-    /// `sweeps`: whether several values have a meaning.
+    /// `sweeps`: whether a parameter may have several values.
     void add_to(CLI::App& command, bool sweeps);
-    /// For each picture one value of each parameter; one picture if all have one value. Throws
-    /// BadInput, also where they are not equally many, and for more than one picture without
-    /// `sweeps`.
+    /// Returns one value of each parameter for each picture. There is one picture if each parameter
+    /// has one value. Throws BadInput, also if two parameters have different numbers of values
+    /// above one, and if there is more than one picture without `sweeps`.
     std::vector<std::map<std::string, double>> values(bool sweeps) const;
-    /// True if any is FIRST:LAST:COUNT, even of one picture.
+    /// Returns true if any value has the form FIRST:LAST:COUNT, even if COUNT is 1.
     bool has_sweep() const;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* pictures_group = "Pictures";
 
-/// X,Y,WxH.
+/// Parses X,Y,WxH.
 core::Region crop_argument(const std::string& text) {
     std::optional<int> numbers[4];
     std::string_view rest = text;
@@ -56,7 +56,7 @@ std::string text_of(const core::Region& crop) {
            std::to_string(crop.x1 - crop.x0) + "x" + std::to_string(crop.y1 - crop.y0);
 }
 
-/// #rrggbb.
+/// Returns a colour as #rrggbb.
 std::string text_of(const core::Color& color) {
     char text[8];
     std::snprintf(text, sizeof text, "#%02x%02x%02x", core::encode(color.x, core::Transfer::srgb),
@@ -65,7 +65,7 @@ std::string text_of(const core::Color& color) {
     return text;
 }
 
-/// The settings as options of the tool, for a scene that has these of its own.
+/// Returns options of the tool that reproduce the settings for a scene whose settings are `own`.
 std::string text_of(const core::Settings& settings, const core::Settings& own, bool names_size) {
     static constexpr const char* filters[] = {"box", "gaussian", "blackman-harris"};
     std::string text;
@@ -86,7 +86,7 @@ std::string text_of(const core::Settings& settings, const core::Settings& own, b
             settings.transfer == core::Transfer::srgb ? " --transfer srgb" : " --transfer linear";
     const core::Outline &outline = settings.outline, &own_outline = own.outline;
     if (outline.any() || own_outline.any()) text += " --outline " + to_text(outline.width);
-    // A scene may have colours in between.
+    // Only if it differs, because a scene's colour may lie between two codes.
     if (outline.any() && outline.color != own_outline.color)
         text += " --outline-color " + text_of(outline.color);
     if (outline.any() && outline.creases != own_outline.creases)

@@ -8,8 +8,8 @@
 
 namespace raylane::scenes {
 
-/// What of a picture is drawn, with which lines over it, and how its file has it, as the command
-/// line says it.
+/// Command line options for the region of a picture, the lines over it, and the encoding of its
+/// file.
 struct PictureArguments {
     Argument crop, bits, dpi, outline, outline_color, outline_creases;
     bool layers = false, alpha = false;
@@ -17,25 +17,27 @@ struct PictureArguments {
     void add_to(CLI::App& command);
 };
 
-/// The same, parsed.
+/// The parsed values of PictureArguments.
 struct PictureChoice {
     /// Throws BadInput.
     explicit PictureChoice(const PictureArguments& arguments);
 
-    /// Throws BadInput for what the format of the output does not have.
+    /// Throws BadInput for options that the output's format does not support.
     void require_fit(PictureFormat format) const;
-    /// The outline and alpha that are asked for, or else stay. Throws BadInput for an outline
-    /// without a width.
+    /// Sets the outline and alpha that the options request, and keeps the others. Throws BadInput
+    /// for details of an outline without a width.
     void apply_to(core::Settings& settings) const;
-    /// Throws BadInput for a crop that does not lie in the picture.
+    /// Sets crop and layers. Throws BadInput if the crop is not within the picture.
     void apply_to(simd::RenderOptions& options, const core::Settings& settings) const;
-    /// How the file has a picture of the scene with this name, of which it says what would draw it
-    /// again: these options, of which `names_size` is the first, and `others` (" --style sticks").
+    /// Returns the encoding and the metadata of a picture of the scene with this file name. Its
+    /// Comment has the options that draw it again: those of text(), then `others` (such as "
+    /// --style sticks"). With `names_size`, --size is the first.
     PictureOptions options(const std::string& scene, const core::Settings& settings,
                            const core::Settings& own, const std::string& others,
                            bool names_size) const;
 
-    /// The settings and crop as options of the tool, for a scene that has `own` settings.
+    /// Returns options of the tool that reproduce the settings and the crop for a scene whose
+    /// settings are `own`.
     std::string text(const core::Settings& settings, const core::Settings& own,
                      bool names_size) const;
 
@@ -46,7 +48,7 @@ struct PictureChoice {
     std::optional<core::Color> outline_color;
 };
 
-/// Throws BadInput, in the option's name, for OpenEXR if raylane was built without.
+/// Throws BadInput with the option's name for OpenEXR if raylane was built without it.
 void require_writable(const std::string& option, PictureFormat format);
 
 } // namespace raylane::scenes

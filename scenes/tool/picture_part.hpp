@@ -6,18 +6,19 @@
 
 namespace raylane::scenes {
 
-/// One of several parts of a picture, of each of which a process draws the tiles: those whose
-/// number leaves the same rest, so that all take about as long.
+/// One of several parts of a picture, each of which is drawn by one process. A part consists of the
+/// tiles whose numbers have the same remainder modulo `count`, so that all parts take about as
+/// long.
 struct PicturePart {
     std::size_t number; ///< from 1
     std::size_t count;
 
     bool has(std::size_t tile) const { return tile % count == number - 1; }
-    /// "3/16".
+    /// Returns a text such as "3/16".
     std::string text() const;
 };
 
-/// Of a text such as "3/16"; nothing if it is none.
+/// Parses a text such as "3/16". Returns nothing if it is malformed.
 std::optional<PicturePart> picture_part_of(const std::string& text);
 
 } // namespace raylane::scenes

@@ -36,7 +36,7 @@ RenderArguments arguments_of(const std::string& picture, const PictureTexts& tex
 }
 
 std::string options_line(core::Settings settings, const simd::RenderOptions& options) {
-    // Of no effect.
+    // These settings have no effect here.
     if (settings.quality != 0.0F) settings.grid = core::Settings{}.grid;
     if (!settings.outline.any()) settings.outline = {};
     std::string line;

@@ -12,26 +12,26 @@
 
 namespace raylane::scenes {
 
-/// "1.23 M" for 1,234,567.
+/// Returns a number with a prefix, such as "1.23 M" for 1,234,567.
 std::string with_prefix(double value);
 
-/// "12.3 s", "4 min 05 s", "2 h 03 min".
+/// Returns a duration such as "12.3 s", "4 min 05 s" or "2 h 03 min".
 std::string duration_text(double seconds);
 
 double seconds_since(std::chrono::steady_clock::time_point start);
 
-/// "[######..................]  25 %"
+/// Returns a bar such as "[######..................]  25 %". `done`: from 0 to 1.
 std::string bar_text(double done);
 
-/// True if standard error is one that lines can be drawn anew on.
+/// Returns true if standard error is a terminal on which lines can be redrawn.
 bool is_terminal();
 
-/// One line on standard error that is drawn anew every so often, as long as this lives, and then
-/// wiped away. Where there is no terminal it is a line each time, ever more rarely, from ten
-/// seconds on (verbose: from one). Quiet: none.
+/// A line on standard error that is redrawn at short intervals while the object exists, and then
+/// erased. Without a terminal, a new line is printed each time, at growing intervals, the first
+/// after ten seconds (verbose: one second). Quiet: nothing is printed.
 class ProgressLine {
   public:
-    /// `text` is called by a thread of its own; the line stays as it is where it returns nothing.
+    /// `text` is called by a separate thread. If it returns an empty text, the line stays as it is.
     ProgressLine(Verbosity verbosity, std::function<std::string()> text);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
@@ -43,10 +43,10 @@ class ProgressLine {
 
     std::function<std::string()> text_;
     bool is_drawn_anew_ = false;
-    bool drawn_ = false; // read once the thread has ended
+    bool drawn_ = false; // read after the thread has ended
     std::mutex mutex_;
     std::condition_variable_any wake_;
-    std::jthread thread_; // the last: the others must outlive it
+    std::jthread thread_; // last, because it uses the other members
 };
 
 /// Progress of a rendering: percentage, rays per second, time left.
@@ -60,7 +60,7 @@ class ProgressBar {
     const simd::Progress& progress_;
     std::int64_t pixels_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    ProgressLine line_; // the last: it asks for the text
+    ProgressLine line_; // last, because it calls text()
 };
 
 } // namespace raylane::scenes

@@ -8,24 +8,24 @@
 
 namespace raylane::scenes {
 
-/// How the rays of a picture have been decided on, for the picture to say. What is left in doubt by
-/// one tier goes to the next; how many are depends a little on the instruction set, what they hit
-/// does not.
+/// The numbers of rays that each tier decided, which a picture's file states. Rays that one tier
+/// leaves in doubt go to the next. The numbers depend slightly on the instruction set; the hits do
+/// not.
 struct RayTiers {
-    std::uint64_t first = 0;     ///< rays: by bounds in float and numbers in double
-    std::uint64_t second = 0;    ///< rays: by tighter ones, of what the first had found
-    std::uint64_t reference = 0; ///< rays and paths: by exact numbers, one after the other
-    std::uint64_t widened = 0;   ///< tests of a ray and a shape in more than double, in the second
+    std::uint64_t first = 0;     ///< rays decided by float bounds and double arithmetic
+    std::uint64_t second = 0;    ///< rays decided by tighter bounds on the results of the first
+    std::uint64_t reference = 0; ///< rays and paths decided by exact arithmetic, one by one
+    std::uint64_t widened = 0;   ///< ray-shape tests beyond double precision, in the second
 
     RayTiers() = default;
     explicit RayTiers(const simd::EngineCounters& counters);
 
     RayTiers& operator+=(const RayTiers& other);
-    /// "12 at first sight, 2 at second, 0 by the reference, 0 tests beyond double"
+    /// Returns "12 at first sight, 2 at second, 0 by the reference, 0 tests beyond double".
     std::string text() const;
 };
 
-/// Of a text() of them; nothing if it is none.
+/// Parses a text of RayTiers::text(). Returns nothing if it is malformed.
 std::optional<RayTiers> ray_tiers_of(const std::string& text);
 
 } // namespace raylane::scenes

@@ -6,9 +6,9 @@
 
 namespace raylane::scenes {
 
-/// Fills `bytes` from a place in a file on, as far as that goes, and returns how many there were.
-/// If these are fewer, errno is 0 at the file's end, and else what the system said. By any number
-/// of threads at a time.
+/// Fills `bytes` from a position in a file on, as far as the file goes, and returns the number of
+/// bytes. If there are fewer, errno is 0 at the end of the file, otherwise the system's error.
+/// Thread-safe.
 std::size_t read_at(int descriptor, std::int64_t place, std::span<char> bytes);
 
 } // namespace raylane::scenes

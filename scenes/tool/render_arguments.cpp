@@ -13,7 +13,7 @@ namespace {
 
 simd::Isa isa_argument(const std::string& text, simd::Engine engine) {
     std::vector<std::pair<std::string_view, simd::Isa>> choices;
-    simd::narrowest_isa(); // throws if this processor runs none of the built ones
+    simd::narrowest_isa(); // throws if this processor supports no ISA that was built
     std::string available;
     for (const simd::Isa isa : simd::all_isas) {
         choices.emplace_back(simd::name_of(isa), isa);

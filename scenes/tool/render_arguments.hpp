@@ -12,7 +12,7 @@
 
 namespace raylane::scenes {
 
-/// How a scene is drawn, as the command line says it.
+/// Command line options of render.
 struct RenderArguments {
     Argument scene, output, size, samples, quality, filter, light_samples, max_depth,
         max_see_through, min_weight, threads, transfer, stats, part;
@@ -25,8 +25,8 @@ struct RenderArguments {
     void add_to(CLI::App& command);
 };
 
-/// What of it takes the place of a scene's own settings. Parsed before the scene is loaded, so that
-/// a mistake shows at once.
+/// The options that override a scene's settings. They are parsed before the scene is loaded, so
+/// that errors are reported at once.
 struct Overrides {
     /// Throws BadInput.
     explicit Overrides(const RenderArguments& arguments);
@@ -46,7 +46,7 @@ core::Precision precision_argument(const std::string& text);
 /// Throws BadInput.
 std::optional<PicturePart> part_argument(const Argument& text);
 
-/// Engine, instruction set, tiles and threads. Throws BadInput.
+/// Returns engine, instruction set, tile size and threads. Throws BadInput.
 simd::RenderOptions options_of(const RenderArguments& arguments);
 
 } // namespace raylane::scenes

@@ -32,7 +32,7 @@ namespace {
 
 class Stopwatch {
   public:
-    /// Since construction or the last call.
+    /// Returns the seconds since construction or the last call.
     double lap() {
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - start_).count();
@@ -48,14 +48,15 @@ struct Times {
     double load, render, write;
 };
 
-/// What has been drawn, by how many.
+/// The work of a rendering.
 struct Work {
-    const simd::EngineCounters& counters; ///< of the picture, whichever run has drawn it
-    std::uint64_t rays_now;               ///< of these the ones that are not from a journal
+    const simd::EngineCounters& counters; ///< of the whole picture, including earlier runs
+    std::uint64_t rays_now;               ///< without rays of tiles from a checkpoint
     std::int64_t pixels;
     int ranks;
 
-    /// The mean, if they are as many as a quality takes. A part may have no pixels.
+    /// Returns the mean number of samples, which differs by pixel for a quality. A part may have no
+    /// pixels.
     double samples_per_pixel() const {
         return static_cast<double>(counters.primary) /
                static_cast<double>(std::max<std::int64_t>(1, pixels));
@@ -73,7 +74,7 @@ struct Files {
     }
 
     std::string scene;
-    std::string output; ///< of a frame, what it would be if that were the first
+    std::string output; ///< for a frame: with number 0, until its number is known
     std::optional<std::string> stats;
 
   private:
@@ -134,10 +135,10 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"left_to_the_reference", {{"rays", counters.doubtful}, {"paths", counters.followed}}}};
 }
 
-/// Of options in a picture: selections may be long.
+/// The maximum length of an option in a picture's texts; selections may be long.
 constexpr std::size_t longest_text = std::size_t{1} << 20;
 
-/// Between quotes; those of the same kind that it has are escaped.
+/// Puts a text between quotes and escapes quotes of the same kind in it.
 std::string between_quotes(const std::string& text, char quote) {
     std::string result(1, quote);
     for (const char c : text) {
@@ -147,15 +148,15 @@ std::string between_quotes(const std::string& text, char quote) {
     return result + quote;
 }
 
-/// The value of an option as a line of options has it, for take_options() to read as it is. A tab
-/// separates what a blank does.
+/// Returns an option's value in the form that take_options() reads back unchanged. Tabs become
+/// blanks, which separate words equally.
 std::string as_word(const std::string& value) {
     std::string text = value;
     std::replace(text.begin(), text.end(), '\t', ' ');
     text = printable(text, longest_text);
     constexpr std::string_view quotes = "\"'`";
     if (text.find_first_of(" \\" + std::string(quotes)) == std::string::npos) return text;
-    // Quotes that the value does not have come first: shells read these as well.
+    // Quotes that the value does not contain come first, because shells read these as well.
     std::vector<std::string> ways;
     for (const bool has_any : {false, true})
         for (const char quote : quotes)
@@ -170,11 +171,11 @@ std::string as_word(const std::string& value) {
                read == text;
     };
     const auto way = std::find_if(ways.begin(), ways.end(), is_read_as_it_is);
-    // A backslash at the end would have the quote for the value's own.
+    // A backslash at the end would escape the closing quote, so a blank separates them.
     return way != ways.end() ? *way : between_quotes(text + ' ', '"');
 }
 
-/// What else would draw the picture again, for the picture to say.
+/// Returns the other options that draw the picture again, for its texts.
 std::string text_of(const RenderArguments& arguments, const simd::RenderOptions& options,
                     const core::Settings& settings) {
     std::string text;
@@ -195,7 +196,8 @@ std::string text_of(const RenderArguments& arguments, const simd::RenderOptions&
     return text;
 }
 
-/// Parts have the floats that the whole would have had.
+/// Throws BadInput unless a part is written as EXR with 32 bits: it must keep the floats of the
+/// whole picture.
 void require_fit(const std::optional<PicturePart>& part, const PictureChoice& picture,
                  PictureFormat format) {
     if (!part) return;
@@ -204,7 +206,8 @@ void require_fit(const std::optional<PicturePart>& part, const PictureChoice& pi
     if (picture.bits != 32) throw BadInput("--part", "", "goes with --bits 32");
 }
 
-/// Of the pictures of a film: a part's ranks take turns as the parts do.
+/// Returns the share of a film's pictures for this rank of a part. The ranks of a part take turns,
+/// as the parts do.
 FilmStrip::Share share_of(const Job& job, const PicturePart& part) {
     return {part.number - 1 + part.count * static_cast<std::size_t>(job.rank()),
             part.count * static_cast<std::size_t>(job.size())};
@@ -231,9 +234,9 @@ int render(const RenderArguments& arguments) {
     const Verbosity verbosity = job.is_first() ? asked : Verbosity::quiet;
     const int threads_to_load = options.threads;
     if (!arguments.threads) options.threads = job.share_of_threads(options.threads);
-    const bool is_frame = arguments.frames.is_one(); // drawn like any other scene
-    std::optional<FilmStrip> strip;                  // whose pictures ranks draw in turns
-    std::optional<std::size_t> place;                // in a film
+    const bool is_frame = arguments.frames.is_one(); // drawn as a single scene
+    std::optional<FilmStrip> strip;                  // the ranks take its pictures in turn
+    std::optional<std::size_t> place;                // the picture's place in a film
     const auto resumable = [&](const std::string& name, const core::Scene& scene,
                                const core::Settings& settings, const std::string& fingerprint) {
         const bool is_resumable = !arguments.no_resume && (strip || job.is_first());
@@ -245,7 +248,7 @@ int render(const RenderArguments& arguments) {
                            const core::Settings& own, const std::string& fingerprint) {
         PictureOptions how =
             picture.options(files.scene, settings, own, text_of(arguments, options, settings),
-                            // Pictures of a film may have sizes of their own.
+                            // The pictures of a film may have different sizes.
                             !strip || arguments.size);
         if (place) how.texts.emplace_back("Film", std::to_string(*place));
         if (part_of_tiles)
@@ -273,7 +276,7 @@ int render(const RenderArguments& arguments) {
             throw BadInput("--stats", "",
                            "goes without --frames of several, --turn and several values");
         if (!strip) return;
-        const OutputFile writable(strip->name(0), exr_of); // or else that is known at once
+        const OutputFile writable(strip->name(0), exr_of); // throws at once if it cannot be written
         picture.require_fit(writable.format());
     });
     if (strip) {
@@ -282,7 +285,7 @@ int render(const RenderArguments& arguments) {
                           simd::Progress& progress) {
             place = at;
             OutputFile output(name, exr_of);
-            output.be_durable(); // whoever goes on with the film takes it for whole
+            output.be_durable(); // a resumed film takes existing files as complete
             const core::Settings settings = settings_of(scene.settings());
             picture.apply_to(options, settings);
             const std::string fingerprint = fingerprint_of(scene);
@@ -323,7 +326,7 @@ int render(const RenderArguments& arguments) {
     job.together([&] {
         settings = settings_of(loaded->settings());
         if (!is_frame) loaded = seen(*std::move(loaded), change, settings);
-        // Now it is known which number its name has.
+        // The number in the frame's file name is known only now.
         if (output && name != files.output) {
             if (stats) require_other_output("--stats", *files.stats, "--output", name);
             output.emplace(name, exr_of);

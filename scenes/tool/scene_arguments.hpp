@@ -12,7 +12,7 @@
 
 namespace raylane::scenes {
 
-/// How a scene is read and seen, and what is said of it, as the command line says it.
+/// Command line options for reading and viewing a scene, and for messages about it.
 struct SceneArguments {
     DrawingArguments drawing;
     ViewArguments view;
@@ -21,9 +21,9 @@ struct SceneArguments {
 
     /// `sweeps`: whether parameters may have several values, for several pictures.
     void add_to(CLI::App& command, bool sweeps = false);
-    /// With the first value of each parameter. Throws BadInput.
+    /// Returns options with the first value of each parameter. Throws BadInput.
     LoadOptions load_options(bool sweeps = false) const;
-    /// Names of those that are given, and their values; of flags these are empty.
+    /// Returns names and values of the options that are given. Flags have empty values.
     std::vector<std::pair<std::string, std::string>> given() const;
 };
 

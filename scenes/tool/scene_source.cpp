@@ -35,7 +35,7 @@ class Sweep : public SceneSource {
     std::size_t next_ = 0;
 };
 
-/// Reads only as far as it has to.
+/// Reads a file of atoms only as far as necessary.
 class Trajectory : public SceneSource {
   public:
     Trajectory(const std::string& path, LoadOptions options, const FrameRange& range)
@@ -67,7 +67,7 @@ class Trajectory : public SceneSource {
         core::Scene scene =
             draw_structure(structure_, options_.drawing, file_.name(), options_.workers, &scale,
                            [this](const std::string& remark) {
-                               // Once for all frames.
+                               // Only once for all frames.
                                if (!std::exchange(has_remarked_, true) && options_.on_remark)
                                    options_.on_remark(remark);
                            });

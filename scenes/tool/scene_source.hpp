@@ -10,7 +10,7 @@
 
 namespace raylane::scenes {
 
-/// Scenes of several pictures, one after the other. Functions throw BadInput and SystemRefused.
+/// The scenes of several pictures, one after the other. Functions throw BadInput and SystemRefused.
 class SceneSource {
   public:
     SceneSource() = default;
@@ -18,26 +18,26 @@ class SceneSource {
     SceneSource(const SceneSource&) = delete;
     SceneSource& operator=(const SceneSource&) = delete;
 
-    /// Goes on to the next one, and returns the number by which its picture goes; nothing if there
-    /// are no more.
+    /// Advances to the next scene and returns the number in its picture's name, or nothing at the
+    /// end.
     virtual std::optional<std::size_t> next() = 0;
-    /// The scene of this one.
+    /// Returns the current scene.
     virtual core::Scene scene() = 0;
-    /// Begins again.
+    /// Returns to the start.
     virtual void rewind() = 0;
-    /// How many there are at most; 0: who knows.
+    /// Returns the maximum number of scenes, or 0 if it is unknown.
     virtual std::size_t count() const = 0;
 
-    /// From now on what follows from a frame of atoms as a whole follows from those that have been
-    /// drawn so far.
+    /// Fixes the values that are derived from whole frames of atoms, such as the range of colours,
+    /// to those of the frames drawn so far.
     virtual void keep_scale() {}
 };
 
-/// One for each set of parameters.
+/// Returns a source of one scene for each set of parameters.
 std::unique_ptr<SceneSource> sweep_of(const std::string& path, const LoadOptions& options,
                                       std::vector<std::map<std::string, double>> parameters);
 
-/// One for each of these frames of a file of atoms.
+/// Returns a source of one scene for each frame of the range in a file of atoms.
 std::unique_ptr<SceneSource> trajectory_of(const std::string& path, const LoadOptions& options,
                                            const FrameRange& range);
 

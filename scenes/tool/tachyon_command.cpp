@@ -51,7 +51,7 @@ Usage: raylane tachyon SCENE [OPTIONS]
 Example: raylane tachyon vmdscene.dat -aasamples 12 -format TARGA -o vmdscene.tga
 )";
 
-/// What a command line of tachyon's says.
+/// The parsed command line of tachyon.
 struct TachyonArguments {
     Argument scene;
     std::string output = "outfile.tga";
@@ -64,7 +64,7 @@ struct TachyonArguments {
     std::set<std::string> without_effect;
 };
 
-/// The options, and what each does with the values behind it.
+/// The table of options, each with the action that reads its values.
 class TachyonOptions {
   public:
     explicit TachyonOptions(std::vector<std::string> words);
@@ -73,7 +73,7 @@ class TachyonOptions {
   private:
     using Shading = TachyonShading;
 
-    /// Of the option that is read.
+    /// Returns the next value of the current option.
     const std::string& value();
     int whole(int least) { return whole_argument(option_, value(), least, most); }
     float number(float largest) { return number_argument(option_, value(), 0.0F, largest); }
@@ -236,7 +236,8 @@ int draw(const std::vector<std::string>& words) {
 
 } // namespace
 
-/// Its options are not those of the other commands: one dash, and long names.
+/// Adds the command without CLI11's options, because tachyon's options have long names with one
+/// dash.
 Command add_tachyon_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("tachyon", "Draw a scene by the command line of the program tachyon");

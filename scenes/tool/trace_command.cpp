@@ -29,7 +29,7 @@ struct TraceArguments {
     SceneArguments scene_arguments;
 };
 
-/// Answers rays of a file, piece by piece.
+/// Answers the rays of a file, piece by piece.
 class Answers {
   public:
     static constexpr std::size_t piece_rays = std::size_t{1} << 16;
@@ -41,14 +41,14 @@ class Answers {
     std::size_t count_in(std::size_t piece) const {
         return std::min<std::uint64_t>(piece_rays, rays_.count() - piece * piece_rays);
     }
-    /// Of an element of the output, for npy_head.
+    /// Returns the type of an element of the output, for npy_head().
     std::string type() const {
         if (occluded_) return "'|b1'";
         return std::string("[('t', '") + (rays_.has_doubles() ? "<f8" : "<f4") +
                "'), ('normal', '<f4', (3,)), ('shape', '<u4'), ('entering', '|u1'), "
                "('face', '|u1')]";
     }
-    /// The elements of a piece. By several threads.
+    /// Returns the elements of a piece. Thread-safe.
     std::string of(std::size_t piece) const {
         return rays_.has_doubles() ? of_numbers<double>(piece) : of_numbers<float>(piece);
     }
@@ -113,13 +113,13 @@ class Answers {
     simd::StreamTracer tracer_;
 };
 
-/// Pieces that may be begun ahead of the next to be written.
+/// Returns how many pieces may be begun ahead of the next one to write.
 std::size_t window_for(const Job& job, int threads) {
     return 4 * static_cast<std::size_t>(threads) * static_cast<std::size_t>(job.size());
 }
 
-/// Answers all pieces, on so many threads here and with the other ranks; `output`, at rank 0 alone,
-/// gets them. Its rays count as rays and as pixels of `progress`.
+/// Answers all pieces with `threads` threads here and with the other ranks. `output` receives the
+/// answers; it is null except at rank 0. `progress` counts rays both as rays and as pixels.
 void answer_all(const Answers& answers, Job& job, int threads, simd::Progress& progress,
                 OrderedOutput* output) {
     std::atomic<bool> stop = false;

@@ -16,7 +16,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
     return names;
 }
 
-/// Without dashes.
+/// Returns the long names of the options, without dashes.
 std::vector<std::string> option_names(const CLI::App& command) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
@@ -29,7 +29,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// "size" of "--size=3x3"; empty if that is no long option.
+/// Returns "size" for "--size=3x3", or an empty text if the argument is not a long option.
 std::string option_name(const std::string& argument) {
     return argument.starts_with("--") ? argument.substr(2, argument.find('=') - 2) : "";
 }
@@ -42,7 +42,7 @@ std::string unknown(const std::string& argument, const CLI::App& command) {
     return "unknown argument \"" + printable(argument) + '"' + near;
 }
 
-/// CLI11 names the option at the start of its message: "--size: ...", "json was ...".
+/// Returns the option that CLI11 names at the start of its message: "--size: ...", "json was ...".
 const CLI::Option* option_in(const CLI::App& command, const std::string& message) {
     const std::string name = message.substr(0, message.find_first_of(": "));
     for (const CLI::Option* option : command.get_options())

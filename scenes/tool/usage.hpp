@@ -6,7 +6,7 @@
 
 namespace raylane::scenes {
 
-/// Message on the fault of a command line, in one line and in words that do not depend on CLI11's
+/// Returns one line about an error in the command line, in words that do not depend on CLI11's
 /// version.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error);
 

@@ -4,11 +4,11 @@
 
 namespace raylane::scenes {
 
-/// What is said on standard error besides complaints.
+/// The messages on standard error in addition to errors.
 enum class Verbosity {
     quiet,   ///< nothing
-    normal,  ///< remarks on files and, where it takes long or there is a terminal, progress
-    verbose, ///< what is done, with what, and how long it took, wherever that goes
+    normal,  ///< remarks on files; progress of long work, and of any work on a terminal
+    verbose, ///< also each step, its options and duration, even without a terminal
 };
 
 struct VerbosityArguments {

@@ -33,7 +33,7 @@ struct VerifyArguments {
     VerbosityArguments verbosity;
 };
 
-/// Compares components of a picture with those that it is to have.
+/// Compares components of a picture with the expected ones.
 class Tolerance {
   public:
     explicit Tolerance(const Image& image) : is_float_(image.linear_float), bits_(image.bits) {}
@@ -43,7 +43,7 @@ class Tolerance {
     }
 
   private:
-    /// From one component that the file can have to the next.
+    /// Returns the distance between two neighbouring components that the file can store.
     float step(float component) const {
         if (!is_float_) return bits_ == 8 ? 1.0F / 255.0F : 1.0F / 65535.0F;
         const float size = std::max(std::abs(component), 0x1p-14F);
@@ -66,13 +66,13 @@ bool has_same_bits(const core::Layers& a, const core::Layers& b) {
            has_same_bits(a.samples, b.samples);
 }
 
-/// Read, and refused, before the scene.
+/// Reads the picture, and throws BadInput for unsuitable ones before the scene is loaded.
 Image whole_picture(const std::string& name, const std::string& bytes) {
     InputFile file(name, bytes);
     Image image = read_image(file);
     if (has_text(image.texts, "Part"))
         throw BadInput(image.name, "", "is a part of a picture, to be merged first");
-    if (!has_text(image.texts, "Comment")) return image; // which is refused as any without
+    if (!has_text(image.texts, "Comment")) return image; // refused later: it has no texts
     if (image.linear_float) {
         InputFile again(name, bytes);
         static_cast<void>(read_own_exr(again));
@@ -90,7 +90,7 @@ struct Verdict {
     std::vector<std::size_t> others;
 
     std::size_t all() const { return same + within_a_step + others.size(); }
-    /// More than roundings of the engines bring about.
+    /// Returns true for more differences than roundings of the engines cause.
     bool has_many_within_a_step() const { return has_many(within_a_step); }
     bool has_many(std::size_t pixels) const { return pixels > 2 && pixels > all() / 50; }
 };
@@ -112,7 +112,7 @@ class Verifier {
           scene_(has_text(image_.texts, "Film") ? seen_scene_of_film() : seen_scene()) {
         for (const simd::Isa each : simd::all_isas)
             if (render_.isa && *render_.isa == simd::name_of(each)) said_isa_ = each;
-        // Another instruction set gives the same pixels, if not the same rays.
+        // Another instruction set gives the same pixels, but may give other numbers of rays.
         if (!arguments.whole && said_isa_ && !simd::is_available(*said_isa_)) render_.isa.reset();
         options_ = options_of(render_);
         options_.precision = precision_argument(*render_.precision);
@@ -127,7 +127,7 @@ class Verifier {
         return fingerprint_of(scene_) == text_in(image_.name, image_.texts, "Scene");
     }
 
-    /// Nothing: it is a picture that does not say, as it was drawn before they did.
+    /// Returns nothing for pictures drawn by older versions, which have no Options.
     std::optional<bool> options_are_the_same() const {
         if (!has_text(image_.texts, "Options")) return std::nullopt;
         simd::RenderOptions options = options_;
@@ -136,10 +136,11 @@ class Verifier {
                text_in(image_.name, image_.texts, "Options");
     }
 
-    /// The reference's exact numbers are no measure for other precisions.
+    /// Returns true if the reference's exact arithmetic can verify the picture; pictures of other
+    /// precisions differ from it.
     bool is_exact() const { return options_.precision == core::Precision::exact; }
 
-    /// Draws some pixels by the reference, or as they were drawn if that was not exact, and
+    /// Draws some pixels by the reference, or by the picture's precision if that is not exact, and
     /// compares.
     Verdict sample() {
         simd::RenderOptions options = options_;
@@ -147,7 +148,7 @@ class Verifier {
         return drawn_again(options, choose());
     }
 
-    /// Draws pixels as they were drawn, and compares.
+    /// Draws pixels in the way they were drawn, and compares.
     Verdict as_they_were(const std::vector<std::size_t>& pixels) const {
         return drawn_again(options_, pixels);
     }
@@ -159,10 +160,11 @@ class Verifier {
 
     struct Whole {
         bool has_its_bits;
-        bool has_its_tiers; ///< as many rays were decided by each tier as it says
+        bool has_its_tiers; ///< each tier decided as many rays as the picture states
     };
-    /// Draws and writes all of it again, as it was drawn: it has its bits if all are those that it
-    /// had, and all that the file holds is what is written of these.
+    /// Draws and writes the whole picture again in the way it was drawn. `has_its_bits` is true if
+    /// the film has the bits that the picture states, and if the file holds exactly the components
+    /// that are written for it.
     Whole again() {
         std::optional<core::Layers> layers;
         if (image_.linear_float) {
@@ -185,7 +187,7 @@ class Verifier {
   private:
     Verdict drawn_again(simd::RenderOptions options, const std::vector<std::size_t>& pixels) const {
         options.layers = false;
-        if (is_exact()) options.tile = 8; // the fewest others
+        if (is_exact()) options.tile = 8; // draws the fewest additional pixels
         const simd::TileGrid tiles = simd::grid_of(settings_, options);
         std::unordered_set<std::size_t> wanted;
         for (const std::size_t pixel : pixels) {
@@ -198,7 +200,7 @@ class Verifier {
         return compared(draw(options).film, pixels);
     }
 
-    /// As render would write it, and compare reads it.
+    /// Returns a film as render would write it and compare would read it.
     Image as_written(const core::Film& film) const {
         const MemoryFile memory("raylane picture");
         OutputFile output(memory.path(),
@@ -208,7 +210,7 @@ class Verifier {
         return read_image(memory.path());
     }
 
-    /// Some pixels of the picture with those of a film.
+    /// Compares some pixels of the picture with those of a film.
     Verdict compared(const core::Film& film, const std::vector<std::size_t>& pixels) const {
         Verdict verdict;
         const Image expected = as_written(film);
@@ -248,7 +250,7 @@ class Verifier {
         return settings;
     }
 
-    /// That of a picture of a film.
+    /// Returns the scene of one picture of a film.
     core::Scene seen_scene_of_film() {
         const std::optional<int> place = to_int(text_in(image_.name, image_.texts, "Film"));
         std::optional<FilmStrip> strip =
@@ -288,7 +290,7 @@ class Verifier {
         std::iota(all.begin(), all.end(), std::size_t{0});
         return all;
     }
-    /// Different ones.
+    /// Returns distinct random pixels.
     std::vector<std::size_t> choose() const {
         std::vector<std::size_t> pixels = all_pixels();
         std::mt19937_64 random(seed_);
@@ -314,10 +316,10 @@ class Verifier {
     Image image_;
     RenderArguments render_;
     PictureChoice picture_;
-    core::Settings settings_; // before the scene, which sets it
+    core::Settings settings_; // before scene_, whose initializer sets it
     core::Scene scene_;
     simd::RenderOptions options_;
-    std::optional<simd::Isa> said_isa_; // which this processor may lack
+    std::optional<simd::Isa> said_isa_; // this processor may lack it
     core::Region part_{};
 };
 

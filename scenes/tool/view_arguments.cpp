@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* camera_group = "Camera";
 
-/// As "1,-1,-0.5"; nothing if it is none, or 0.
+/// Parses a direction such as "1,-1,-0.5". Returns nothing if it is malformed or 0.
 std::optional<core::Vec3f> direction_in(const std::string& text) {
     const std::vector<std::string_view> parts = parts_of(text, ',');
     if (parts.size() != 3) return std::nullopt;
@@ -39,7 +39,7 @@ core::Vec3f up_argument(const std::string& text) {
     return *direction;
 }
 
-/// A view by name, or the direction that the camera looks in, as "1,-1,-0.5".
+/// Parses the name of a view, or a direction that the camera looks in, such as "1,-1,-0.5".
 core::NamedView view_argument(const std::string& text) {
     std::vector<std::string_view> names;
     for (const core::NamedView& view : core::named_views()) {
@@ -55,14 +55,14 @@ core::NamedView view_argument(const std::string& text) {
     return {"", *direction, core::upright(*direction)};
 }
 
-/// What a camera shows of where it looks to, `zoom` times as large.
+/// Makes the image `zoom` times as large around the point that the camera looks at.
 void zoom_in(core::Camera& camera, float zoom) {
     camera.height /= zoom;
     camera.field_of_view =
         core::field_of_view(core::slope_of_view(camera.field_of_view) / static_cast<double>(zoom));
 }
 
-/// As large where it looks to.
+/// Keeps the size at which the point that the camera looks at is seen.
 void make_orthographic(core::Camera& camera) {
     if (camera.projection == core::Projection::orthographic) return;
     const double distance =

@@ -7,25 +7,25 @@
 
 namespace raylane::scenes {
 
-/// How a scene is to be seen, other than it says itself.
+/// Changes to the view that a scene requests.
 struct ViewChange {
-    std::optional<core::NamedView> way; ///< for a camera that finds its place by it
+    std::optional<core::NamedView> way; ///< for a camera that finds its place
     std::optional<core::Vec3f> up;
     std::optional<float> zoom, depth_cue;
     bool orthographic = false;
-    bool turning = false; ///< the camera will go around
+    bool turning = false; ///< the camera will turn around the scene
 
-    /// The staging that comes of it, and in `camera` the one that the scene has if it is to keep
-    /// it. Throws BadInput.
+    /// Returns the scene's staging with these changes. If the scene keeps its own camera, changes
+    /// are made to `camera` instead. Throws BadInput.
     core::Staging staging(const core::Scene& scene, core::Camera& camera) const;
 };
 
-/// How a scene is seen, with the lights that came with its camera.
+/// Returns a scene's camera and fog, and the lights that came with the camera.
 core::View view_of(const core::Scene& scene);
 
-/// The scene as it is to be seen in a picture of the settings' size; a camera that finds its place
-/// by itself sees all that is in `frame`, if there is one, or else all of the scene. Throws
-/// BadInput where that is nothing.
+/// Returns the scene with its view in a picture of the settings' size. A camera that finds its
+/// place by itself sees everything in `frame`, or the whole scene if `frame` is not set. Throws
+/// BadInput if that is empty.
 core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settings& settings,
                  const std::optional<core::Frame>& frame = std::nullopt);
 
