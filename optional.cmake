@@ -1,7 +1,7 @@
 # Looks for the optional dependencies, each once, and lists the parts that they turn on.
 #
-# A dependency X is used only if RAYLANE_HAS_X is ON. That asks for more than a package's configuration,
-# which may be there without the package: the headers of X that the sources include must compile.
+# A dependency X is used only if RAYLANE_HAS_X is ON. A package's configuration is not enough, as it may exist
+# without the package: the headers of X that the sources include must also compile.
 # -DCMAKE_DISABLE_FIND_PACKAGE_X=ON hides any X, found by find_package() or not.
 include(CheckCXXSourceCompiles)
 
@@ -125,14 +125,14 @@ if(GEMMI_INCLUDE_DIR AND PEGTL_INCLUDE_DIR)
     file(STRINGS ${GEMMI_INCLUDE_DIR}/gemmi/version.hpp GEMMI_VERSION REGEX "define GEMMI_VERSION ")
     string(REGEX MATCH "[0-9.]+" GEMMI_VERSION "${GEMMI_VERSION}")
   endif()
-  if(GEMMI_VERSION VERSION_GREATER_EQUAL 0.6) # before, headers are all of it
+  if(GEMMI_VERSION VERSION_GREATER_EQUAL 0.6) # older versions are header-only
     find_library(GEMMI_LIBRARY gemmi_cpp NO_CACHE)
     if(NOT GEMMI_LIBRARY)
       set(found OFF)
     endif()
   endif()
 endif()
-# gemmi/cif.hpp takes six seconds, and includes no other headers than these do.
+# gemmi/cif.hpp takes six seconds to compile, and includes no other headers than these do.
 raylane_optional(gemmi ${found} "${GEMMI_VERSION}" "gemmi-dev tao-pegtl-dev" STANDARD 17
                  HEADERS gemmi/pdb.hpp gemmi/smcif.hpp tao/pegtl.hpp
                  INCLUDES ${GEMMI_INCLUDE_DIR} ${PEGTL_INCLUDE_DIR})
@@ -173,7 +173,7 @@ if(RAYLANE_TOOL)
     set(MPI_CXX_SKIP_MPICXX ON)
     find_package(MPI QUIET COMPONENTS CXX)
   endif()
-  # Without MPI, too, there is a target MPI::MPI_CXX.
+  # The target MPI::MPI_CXX exists even without MPI.
   raylane_optional(MPI "${MPI_CXX_FOUND}" "${MPI_CXX_VERSION}" libopenmpi-dev HEADERS mpi.h LIBRARIES MPI::MPI_CXX)
 endif()
 raylane_excluded(excluded RAYLANE_TOOL)
@@ -181,7 +181,7 @@ raylane_part("OpenEXR images" "${excluded}" OpenEXR)
 raylane_part("raylane view" "${excluded}" SDL2)
 raylane_part("ranks on several hosts" "${excluded}" MPI)
 
-# The Python that is called first may lack the system's packages: one that has NumPy is better.
+# The first Python in the path may lack the system's packages, so one that has NumPy is preferred.
 raylane_excluded(excluded RAYLANE_PYTHON RAYLANE_TBB)
 if(RAYLANE_SANITIZE AND NOT excluded) # an interpreter without the sanitizers would load the module
   set(excluded RAYLANE_SANITIZE=${RAYLANE_SANITIZE})
@@ -203,7 +203,7 @@ if(RAYLANE_TESTS OR RAYLANE_PYTHON)
   if(RAYLANE_PYTHON)
     find_package(Python3 QUIET COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module)
     set(found OFF)
-    if(Python3_Development.Module_FOUND) # or pybind11 searches for another Python, and may end configuring
+    if(Python3_Development.Module_FOUND) # otherwise pybind11 searches for another Python, and may end configuring
       find_package(pybind11 2.10 CONFIG QUIET)
       set(found ${pybind11_FOUND})
     endif()

@@ -1,13 +1,13 @@
-# What raylane may be made of beside itself: for each component of others' its name, version as found here,
-# licence, where it comes from, the shared libraries that it is (a regular expression of their names, or
-# none), and which of raylane's binaries have its headers compiled in. sbom.cmake makes the list of it.
+# The components that raylane may contain besides its own code. For each one: its name, the version found
+# here, its licence, its origin, its shared libraries (a regular expression of their names, or empty), and the
+# binaries of raylane that have its headers compiled in. write_sbom.cmake lists them.
 set(components "")
 function(component id version licence origin libraries) # binaries...
   list(JOIN ARGN "," binaries)
   list(APPEND components "${id}~${version}~${licence}~${origin}~${libraries}~${binaries}")
   set(components ${components} PARENT_SCOPE)
 endfunction()
-# The value of a macro that names a version, as a header defines it.
+# Gets the value of a macro that a header defines as a version.
 function(macro_of file name result)
   file(STRINGS ${file} line REGEX "define[ \t]+${name}[ \t]" LIMIT_COUNT 1)
   string(REGEX REPLACE ".*${name}[ \t]+\"?([0-9.]+).*" "\\1" value "${line}")
@@ -67,7 +67,7 @@ if(RAYLANE_HAS_MPI)
   component(OpenMPI "${version}" BSD-3-Clause-Open-MPI github/open-mpi/ompi "libmpi" raylane-mpi)
 endif()
 
-# The compiler's and the system's own.
+# The libraries of the compiler and of the system.
 execute_process(COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -E -dM -x c++ -include cstddef /dev/null
                 OUTPUT_VARIABLE macros ERROR_QUIET)
 foreach(name __GLIBC__ __GLIBC_MINOR__ _GLIBCXX_RELEASE)

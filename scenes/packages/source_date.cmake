@@ -1,5 +1,5 @@
-# The time that the build's files tell, where any does: SOURCE_DATE_EPOCH in the environment, or the last
-# commit's, or, of a source without commits, the beginning of 1980. cpack reads it, too.
+# The time that files of the build contain, if any: SOURCE_DATE_EPOCH in the environment, otherwise the time
+# of the last commit, or the start of 1980 for sources without commits. cpack reads it, too.
 set(source ${CMAKE_CURRENT_LIST_DIR}/../..)
 if(NOT DEFINED ENV{SOURCE_DATE_EPOCH})
   set(commit_date "")

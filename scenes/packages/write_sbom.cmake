@@ -1,11 +1,11 @@
-# Writes what raylane's binaries are made of, as SPDX 2.3 has it in JSON: cmake -P, by the build.
+# Writes the components of raylane's binaries as SPDX 2.3 in JSON. The build runs it by cmake -P.
 #
-# `list`: file with the components and the version, as CMakeLists.txt writes it; `binaries`: NAME=FILE...;
-# `readelf`; `output`. A shared library that is no component's is one by itself.
+# `list`: the file with the components and the version that CMakeLists.txt writes; `binaries`: NAME=FILE...;
+# `readelf`; `output`. A shared library of no known component is listed by itself.
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/source_date.cmake)
 include(${list})
-string(TIMESTAMP created "%Y-%m-%dT%H:%M:%SZ" UTC) # of SOURCE_DATE_EPOCH
+string(TIMESTAMP created "%Y-%m-%dT%H:%M:%SZ" UTC) # from SOURCE_DATE_EPOCH
 
 set(packages "")
 set(relationships "")
@@ -97,7 +97,7 @@ foreach(component ${components})
     endif()
   endforeach()
 endforeach()
-foreach(library ${needed_by_any}) # of a system that components.cmake does not know
+foreach(library ${needed_by_any}) # libraries of a system that components.cmake does not know
   string(MAKE_C_IDENTIFIER ${library} id)
   string(REPLACE "_" "-" id ${id})
   package(${id} ${library} "" NOASSERTION NOASSERTION "" "shared libraries: ${library}")
@@ -110,7 +110,7 @@ endforeach()
 
 list(JOIN packages ",\n" packages)
 list(JOIN relationships ",\n" relationships)
-# A name of the document, which differs where the document does.
+# The name of the document is unique: it differs if the document differs.
 string(UUID uuid NAMESPACE 6ba7b811-9dad-11d1-80b4-00c04fd430c8 TYPE SHA1
        NAME "raylane ${version} ${created} ${packages} ${relationships}")
 set(document "{

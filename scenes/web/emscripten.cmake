@@ -1,8 +1,8 @@
-# What a build by emscripten needs: see the preset wasm.
+# Settings for builds by emscripten; see the preset wasm.
 
-# Headers alone, which are any compiler's: taken from where this machine has them, by links in a folder
-# of their own, as what else is beside them is not WebAssembly's. Packages that say where they are say
-# so of the machine, and are not asked.
+# Header-only libraries work with any compiler, so this machine's headers are used. They are linked into a
+# separate folder, because other headers in theirs are not for WebAssembly. Packages' configurations describe
+# this machine, so find_package() gets empty ones instead.
 set(headers ${PROJECT_BINARY_DIR}/headers)
 file(MAKE_DIRECTORY ${headers})
 foreach(package glm nlohmann xsimd stb)
@@ -25,8 +25,10 @@ file(CREATE_LINK ${xxhash_FOLDER}/xxhash.h ${headers}/xxhash.h SYMBOLIC)
 set(XXHASH_INCLUDE_DIR ${headers})
 set(STB_INCLUDE_DIR ${headers}/stb)
 
-# An exception costs what the engine's own do, and a call that throws none, nothing.
+# WebAssembly's exceptions: a throw costs as much as one of the engine, and a call that does not throw costs
+# nothing.
 target_compile_options(raylane_flags INTERFACE
   -fwasm-exceptions -include ${PROJECT_SOURCE_DIR}/scenes/web/standard_library.hpp)
-# What LLVM has optimised, binaryen would take minutes to look at again, for nothing (-O1). fma.cpp.
+# -O1: with more, binaryen would take minutes to optimise LLVM's output again, to no effect. --wrap: see
+# fma.cpp.
 target_link_options(raylane_flags INTERFACE -fwasm-exceptions -O1 LINKER:--wrap=fma LINKER:--wrap=fmaf)

@@ -8,8 +8,8 @@
 namespace raylane::scenes {
 
 /// The processes of one job, on one host or many, as mpirun has started them: ranks from 0 to
-/// size() - 1. "Collective" functions must be called by all ranks. All functions may be called by
-/// one thread at a time. Errors of MPI end the job.
+/// size() - 1. "Collective" functions must be called by all ranks. Only one thread at a time may
+/// call a function. Errors of MPI end the job.
 class Ranks {
   public:
     Ranks() = default;
