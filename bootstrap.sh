@@ -13,7 +13,8 @@ render_megabytes=40
 test_seconds=2800
 test_megabytes=700
 
-# Each with its purpose. gemmi and OpenEXR are optional, and cost 1.8 MB to download and 35 processor seconds.
+# Packages with their purposes. gemmi and OpenEXR are optional, and cost 1.8 MB to download and 35 processor
+# seconds.
 render_packages='
 g++                 the C++20 compiler
 cmake               configures the build
@@ -55,7 +56,7 @@ is_installed() {
     [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
 }
 
-# The purposes of some packages, a line for each.
+# Prints the purposes of packages, one line each.
 purposes() { # packages...
     for name in "$@"; do
         echo "$packages" | awk -v name="$name" '$1 == name { print "  " $0 }'
@@ -115,7 +116,7 @@ install_missing() {
 build() { # target, options of cmake
     target=$1
     shift
-    # Other compilers may warn of more than the tested one does.
+    # Other compilers than the tested one may give more warnings.
     # shellcheck disable=SC2086 # a command that may have options
     case $(${CXX:-c++} -dumpversion 2>/dev/null) in
     12 | 12.*) ;;
@@ -123,8 +124,9 @@ build() { # target, options of cmake
     esac
     log=build/bootstrap.log
     mkdir -p build
-    [ -e build/release/build.ninja ] || set -- "$@" --fresh # configuring may have failed before
-    # RAYLANE_ISAS=all ./bootstrap.sh test: kernels for all instruction sets, not for this machine's own.
+    [ -e build/release/build.ninja ] || set -- "$@" --fresh # an earlier configuration may have failed
+    # RAYLANE_ISAS=all ./bootstrap.sh test builds kernels for all instruction sets, not only for this
+    # machine's.
     if ! cmake --preset release "-DRAYLANE_ISAS=${RAYLANE_ISAS:-native}" "$@" >"$log" 2>&1; then
         cat "$log" >&2
         fail 1 "configuring failed; see above, or $log"
@@ -167,6 +169,6 @@ if [ "$1" = render ]; then
     echo "Rendered $(pwd)/birthday.png in $((milliseconds / 1000)).$(printf %03d $((milliseconds % 1000))) s."
 else
     build raylane-tests -DRAYLANE_TESTS=REQUIRED -DRAYLANE_BENCHMARKS=REQUIRED
-    ctest --preset release --parallel "$(nproc)" --label-exclude bench || # not built here
+    ctest --preset release --parallel "$(nproc)" --label-exclude bench || # these are not built here
         fail $? "tests failed; see above"
 fi

@@ -1,9 +1,9 @@
-# For the scripts of this folder to read: steps, each with its budget.
+# Steps with time budgets, for the scripts of this folder to source.
 #
-# step SECONDS NAME begins a step and ends the one before; `step` alone ends the last. A step fails the
-# run at once. So does one that took more than twice its budget, at the end of the run: budgets are for
-# two idle cores without a compiler cache, and other machines differ. A step that has called `skipped`
-# says so.
+# `step SECONDS NAME` begins a step and ends the previous one; `step` alone ends the last one. A step that
+# fails ends the run at once. A step that took more than twice its budget fails the run at its end: budgets
+# are for two idle cores without a compiler cache, and other machines differ. A step that has called `skipped`
+# is marked.
 
 cd "$(dirname "$0")/.."
 steps=$(mktemp)
@@ -36,10 +36,10 @@ step() {
 skipped() { # why
     skipped="  skipped: $1"
 }
-may_skip() { # command...: 77 if it cannot run here
+may_skip() { # command...: exit code 77 if it cannot run here
     "$@" || { [ $? -eq 77 ] && skipped "it cannot run here"; }
 }
-slowest() { # build: tests of the last run of ctest
+slowest() { # build: lists the slowest tests of the last run of ctest
     echo "the twenty slowest tests, in seconds:"
     awk '/^[0-9]+\/[0-9]+ Testing: / { sub(/^.* Testing: /, ""); test = $0 }
         /^Test time = / { printf "%7.2f  %s\n", $4, test }' \
