@@ -1,5 +1,6 @@
 // usage: node assemble.js PAGE FOLDER SCENES...
-// Makes one page of what is beside this script, raylane.js and raylane.wasm in FOLDER, and scenes.
+// Makes one page of the files beside this script, raylane.js and raylane.wasm in FOLDER, and
+// scenes.
 "use strict";
 const fs = require("fs");
 const path = require("path");
@@ -9,7 +10,7 @@ const [page, folder, ...scenes] = process.argv.slice(2);
 const own = (name) => fs.readFileSync(path.join(__dirname, name), "utf8");
 const built = (name) => fs.readFileSync(path.join(folder, name));
 
-// Of a first sentence; "</script" must not end the element that it stands in.
+// Returns a literal for a script, in which "</script" must not end the script's element.
 const quoted = (value) => JSON.stringify(value).replaceAll("<", "\\u003C");
 
 const texts = Object.fromEntries(scenes.map((file) => [path.basename(file, ".json"), fs.readFileSync(file, "utf8")]));

@@ -1,15 +1,16 @@
-// The library in JavaScript: one scene, and pictures of it. In a page's workers, and in node.
+// The library in JavaScript: one scene, and pictures of it. For the workers of a page, and for
+// node.
 "use strict";
 
 const CAMERA_NUMBERS = 14;
 
 class Engine {
-    // `module`: what makeRaylane() has made of raylane.wasm.
+    // `module`: the result of makeRaylane() for raylane.wasm.
     constructor(module) {
         this.module = module;
     }
 
-    // A WebAssembly.Module, which several engines may share.
+    // Returns an engine. `code`: a WebAssembly.Module, which several engines may share.
     static async start(code) {
         return new Engine(await new Promise((made, failed) => {
             makeRaylane({
@@ -25,7 +26,8 @@ class Engine {
         if (!good) throw new Error(this.module.UTF8ToString(this.module._web_error()));
     }
 
-    // The ending of `name` tells the format, or else the text does. Answers what there is to know.
+    // Loads a scene. The extension of `name` decides the format; without one, the text does.
+    // Returns the scene's properties.
     load(text, name) {
         const bytes = new TextEncoder().encode(text);
         const name_bytes = new TextEncoder().encode(name + "\0");
@@ -46,7 +48,7 @@ class Engine {
         };
     }
 
-    // Places are of 32 bits, and signed as calls answer them.
+    // Allocates memory. Pointers have 32 bits, and calls return them as signed numbers.
     room(size) {
         const place = this.module._malloc(size) >>> 0;
         if (place === 0 && size > 0) throw new Error("out of memory");
@@ -74,9 +76,9 @@ class Engine {
         this.require(this.module._web_look());
     }
 
-    // Rows of a picture, by grid x grid samples, or as the scene says if that is 0. What is answered
-    // is the engine's own memory, which the next call overwrites: bytes as a canvas has them, and
-    // linear floats, three for each pixel.
+    // Draws rows of a picture with grid x grid samples, or as the scene requests if `grid` is 0.
+    // The result is in the engine's memory, which the next call overwrites: bytes in a canvas's
+    // format, and linear floats, three per pixel.
     render({ width, height, grid = 0, first = 0, rows = height }) {
         this.require(this.module._web_render(width, height, grid, first, rows));
         const pixels = width * rows;

@@ -1,8 +1,9 @@
 #include <cmath>
 #include <cstdint>
 
-/// WebAssembly has no fused multiply-add, and the C library's, in whole numbers, takes a fifth of a
-/// picture's time. The linker puts these in their places (--wrap=fma, --wrap=fmaf).
+/// Replacements of fma and fmaf. WebAssembly has no fused multiply-add, and the C library's, which
+/// uses integers, takes a fifth of a picture's time. The linker substitutes these (--wrap=fma,
+/// --wrap=fmaf).
 extern "C" {
 double __wrap_fma(double a, double b, double c);
 double __real_fma(double a, double b, double c); // the C library's
@@ -15,13 +16,13 @@ struct Pair {
     double high, low;
 };
 
-/// a + b exactly (Knuth).
+/// Returns a + b exactly (Knuth).
 Pair two_sum(double a, double b) {
     const double sum = a + b, part = sum - a;
     return {sum, (a - (sum - part)) + (b - part)};
 }
 
-/// a * b exactly, where nothing over- or underflows (Dekker).
+/// Returns a * b exactly if nothing over- or underflows (Dekker).
 Pair two_product(double a, double b) {
     constexpr double split = 0x1p27 + 1.0;
     const double product = a * b, scaled_a = split * a, scaled_b = split * b;
@@ -31,7 +32,7 @@ Pair two_product(double a, double b) {
             ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
-/// a + b rounded to odd.
+/// Returns a + b rounded to odd.
 double sum_to_odd(double a, double b) {
     const Pair sum = two_sum(a, b);
     if (sum.low == 0.0) return sum.high;
@@ -42,7 +43,7 @@ double sum_to_odd(double a, double b) {
     return __builtin_bit_cast(double, shrinks ? bits - 1 : bits + 1);
 }
 
-/// No part of products of two such numbers over- or underflows.
+/// Returns true if no part of a product of two such numbers over- or underflows.
 bool is_moderate(double number) {
     const double size = std::fabs(number);
     return size > 0x1p-400 && size < 0x1p400;
@@ -50,8 +51,8 @@ bool is_moderate(double number) {
 
 } // namespace
 
-/// Boldo and Melquiond, "Emulation of FMA and correctly rounded sums: proved algorithms using
-/// rounding to odd" (2008).
+/// Returns a * b + c rounded once. Source: Boldo and Melquiond, "Emulation of FMA and correctly
+/// rounded sums: proved algorithms using rounding to odd" (2008).
 double __wrap_fma(double a, double b, double c) {
     if (!is_moderate(a) || !is_moderate(b) || !(is_moderate(c) || c == 0.0))
         return __real_fma(a, b, c);
@@ -61,7 +62,8 @@ double __wrap_fma(double a, double b, double c) {
     return high.high + sum_to_odd(low.low, high.low);
 }
 
-/// The C library's asks for another rounding where a sum is halfway, which there is none of.
+/// Returns a * b + c rounded once. The C library's changes the rounding mode where a sum is
+/// halfway, but WebAssembly has only one mode.
 float __wrap_fmaf(float a, float b, float c) {
     const double product = static_cast<double>(a) * static_cast<double>(b); // exactly
     const double sum = product + static_cast<double>(c);

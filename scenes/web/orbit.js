@@ -1,4 +1,4 @@
-// Cameras that hands move around what they look at.
+// Cameras that the user moves around the point that they look at.
 "use strict";
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -9,15 +9,16 @@ const unit = (a) => scaled(a, 1 / Math.sqrt(dot(a, a)));
 
 const HIGHEST = 89; // degrees: never over the poles
 
-// Degrees that the camera is above what it looks at.
+// Returns the elevation of a camera above the point that it looks at, in degrees.
 function elevation_of(camera) {
     const away = sum(camera.from, scaled(camera.at, -1));
     const sine = dot(unit(away), unit(camera.up));
     return Math.asin(Math.min(Math.max(sine, -1), 1)) * 180 / Math.PI;
 }
 
-// The camera that has gone around what it looks at: `around` degrees about what is up for it, `above`
-// degrees towards that, and to so many times the distance. As Python's raylane.orbit turns it.
+// Returns a camera that is turned around the point that it looks at: by `around` degrees about its
+// up direction, by `above` degrees towards that direction, and moved to `distance` times its
+// distance. Same as Python's raylane.orbit.
 function turned(camera, around, above, distance = 1) {
     const up = unit(camera.up);
     const away = sum(camera.from, scaled(camera.at, -1));
@@ -37,7 +38,7 @@ function turned(camera, around, above, distance = 1) {
     return {
         ...camera,
         from: sum(camera.at, scaled(way, distance * length)).map(Math.fround),
-        height: camera.height * distance, // of an orthographic one, for which nearer is larger
+        height: camera.height * distance, // of an orthographic camera, for which nearer is larger
         focus_distance: camera.focus_distance * distance,
     };
 }

@@ -1,24 +1,26 @@
-// The page: a scene that hands turn, in pictures that get better as long as it is left alone.
+// The page: a scene that the user can turn, in pictures that improve while the view does not
+// change.
 "use strict";
 
 const $ = (id) => document.getElementById(id);
 const canvas = $("picture"), context = canvas.getContext("2d");
-const SLOWEST = 200, QUICK = 60; // milliseconds for a frame that moves: coarser above, finer below
-const PATIENCE = 5000; // milliseconds: what has taken longer gets no finer
-const DEGREES_PER_SECOND = 40; // of what turns by itself
+const SLOWEST = 200, QUICK = 60; // milliseconds per frame in motion: coarser above, finer below
+const PATIENCE = 5000; // milliseconds: pictures that take longer are not refined
+const DEGREES_PER_SECOND = 40; // of a scene that turns by itself
 
-// In the address behind #: scene=lens&workers=1&size=256, and steady: of all pixels, moving or not.
+// Options after # in the address: scene=lens&workers=1&size=256; steady keeps all pixels, even in
+// motion.
 const asked = new URLSearchParams(location.hash.slice(1));
 
-// What is to be seen. `version` counts changes.
+// The current view. `version` counts its changes.
 const view = { around: 0, above: 0, distance: 1, version: 0 };
 let pool = null;
-let scene = null; // what the engine says of it
+let scene = null; // its properties from the engine
 let size = { width: 512, height: 512 };
-let coarseness = 1; // pixels that one stands for while it moves
+let coarseness = 1; // in motion: the side, in pixels, of the square that one pixel of the picture fills
 let turning = false;
-let shown = null; // of the last whole picture: camera, width, height, grid
-const times = []; // when frames were done that moved
+let shown = null; // the last complete picture: camera, width, height, grid
+const times = []; // when frames in motion were finished
 
 function say(text, wrong = false) {
     $("message").textContent = text;
@@ -39,7 +41,8 @@ function counted(count) {
     return count.toFixed(0);
 }
 
-// Samples a pixel, one picture after the other: at once, as the scene says, and finer.
+// Returns the samples per pixel of successive pictures: one, as many as the scene requests, and
+// more.
 function stages() {
     const stages = [{ grid: 1, text: "1" }];
     if (scene.quality > 0) return [...stages, { grid: 0, text: `as needed for ${scene.quality} dB` }];
@@ -48,7 +51,7 @@ function stages() {
     return [...stages, { grid: finer, text: String(finer ** 2) }];
 }
 
-const still = document.createElement("canvas"); // a picture of fewer pixels, to be spread out
+const still = document.createElement("canvas"); // a picture with fewer pixels, to be enlarged
 function put(picture, first, rows, bytes) {
     const data = new ImageData(new Uint8ClampedArray(bytes.buffer), picture.width, rows);
     if (picture.width === canvas.width) return context.putImageData(data, 0, first);
@@ -67,7 +70,8 @@ function note_frame(now, milliseconds) {
     else if (milliseconds < QUICK && coarseness > 1) coarseness /= 2;
 }
 
-// Draws what is to be seen by so many samples. Answers whether it was left alone meanwhile.
+// Draws the current view with the samples of a stage. Returns true if the view has not changed
+// meanwhile.
 async function draw(stage, moves) {
     const version = view.version, began = performance.now();
     const by = moves ? coarseness : 1;
@@ -75,7 +79,7 @@ async function draw(stage, moves) {
         width: Math.ceil(size.width / by), height: Math.ceil(size.height / by), grid: stage.grid,
     };
     const camera = camera_now();
-    // One that moves comes as a whole, however quickly the hand goes on.
+    // A picture in motion is shown as a whole, however quickly the user continues.
     const bands = [];
     const is_stopped = () => !moves && view.version !== version;
     const on_band = (first, rows, bytes) => {
@@ -97,14 +101,15 @@ async function draw(stage, moves) {
 
 const next_frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
 
-// What is to be seen now, and better as long as it is left alone. Answers whether it took long.
+// Draws the current view, and refines it while it does not change. Returns true if the first
+// picture took long.
 async function show() {
     const version = view.version, began = performance.now();
     const [quick, ...better] = stages();
     let alone = await draw(quick, true);
     const is_long = performance.now() - began >= 16;
     if (turning || !alone) return is_long;
-    await new Promise((resolve) => setTimeout(resolve, 80)); // a hand may be about to go on
+    await new Promise((resolve) => setTimeout(resolve, 80)); // the user may be about to continue
     if (view.version !== version) return is_long;
     times.length = 0;
     if (coarseness > 1) alone = await draw(quick, false);
@@ -119,7 +124,7 @@ async function show() {
 
 async function run() {
     let drawn = -1;
-    let waits = true; // for the display, where frames are quick or there is nothing to do
+    let waits = true; // for the display, if frames are quick or there is nothing to do
     for (let before = await next_frame();; ) {
         const now = waits ? await next_frame() : performance.now();
         if (turning) changed({ around: view.around + DEGREES_PER_SECOND * Math.min(now - before, 1000) / 1000 });
@@ -130,7 +135,7 @@ async function run() {
             continue;
         }
         drawn = view.version;
-        await attempt(async () => { // the next one may do better
+        await attempt(async () => { // after an error, the next picture may succeed
             waits = !await show();
         });
     }
@@ -158,14 +163,14 @@ function home() {
 }
 
 function resize() {
-    if (scene === null) return; // which is about to come
+    if (scene === null) return; // load() calls this again
     const chosen = $("size").value;
     size = chosen === "own" ? { width: scene.width, height: scene.height } : { width: +chosen, height: +chosen };
     Object.assign(canvas, size);
     changed();
 }
 
-// Whatever comes of it: a scene that cannot be read leaves the one before.
+// Shows the error if the work fails. A scene that cannot be read leaves the previous one.
 async function attempt(work) {
     try {
         await work();

@@ -1,4 +1,4 @@
-// Workers that draw a picture together, some rows each at a time.
+// Workers that draw a picture together, in bands of rows.
 "use strict";
 
 class Painter {
@@ -13,7 +13,7 @@ class Painter {
         else this.answered(data.answer);
     }
 
-    // One task at a time: the others wait for it.
+    // Sends a task to the worker when the previous tasks are done.
     ask(message) {
         const before = this.last;
         const task = (async () => {
@@ -23,13 +23,13 @@ class Painter {
                 this.worker.postMessage(message);
             });
         })();
-        this.last = task.catch(() => {}); // whoever has asked hears of it
+        this.last = task.catch(() => {}); // the caller of that task gets its error
         return task;
     }
 }
 
 class Pool {
-    // `code`: a WebAssembly.Module; `source`: what workers run.
+    // `code`: a WebAssembly.Module; `source`: the script that workers run.
     static async start(count, code, source) {
         const pool = new Pool();
         const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
@@ -39,16 +39,16 @@ class Pool {
         return pool;
     }
 
-    // Has all of them read a scene; answers what there is to know of it.
+    // Makes all workers read a scene. Returns its properties.
     async load(text, name) {
         const answers = await Promise.all(this.workers.map((worker) => worker.ask({ task: "load", text, name })));
         return answers[0];
     }
 
-    // Draws a picture in `bands` of rows for each worker. Tells of each as it is done. Answers the rays that
-    // it took, or null if `is_stopped` has said so in the meantime.
+    // Draws a picture in `bands` bands of rows per worker, and calls `on_band` for each finished
+    // one. Returns the number of rays, or null if `is_stopped` has become true meanwhile.
     async draw(camera, { width, height, grid }, bands, on_band, is_stopped) {
-        const multiple = 8; // of rows: what the engine has in hand at a time is square
+        const multiple = 8; // of rows, because the engine works on squares of pixels
         const rows = Math.max(multiple, Math.ceil(height / (this.workers.length * bands) / multiple) * multiple);
         let next = 0, rays = 0;
         const work = async (worker) => {

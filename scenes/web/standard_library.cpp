@@ -13,7 +13,7 @@
 
 namespace {
 
-// musl's, which rounds correctly, and knows no locale.
+// musl's functions, which round correctly and ignore the locale.
 template <class Number>
 Number nearest(const std::string& text) {
     if constexpr (sizeof(Number) == sizeof(float))
@@ -24,7 +24,7 @@ Number nearest(const std::string& text) {
 
 #ifdef RAYLANE_LACKS_FROM_CHARS
 
-/// The decimal number that a text begins with, as from_chars takes it; nothing if there is none.
+/// Returns the decimal number at the start of a text, in from_chars' syntax, or an empty text.
 std::string_view decimal(std::string_view text) {
     std::size_t at = text.starts_with('-') ? 1 : 0;
     std::size_t digits = 0;
@@ -49,7 +49,7 @@ std::string_view decimal(std::string_view text) {
     return text.substr(0, at);
 }
 
-/// Length of the name of no number or of an infinite one, with its sign; 0 if there is none.
+/// Returns the length of the name of NaN or infinity, with its sign, or 0 without such a name.
 std::size_t name_length(std::string_view text, bool& infinite) {
     const std::size_t sign = text.starts_with('-') ? 1 : 0;
     const auto has = [&](std::string_view name) {
@@ -97,7 +97,7 @@ std::from_chars_result read(const char* first, const char* last, Number& value) 
 #endif
 #ifdef RAYLANE_LACKS_TO_CHARS
 
-/// digits * 10^exponent.
+/// The number digits * 10^exponent.
 struct Decimal {
     std::string digits;
     int exponent;
@@ -114,7 +114,7 @@ Decimal rounded(double value, int digits) {
     return result;
 }
 
-/// The next one with as many digits.
+/// Returns the next larger number with as many digits.
 Decimal next(Decimal decimal) {
     std::size_t at = decimal.digits.size();
     while (at > 0 && decimal.digits[at - 1] == '9')
@@ -126,8 +126,9 @@ Decimal next(Decimal decimal) {
     return decimal;
 }
 
-/// Of a positive number. Above a power of two numbers are twice as far from each other as below:
-/// what leads back to it may be farther than what does not.
+/// Returns the shortest decimal number that reads back as a positive `value`. Above a power of two,
+/// numbers are twice as far apart as below. So a decimal number that reads back as that power may
+/// be farther from it than one that does not.
 template <class Number>
 Decimal shortest(Number value) {
     int power = 0;
@@ -140,8 +141,8 @@ Decimal shortest(Number value) {
     return rounded(static_cast<double>(value), std::numeric_limits<Number>::max_digits10);
 }
 
-/// As printf's %f or %e have it, whichever is shorter. Of a whole number as long as its zeros, %f's
-/// digits are nearer.
+/// Formats a number like printf's %f or %e, whichever is shorter. An integer in the form of %f gets
+/// its own digits instead of zeros at the end, since they are nearer.
 std::string spelled(Decimal decimal, double value) {
     while (decimal.digits.size() > 1 && decimal.digits.back() == '0') {
         decimal.digits.pop_back();

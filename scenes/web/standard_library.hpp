@@ -1,7 +1,7 @@
 #pragma once
 
-/// What C++20's standard library has, and emscripten's, which is LLVM's 13, does not yet; of
-/// numbers, with the bits that others give. Included before all else by the compiler's flags, where
+/// Parts of C++20's standard library that emscripten's, which is LLVM 13's, lacks. Numbers get the
+/// same bits as in other libraries. The compiler's flags include this file before all others where
 /// that library is used.
 
 #include <algorithm>
@@ -36,18 +36,18 @@ constexpr void transform(const Range& range, Out out, Function function) {
 } // namespace ranges
 #endif
 
-// libc++ has to_chars of 14 and from_chars of 20, and says so by its macro only once long double is
-// there, too.
+// libc++ has to_chars since version 14 and from_chars since version 20. It defines the macro only
+// once it supports long double, too.
 #if !defined(__cpp_lib_to_chars) && !(defined(_LIBCPP_VERSION) && _LIBCPP_VERSION >= 200000)
 #define RAYLANE_LACKS_FROM_CHARS
-/// The nearest number to a decimal one, in no locale.
+/// Parses the nearest number to a decimal one, independent of the locale.
 from_chars_result from_chars(const char* first, const char* last, float& value);
 from_chars_result from_chars(const char* first, const char* last, double& value);
 #endif
 
 #if !defined(__cpp_lib_to_chars) && !(defined(_LIBCPP_VERSION) && _LIBCPP_VERSION >= 14000)
 #define RAYLANE_LACKS_TO_CHARS
-/// The shortest decimal number that leads back to `value`, and of these the nearest.
+/// Writes the shortest decimal number that reads back as `value`, and of these the nearest one.
 to_chars_result to_chars(char* first, char* last, float value);
 to_chars_result to_chars(char* first, char* last, double value);
 #endif

@@ -10,15 +10,15 @@
 #include <string_view>
 #include <vector>
 
-/// What engine.js calls: one scene, and the last picture of it. Functions that can fail answer
-/// whether they have not; web_error() says why they have.
+/// The functions that engine.js calls. There is one scene, and the last picture of it. Functions
+/// that can fail return true on success; web_error() returns the reason of a failure.
 namespace {
 
 using namespace raylane;
 
 std::optional<Scene> scene;
 Image image;
-std::vector<std::uint8_t> bytes; // RGBA, as a canvas has them
+std::vector<std::uint8_t> bytes; // RGBA, in a canvas's format
 std::uint64_t rays = 0;
 std::string error;
 
@@ -35,7 +35,7 @@ bool attempt(const Work& work) {
     return false;
 }
 
-/// A camera as JavaScript has it: numbers one after the other.
+/// A camera in the form that JavaScript reads: a sequence of numbers.
 struct CameraNumbers {
     float projection;
     Vec3 from, at, up;
@@ -67,7 +67,7 @@ EMSCRIPTEN_KEEPALIVE const char* web_version() {
     return raylane::version();
 }
 
-/// `name`: its ending tells the format, if there is one.
+/// `name`: its extension, if any, decides the format.
 EMSCRIPTEN_KEEPALIVE bool web_load(const char* text, std::size_t length, const char* name) {
     return attempt([&] { scene = parse(std::string_view(text, length), name); });
 }
@@ -89,7 +89,7 @@ EMSCRIPTEN_KEEPALIVE float web_quality() {
     return scene->settings().quality;
 }
 
-/// 14 floats, to read or to change before web_look.
+/// Returns 14 floats, to read, or to change before web_look().
 EMSCRIPTEN_KEEPALIVE CameraNumbers* web_camera() {
     const Camera camera = scene->camera();
     camera_numbers = {camera.projection == Projection::perspective ? 0.0F : 1.0F,
@@ -103,7 +103,7 @@ EMSCRIPTEN_KEEPALIVE CameraNumbers* web_camera() {
     return &camera_numbers;
 }
 
-/// Has the scene seen by the camera that web_camera's numbers say.
+/// Sets the scene's camera to the numbers that web_camera() returned.
 EMSCRIPTEN_KEEPALIVE bool web_look() {
     return attempt([&] {
         const CameraNumbers& from = camera_numbers;
@@ -114,13 +114,14 @@ EMSCRIPTEN_KEEPALIVE bool web_look() {
     });
 }
 
-/// Rows from `first` on of a picture, by grid x grid samples, or as the scene says if that is 0.
+/// Draws rows of a picture from `first` on, with grid x grid samples, or as the scene requests if
+/// `grid` is 0.
 EMSCRIPTEN_KEEPALIVE bool web_render(int width, int height, int grid, int first, int rows) {
     return attempt([&] {
         Settings settings = scene->settings();
         settings.width = width;
         settings.height = height;
-        settings.alpha = false; // a canvas shows what is behind it otherwise
+        settings.alpha = false; // otherwise the page behind the canvas shows
         if (grid != 0) {
             settings.grid = grid;
             settings.quality = 0.0F;
@@ -136,8 +137,8 @@ EMSCRIPTEN_KEEPALIVE bool web_render(int width, int height, int grid, int first,
     });
 }
 
-/// Of what web_render has drawn last: 4 bytes for each pixel through the scene's transfer curve, 3
-/// linear floats, and the rays that it took.
+/// Results of the last web_render(): 4 bytes per pixel through the scene's transfer curve, 3 linear
+/// floats per pixel, and the number of rays.
 EMSCRIPTEN_KEEPALIVE const std::uint8_t* web_bytes() {
     return bytes.data();
 }

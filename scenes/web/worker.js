@@ -1,4 +1,4 @@
-// One of a page's workers, with an engine of its own: draws rows of pictures as it is asked to.
+// One of a page's workers. It has its own engine, and draws rows of pictures on request.
 "use strict";
 
 let engine = null;
