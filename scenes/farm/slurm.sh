@@ -1,24 +1,22 @@
 #!/bin/sh
-# Draws a picture, or the frames of a film, by an array of jobs of Slurm's, on hosts that see the same
-# folder:
+# Draws a picture, or the pictures of a film, by an array of Slurm jobs on hosts that share a folder:
 #
 #   slurm.sh N SCENE OUTPUT [OPTIONS...]
-#       one picture in N parts, which are put together at the end; a scene of atoms may be one frame
-#       of several, by --frames 7
+#       one picture in N parts, which are merged at the end; with --frames 7, of one frame of atoms
 #   slurm.sh N --film SCENE OUTPUT-%05d.png --frames 0:100 [OPTIONS...]
 #       several pictures, by --frames, --turn or --set, of which each job draws every N-th
 #
-# OPTIONS are render's; those of sbatch come by its own variables, such as SBATCH_PARTITION,
-# SBATCH_TIMELIMIT. A job that Slurm is about to end, or that a host's failure has ended, begins again
-# where it was. Where one has failed, all can be submitted again: with the same N, and what was begun
-# goes on, or with another. Parts are in the folder OUTPUT.parts, which goes once they are put together.
-# RAYLANE names the program if it is not in PATH. Prints the number of the last job. Without the program,
-# or with a scene that it cannot read, nothing is submitted.
+# OPTIONS are those of render. Those of sbatch are set by its variables, such as SBATCH_PARTITION and
+# SBATCH_TIMELIMIT. A job that Slurm is about to end, or that the failure of a host has ended, resumes where
+# it was. After a failure, all jobs can be submitted again. With the same N, they resume; another N is
+# possible, too. Parts are in the folder OUTPUT.parts, which is removed after the merge. RAYLANE names the
+# program if it is not in PATH. Prints the number of the last job. Submits nothing if the program is missing
+# or cannot read the scene.
 set -eu
 
 raylane=${RAYLANE:-raylane}
 
-# In an array's job: what it draws, and once more if that was ended before it was done.
+# In a job of the array: draws its share, and requeues the job if Slurm has ended it before.
 if [ -n "${SLURM_ARRAY_TASK_ID:-}" ] && [ -n "${RAYLANE_FARM:-}" ]; then
     count=$1 what=$2 scene=$3 output=$4
     shift 4
@@ -32,7 +30,7 @@ if [ -n "${SLURM_ARRAY_TASK_ID:-}" ] && [ -n "${RAYLANE_FARM:-}" ]; then
     exit "$code"
 fi
 
-# Behind all parts. Others may be there, of a farm of another N that has failed.
+# After all parts. The folder may also have parts of a failed farm with another N.
 if [ "${RAYLANE_FARM:-}" = merge ]; then
     count=$2 output=$3
     set --
@@ -63,7 +61,7 @@ fi
 scene=$1 output=$2
 shift 2
 
-# Before jobs wait only to fail.
+# Checks these now, or jobs would wait only to fail.
 refuse() {
     echo "slurm.sh: $*" >&2
     exit 1
@@ -74,7 +72,7 @@ case $program in
 *) raylane=$PWD/$program ;;
 esac
 if [ ! -f "$scene" ] || [ ! -r "$scene" ]; then refuse "cannot read $scene"; fi
-if [ "$(wc -c <"$scene")" -lt 100000000 ]; then # else that takes long
+if [ "$(wc -c <"$scene")" -lt 100000000 ]; then # larger files take long
     "$raylane" info -q "$scene" >/dev/null || exit 1
 fi
 

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Makes the gallery's pictures, with what POV-Ray and Tachyon show of the same files, and prints the
-# table of times. It wants Debian's pymol, python3-ase, lammps, lammps-examples, povray,
-# povray-includes, tachyon, tachyon-doc and ImageMagick.
+# Makes the gallery's pictures and those of the same files by POV-Ray and Tachyon, and prints the table of
+# times. Requires Debian's pymol, python3-ase, lammps, lammps-examples, povray, povray-includes, tachyon,
+# tachyon-doc and ImageMagick.
 #
 # usage: scenes/gallery/make.sh RAYLANE [FOLDER]    files and large pictures are left in FOLDER
 set -eu
@@ -19,12 +19,12 @@ quietly() { # command...
     "$@" >log 2>&1 || { cat log >&2; fail "$* failed"; }
 }
 
-# Files, by the programs that people have them from.
+# Input files, made by the programs that users have them from.
 
 pymol_does() { # commands
     PATH=/usr/bin:$PATH quietly pymol -cq -d "viewport 800, 600; $1"
 }
-pymol_shows() { # scene for POV-Ray, commands: on a white page, which PyMOL leaves out
+pymol_shows() { # scene for POV-Ray, commands: adds the white background that PyMOL omits
     pymol_does "$2; save $1"
     echo 'background { color rgb <1, 1, 1> }' >>"$1"
 }
@@ -40,7 +40,7 @@ $1"
 [ -e 1hpv.pdb ] || cp /usr/share/pymol/data/tut/1hpv.pdb .
 [ -e 1hpv.cif ] || pymol_does 'load 1hpv.pdb; save 1hpv.cif, all'
 [ -e tube.xyz ] || ase_does "write('tube.xyz', nanotube(6, 3, length=4, vacuum=2), format='extxyz')"
-if [ ! -e pour.lammpstrj ]; then # LAMMPS' example of grains that are poured, up to the 13,000th step
+if [ ! -e pour.lammpstrj ]; then # LAMMPS' example of poured grains, up to step 13,000
     sed '/^run/,$d' /usr/share/lammps/examples/pour/in.pour >in.pour
     cat >>in.pour <<'LAMMPS'
 run 13000
@@ -48,11 +48,11 @@ write_dump all custom pour.lammpstrj id type x y z radius vz
 LAMMPS
     quietly lmp -in in.pour
 fi
-[ -e dna.dat ] || cp /usr/share/doc/tachyon/examples/scenes/dna.dat . # VMD's, with Tachyon
+[ -e dna.dat ] || cp /usr/share/doc/tachyon/examples/scenes/dna.dat . # written by VMD, distributed with Tachyon
 [ -e surface.pov ] || pymol_shows surface.pov "load /usr/share/pymol/data/demo/pept.pdb; hide all
 show surface; show sticks; set transparency, 0.5; orient"
 
-# What their own programs make of them for POV-Ray.
+# The scenes that these programs write for POV-Ray.
 [ -e 1hpv-spheres.pov ] || pymol_shows 1hpv-spheres.pov 'load 1hpv.pdb; hide all; show spheres'
 [ -e 1hpv-sticks.pov ] ||
     pymol_shows 1hpv-sticks.pov 'load 1hpv.cif; hide all; show sticks, not solvent; util.cbc'
@@ -65,7 +65,7 @@ grains = read('pour.lammpstrj', format='lammps-dump-text')
 write('pour.pov', grains, rotation='-90x,45y,25x', radii=numpy.full(len(grains), 0.5),
       povray_settings=dict(transparent=False, canvas_width=800))"
 
-# Pictures, three times each: the median of seconds of whole programs, two threads.
+# Pictures, drawn three times each. Times are medians, in seconds, of whole programs with two threads.
 
 seconds() { # command
     for _ in 1 2 3; do
@@ -88,7 +88,7 @@ row() { # name, arguments of raylane, the other's name and command
     done
     printf "%s: raylane %s s; %s %s s\n" "$name" "$our_seconds" "$rival" "$their_seconds"
 }
-povray_draws() { # scene, or what says its size as well, and picture
+povray_draws() { # scene, or an .ini file that also sets the size, and picture
     size='+W800 +H600'
     [ "${1%.ini}" = "$1" ] || size=
     echo "povray $1 +O$2 $size +WT2 -D +A0.0 +AM1 +R3"
