@@ -1,9 +1,9 @@
-// Traces a picture by the library's calls alone: rays bounce between mirrors and glass, and shadows
-// fall through glass. No epsilon anywhere: each ray names the surface that it leaves.
+// Traces a picture with calls of the library only: rays bounce between mirrors and glass, and
+// shadows fall through glass. No epsilon is used: each ray names the surface that it leaves.
 //
-// The picture is that of raylane::render but for two things. Normals come as floats, which bends
-// reflected and refracted rays by up to 1e-7; and light is added up in another order. After both
-// nothing is left to be seen: hardly a pixel of path.png is one step of 255 off.
+// The picture is that of raylane::render, with two differences. Normals are floats, which bends
+// reflected and refracted rays by up to 1e-7. Light is added up in another order. Neither can be
+// seen: hardly any pixel of path.png differs by one step of 255.
 
 #include <algorithm>
 #include <cmath>
@@ -32,12 +32,12 @@ Vector wide(raylane::Vec3 a) {
     return {a.x, a.y, a.z};
 }
 
-/// A ray, and what it leaves.
+/// A ray, and the surface that it leaves.
 struct Ray {
     Vector origin, direction;
-    double distance; ///< as far as it looks
+    double distance; ///< the maximum distance of a hit
     std::size_t pixel;
-    Vector weight; ///< of what it finds in the pixel
+    Vector weight; ///< of its contribution to the pixel
     raylane::ShapeId shape = raylane::no_shape;
     std::uint8_t face = 0, inward = 0;
 };
@@ -50,7 +50,7 @@ struct Hit {
     Vector normal; ///< unit, on the side that the ray comes from
 };
 
-/// All at once: the library is at its best with many rays.
+/// Traces all rays at once, because the library is fastest with many rays.
 std::vector<Hit> intersect(const raylane::Tracer& tracer, const std::vector<Ray>& rays) {
     const std::size_t count = rays.size();
     std::vector<double> o[3], d[3], t_max, t(count);
@@ -89,7 +89,7 @@ std::vector<Hit> intersect(const raylane::Tracer& tracer, const std::vector<Ray>
     return hits;
 }
 
-/// The ray that goes on from a hit: through the surface, or back from it.
+/// Returns the ray that continues from a hit: through the surface, or back from it.
 Ray onward(const Ray& ray, const Hit& hit, Vector direction, bool through) {
     Ray next = ray;
     next.origin = ray.origin + hit.t * ray.direction;
@@ -100,13 +100,13 @@ Ray onward(const Ray& ray, const Hit& hit, Vector direction, bool through) {
     return next;
 }
 
-/// Schlick's share of reflected light, by the larger of both angles.
+/// Returns the reflected share of light by Schlick, from the cosine of the larger angle.
 double schlick(double cosine, double index) {
     const double at_normal = std::pow((1 - index) / (1 + index), 2);
     return at_normal + (1 - at_normal) * std::pow(1 - cosine, 5);
 }
 
-/// Takes light along the way of shadow rays: what is opaque blocks it, glass lets some through.
+/// Adds light along shadow rays. Opaque surfaces block it; glass lets some through.
 void add_light(const raylane::Scene& scene, const raylane::Tracer& tracer, std::vector<Ray> rays,
                std::vector<Vector>& sums) {
     while (!rays.empty()) {
@@ -131,7 +131,7 @@ void add_light(const raylane::Scene& scene, const raylane::Tracer& tracer, std::
     }
 }
 
-/// Shades what has been hit: asks for its light, and says which rays go on.
+/// Shades a hit. Adds its shadow rays to `shadows`, and the rays that continue to `next`.
 void shade(const raylane::Scene& scene, const Ray& ray, const Hit& hit, std::vector<Ray>& shadows,
            std::vector<Ray>& next, std::vector<Vector>& sums) {
     const raylane::Material material = scene.material(scene.material_of(hit.shape));
