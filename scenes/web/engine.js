@@ -26,7 +26,7 @@ class Engine {
         if (!good) throw new Error(this.module.UTF8ToString(this.module._web_error()));
     }
 
-    // Loads a scene. The extension of `name` decides the format; without one, the text does.
+    // Loads a scene. The extension of `name` decides the format; if it is unknown, the text does.
     // Returns the scene's properties.
     load(text, name) {
         const bytes = new TextEncoder().encode(text);
