@@ -145,7 +145,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path, Temporary temporary)
         open_temporary(0666, temporary);
         return;
     }
-    // Renaming would replace a file that its owner protected.
+    // Renaming would replace even a write-protected file.
     if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) refuse(errno);
     open_temporary(status.st_mode & permission_bits, temporary);
     keeps_target_ = !take_over(descriptor_, status);

@@ -31,7 +31,7 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    /// Name as the user wrote it, for messages.
+    /// Returns the name as the user wrote it, for messages.
     const std::string& name() const { return name_; }
     /// Reserves disk space, where the file system supports that.
     void reserve(std::int64_t bytes);

@@ -121,7 +121,8 @@ class MemoryIn : public Imf::IStream {
 /// Describes the values of one channel, `step` bytes apart.
 template <class Value>
 Imf::Slice slice_of(Imf::PixelType type, const Value* values, std::size_t step, int width) {
-    char* const base = const_cast<char*>(reinterpret_cast<const char*>(values)); // NOLINT: is read
+    char* const base =
+        const_cast<char*>(reinterpret_cast<const char*>(values)); // NOLINT: only read
     return {type, base, step, step * static_cast<unsigned>(width)};
 }
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-/// Parsing of values on the command line. All functions throw BadInput in the form "--spp: must be
-/// ..., got ...".
+/// Parsing of values on the command line. All functions throw BadInput, in the form
+/// "--spp: must be ..., got ...".
 namespace raylane::scenes {
 
 /// Returns the name of a file, which must not be empty.

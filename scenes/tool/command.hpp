@@ -34,8 +34,8 @@ struct Command {
 /// A value on the command line, which the command validates; nothing if it is not given.
 using Argument = std::optional<std::string>;
 
-/// Adds a command with a help text and an example. This is the only place where commands are made,
-/// because CLI11's classes take seconds to compile.
+/// Adds a command with a help text and an example. Defined apart, so that the commands' sources do
+/// not compile CLI11's classes, which takes seconds.
 CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& help,
                       const std::string& example);
 /// Sets the options that add(command) adds from `text`, which has the form of a command line.

@@ -7,7 +7,7 @@ namespace raylane::scenes {
 /// A part of the program that is loaded on demand, because most commands do not need its libraries.
 /// It lies beside the program in the build folder, or in the module folder after installation.
 struct Module {
-    const char* file;        ///< raylane-window.so
+    const char* file;        ///< such as raylane-window.so
     const char* function;    ///< the function that it exports
     const char* built_where; ///< "SDL2 is (Debian: libsdl2-dev)"
 };

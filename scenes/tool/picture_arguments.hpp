@@ -30,8 +30,8 @@ struct PictureChoice {
     /// Sets crop and layers. Throws BadInput if the crop is not within the picture.
     void apply_to(simd::RenderOptions& options, const core::Settings& settings) const;
     /// Returns the encoding and the metadata of a picture of the scene with this file name. Its
-    /// Comment has the options that draw it again: those of text(), then `others` (such as "
-    /// --style sticks"). With `names_size`, --size is the first.
+    /// Comment has the options that draw it again: those of text(), then `others`, which
+    /// begins with a space. With `names_size`, --size is the first.
     PictureOptions options(const std::string& scene, const core::Settings& settings,
                            const core::Settings& own, const std::string& others,
                            bool names_size) const;

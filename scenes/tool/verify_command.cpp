@@ -333,7 +333,7 @@ int verify(const VerifyArguments& arguments) {
     if (are_same_options)
         std::printf("options    %s\n", *are_same_options ? "those that the picture names"
                                                          : "others than the picture names");
-    std::fflush(stdout); // what follows may take as long as the picture
+    std::fflush(stdout); // the rest may take as long as the picture
     const Verdict verdict = verifier.sample();
     std::printf("pixels     %zu drawn again by %s: %zu the same, %zu within a step, %zu others\n",
                 verdict.all(),

@@ -42,7 +42,7 @@ class Journal {
     static constexpr std::chrono::seconds begin_after{2}, sync_every{3};
     static constexpr std::size_t most_waiting = std::size_t{256} << 20;
 
-    /// The file that was found at construction, and what the journal does with it.
+    /// The file that was found at construction, and the journal's reaction.
     enum class Found : std::uint8_t {
         nothing,
         same,           ///< resumes from it

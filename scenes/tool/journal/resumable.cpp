@@ -24,7 +24,7 @@ namespace {
 bool leads_to_stream(const std::string& output) {
     std::error_code unknown;
     std::filesystem::path path = output;
-    constexpr int longest_chain = 40; // as in Linux
+    constexpr int longest_chain = 40; // Linux's own limit
     for (int i = 0; i < longest_chain; ++i) {
         const std::filesystem::path folder = std::filesystem::canonical(
             std::filesystem::absolute(path, unknown).parent_path(), unknown);
