@@ -11,7 +11,7 @@ using ray_sets::Random;
 
 namespace {
 
-/// An oracle's number, at one point of the square.
+/// The oracle's number type, for the value at one point of the square.
 using Wide = boost::multiprecision::cpp_bin_float_100;
 
 struct Both {
@@ -74,7 +74,7 @@ Both tree(Random& random, int depth) {
 
 } // namespace
 
-TEST_CASE("an affine form encloses what it stands for") {
+TEST_CASE("an affine form encloses the exact values of its expression") {
     Random random(tests::seed(11));
     int wrong = 0, finite = 0;
     const int count = tests::rounds(4000, 200);
@@ -96,7 +96,7 @@ TEST_CASE("the error of an affine form is of second order in its width") {
     CHECK(error(1e-3) / error(1e-4) > 80.0);
 }
 
-TEST_CASE("an affine form that may be 0 divides to anything, and has a root from 0") {
+TEST_CASE("an affine form that may be 0 has no bounded reciprocal and has a root from 0") {
     const Affine x(0.5, 1.0, 0.0);
     CHECK(reciprocal(x).error == std::numeric_limits<double>::infinity());
     const Affine root = sqrt(x);

@@ -4,11 +4,11 @@
 using namespace raylane;
 using namespace raylane::core;
 
-/// Rays through the apex of a cone, where one that is on the inside of its body would meet that of
-/// its mirror image as well.
+/// Rays through the apex of a cone. There, a ray inside the body would also meet the body's mirror
+/// image.
 
-TEMPLATE_TEST_CASE("a ray through a cone's apex leaves it, or enters it, and not both", "",
-                   OpenCone, CappedCone) {
+TEMPLATE_TEST_CASE("a ray through a cone's apex either enters or leaves it", "", OpenCone,
+                   CappedCone) {
     for (const bool at_top : {true, false}) {
         const Vec3d apex(0, 0, at_top ? 2 : 0), to_inside(0, 0, at_top ? -1 : 1);
         SceneBuilder builder;

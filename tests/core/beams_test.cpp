@@ -7,7 +7,7 @@
 #include "tests/shapes/shapes.hpp"
 #include "tests/simd/rounds.hpp"
 
-/// Claims of beams about all of their rays, checked by single rays.
+/// Checks the claims of beams about all of their rays with single rays.
 using namespace raylane;
 using namespace little_scene;
 using ray_sets::Random;
@@ -22,7 +22,7 @@ Material matte(float gray) {
     return material;
 }
 
-/// Few or many shapes, before a camera that sees them all.
+/// Sets up a camera that sees the whole scene, and a light.
 void set_up(Builder& builder, Random& random) {
     builder.settings.width = builder.settings.height = 64;
     builder.settings.quality = 40.0F;
@@ -45,7 +45,7 @@ void set_up(Builder& builder, Random& random) {
 
 } // namespace
 
-TEST_CASE("all shapes that rays of a beam meet are among those that may show", "[long]") {
+TEST_CASE("a beam lists every shape that one of its rays hits", "[long]") {
     Random random(tests::seed(5));
     for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
         int thin = 0, missing = 0;
@@ -71,7 +71,7 @@ TEST_CASE("all shapes that rays of a beam meet are among those that may show", "
                     continue;
                 ++thin;
                 for (int k = 0; k < 40; ++k) {
-                    // Corners and edges, too.
+                    // Includes corners and edges.
                     const auto place = [&] {
                         return random.integer(0, 4) == 0 ? random.integer(0, 1) * side
                                                          : random.uniform(0.0, side);
@@ -94,7 +94,7 @@ TEST_CASE("all shapes that rays of a beam meet are among those that may show", "
     });
 }
 
-TEST_CASE("a beam knows hidden shapes and thin ones") {
+TEST_CASE("a beam recognises hidden shapes and thin shapes") {
     Builder builder;
     builder.settings.width = builder.settings.height = 16;
     builder.settings.quality = 40.0F;
@@ -116,7 +116,7 @@ TEST_CASE("a beam knows hidden shapes and thin ones") {
     CHECK(asked == std::vector<ShapeId>{speck});
 }
 
-TEST_CASE("a speck too small to matter is let go") {
+TEST_CASE("sampling stops at a speck that is too small to matter") {
     Builder builder;
     builder.settings.width = builder.settings.height = 16;
     builder.settings.quality = 50.0F;

@@ -40,7 +40,8 @@ Bounded<T> result_of(Operation operation, const Bounded<T>& a, const Bounded<T>&
 
 } // namespace
 
-TEMPLATE_TEST_CASE("bounds hold whatever operands are within theirs", "", double, DoubleDouble) {
+TEMPLATE_TEST_CASE("the bounds of a result hold for all operands within their bounds", "", double,
+                   DoubleDouble) {
     ray_sets::Random random(1);
     int wrong = 0, without = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -64,12 +65,12 @@ TEMPLATE_TEST_CASE("bounds hold whatever operands are within theirs", "", double
     CHECK(without == 0);
 }
 
-TEST_CASE("what may be 0 has a product, and a quotient, with a bound") {
+TEST_CASE("a number that may be 0 has bounded products and quotients") {
     const Bounded<DoubleDouble> zero({0.0, 0.0}, 1e-30), two(2.0);
     CHECK((zero * two).error < 1e-29);
     CHECK((two * zero).error < 1e-29);
     CHECK((zero / two).error < 1e-29);
-    // But not what has underflown.
+    // A product that underflows has no bound.
     const Bounded<DoubleDouble> tiny({1e-200, 0.0}, 0.0);
     CHECK_FALSE((tiny * tiny).error < 1e300);
 }

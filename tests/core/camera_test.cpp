@@ -20,7 +20,7 @@ Settings settings_of(int width, int height, int grid,
 
 } // namespace
 
-TEST_CASE("a perspective camera's field of view is the picture's height") {
+TEST_CASE("a perspective camera's field of view spans the image's height") {
     Camera camera;
     camera.from = {0, 0, 0};
     camera.at = {0, 0, -7};
@@ -55,7 +55,7 @@ TEST_CASE("an orthographic camera's rays are parallel") {
     CHECK(last.origin == Vec3d(4, 1, 3));
 }
 
-TEST_CASE("stratified samples stay in their cells and repeat themselves") {
+TEST_CASE("stratified samples stay in their cells and are reproducible") {
     std::set<std::pair<float, float>> points;
     double sum_x = 0.0, sum_y = 0.0;
     for (unsigned y = 0; y < 16; ++y)
@@ -75,7 +75,7 @@ TEST_CASE("stratified samples stay in their cells and repeat themselves") {
     CHECK(again.x == sample_point(SamplePattern::stratified, 3, 5, 2).x);
 }
 
-TEST_CASE("stratified rays go through their own points of their cells") {
+TEST_CASE("a stratified ray goes through the sample point of its cell") {
     Camera camera;
     camera.projection = Projection::orthographic;
     camera.from = {0, 0, 3};

@@ -10,7 +10,7 @@ using namespace raylane;
 using namespace raylane::core;
 using ray_sets::Random;
 
-/// Closed shapes where two of their faces meet: what enters leaves.
+/// Lines through seams of closed shapes, where two faces meet: a line that enters also leaves.
 namespace {
 
 #ifdef RAYLANE_FEW_RAYS
@@ -40,7 +40,7 @@ void check(const Shape& shape, const Ray<double>& ray, Tally& tally) {
 
 } // namespace
 
-TEMPLATE_LIST_TEST_CASE("what enters a solid through a seam of its surface leaves it", "",
+TEMPLATE_LIST_TEST_CASE("a line that enters a solid through a seam leaves it", "",
                         tests::AllSolids) {
     using Shape = TestType;
     CAPTURE(name_of(kind_of<Shape>));
@@ -55,7 +55,7 @@ TEMPLATE_LIST_TEST_CASE("what enters a solid through a seam of its surface leave
             check(shape, {o, d}, exact);
             check(shape, {o, normalized(d)}, unit);
             Vec3d beside = d;
-            for (int axis = 0; axis < 3; ++axis) // 0 stays: the oracle's digits end at 1e-100
+            for (int axis = 0; axis < 3; ++axis) // 0 stays 0, as the oracle's digits end at 1e-100
                 beside[axis] *= 1.0 + 0x1p-52 * random.integer(-3, 3);
             check(shape, {o, beside}, ulps);
         }

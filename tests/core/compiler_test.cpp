@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-/// What compilers and libraries are known to get wrong, and flags or code of ours keep them from.
+/// Known faults of compilers and libraries that our flags or code avoid.
 
-TEST_CASE("a double that was rounded to float stays so") {
+TEST_CASE("a double that was rounded to float keeps the rounded value") {
     const double exact[] = {1.0 / 3.0, 1.0 / 7.0};
     float rounded[2];
     double widened[2];
@@ -16,8 +16,8 @@ TEST_CASE("a double that was rounded to float stays so") {
     CHECK(rounded[0] == 0x1.555556p-2F);
 }
 
-TEST_CASE(
-    "a vector's negative has each component's, zeros included") { // GLM 1.0.2 subtracts from 0
+// GLM 1.0.2 subtracts from 0.
+TEST_CASE("the negative of a vector negates every component including zeros") {
     const auto negative = -raylane::core::Vec3d(0.0, -0.0, 2.0);
     CHECK(std::signbit(negative.x));
     CHECK_FALSE(std::signbit(negative.y));

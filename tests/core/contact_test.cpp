@@ -7,9 +7,9 @@
 using namespace little_scene;
 using namespace raylane;
 
-/// Surfaces that coincide exactly: a block on a table, water in a glass. Where a method asks
-/// arithmetic which of them comes first, each pixel gets another answer (POV-Ray #125 is nearly of
-/// this kind).
+/// Surfaces that coincide exactly, such as a block on a table or water in a glass. If rounded
+/// arithmetic decides which of them comes first, the answer changes from pixel to pixel (POV-Ray
+/// #125 is nearly of this kind).
 
 namespace {
 
@@ -17,7 +17,8 @@ Box block(float x, float y, float z, const Vec3f& size) {
     return {{x, y, z}, {size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}};
 }
 
-/// The colours of 500 rays from all over the upper half space to the middle of the floor y = 0.
+/// Checks the colours of 500 rays from all over the upper half space to the middle of the floor
+/// y = 0.
 template <class Check>
 void look_at_floor(const Scene& scene, const Check& check) {
     ray_sets::Random random(5);
@@ -55,7 +56,8 @@ TEST_CASE("a mirror under a block reflects back through it") {
         if (mirror_first) builder.add_shape(floor, mirror());
         builder.add_shape(block(-9, 0, -9, {18, 1, 18}), tinted);
         if (!mirror_first) builder.add_shape(floor, mirror());
-        // In and out through the top: half each time. The bottom is in contact with the mirror.
+        // The ray passes the top twice, and half of the light each time. The bottom touches the
+        // mirror.
         look_at_floor(builder.finish(),
                       [](const Vec3d& color) { REQUIRE(color == Vec3d(0.25, 0, 0)); });
     }
@@ -73,7 +75,7 @@ TEST_CASE("light reaches a floor through the block that stands on it") {
     look_at_floor(builder.finish(sun), [](const Vec3d& color) { REQUIRE(color == red); });
 }
 
-TEST_CASE("two blocks of one glass in contact are one block") {
+TEST_CASE("two touching blocks of one glass refract as one block") {
     const auto seen = [](int arrangement, const Vec3d& origin, const Vec3d& direction) {
         Builder builder;
         builder.background = {1, 1, 0};
@@ -97,7 +99,7 @@ TEST_CASE("two blocks of one glass in contact are one block") {
     }
 }
 
-TEST_CASE("a body in a skin of its own shape is seen through the skin") {
+TEST_CASE("a body is seen through a transparent skin of the same shape") {
     for (const bool skin_first : {true, false}) {
         Builder builder;
         const Sphere sphere{{0.1F, 0.2F, 0.3F}, 0.7F};
@@ -114,8 +116,8 @@ TEST_CASE("a body in a skin of its own shape is seen through the skin") {
     }
 }
 
-TEST_CASE("where surfaces meet at an edge, neither hides the other") {
-    // A corner of a room, hit exactly in its edge and seen by way of a mirror floor.
+TEST_CASE("surfaces that meet at an edge do not hide each other") {
+    // The corner of a room, hit exactly in its edge and seen in a mirror floor.
     Builder builder;
     builder.background = {0, 0, 1};
     builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, mirror());
@@ -125,7 +127,7 @@ TEST_CASE("where surfaces meet at an edge, neither hides the other") {
         CHECK(color_along<double>(scene, {1, 1, z}, {-1, -1, 0.25}) == red);
 }
 
-TEST_CASE("light passes each material once, whatever else lies in it") {
+TEST_CASE("coincident surfaces filter light once for each material") {
     const auto seen = [](const std::vector<int>& materials) {
         Builder builder;
         Material matte = luminous({1, 0, 0});

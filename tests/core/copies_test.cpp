@@ -12,7 +12,7 @@ Sphere at(float x) {
 
 } // namespace
 
-TEST_CASE("a list that is copied grows by itself, and so does the copy") {
+TEST_CASE("a list and its copies grow independently") {
     ShapeList<Sphere> list;
     for (int i = 0; i < 70; ++i)
         list.add(at(static_cast<float>(i)), static_cast<ShapeId>(i));
@@ -29,7 +29,7 @@ TEST_CASE("a list that is copied grows by itself, and so does the copy") {
     CHECK(copy[69].shape.center.x == 69);
 }
 
-TEST_CASE("indices of materials that are copied grow by themselves, and so do the copies") {
+TEST_CASE("material indices and their copies grow independently") {
     MaterialIndices indices;
     for (MaterialIndex i = 0; i < 100; ++i)
         indices.push_back(i);
@@ -44,7 +44,7 @@ TEST_CASE("indices of materials that are copied grow by themselves, and so do th
     CHECK(indices.size() == 101);
 }
 
-TEST_CASE("copies of an array have the same memory, which lasts as long as any") {
+TEST_CASE("copies of an array share memory that lives as long as any copy") {
     BigArray<int> first(1000);
     CHECK_FALSE(first.is_shared());
     for (std::size_t i = 0; i < first.size(); ++i)

@@ -15,10 +15,10 @@ using namespace raylane::core;
 using ray_sets::Random;
 using ray_sets::Set;
 
-/// Rays that leave a surface: the solvers leave the start out instead of finding it again.
+/// Rays that start on a surface: solvers skip the start instead of finding it again.
 namespace {
 
-/// Hit point of a ray on a shape, in double: off the surface by `error` at most.
+/// A ray's hit point on a shape, in double: at most `error` off the surface.
 struct Hitpoint {
     Vec3d point;
     Vec3d normal;
@@ -26,7 +26,7 @@ struct Hitpoint {
     double error;
 };
 
-/// The point of a crossing from outside.
+/// Returns the first crossing ahead of the origin if the ray enters there.
 template <class Shape>
 std::optional<Hitpoint> hit(const Shape& shape, const Ray<float>& aimed) {
     const Ray<double> ray{convert<double>(aimed.origin),
@@ -43,7 +43,7 @@ std::optional<Hitpoint> hit(const Shape& shape, const Ray<float>& aimed) {
     return std::nullopt;
 }
 
-/// Visits the points that rays of all sorts hit on shapes of all sorts.
+/// Visits points that rays of each set but `far` hit on random shapes.
 template <class Shape, class Visit>
 void for_each_hitpoint(int shapes, Random& random, const Visit& visit) {
     for (int i = 0; i < shapes; ++i) {
@@ -57,7 +57,7 @@ void for_each_hitpoint(int shapes, Random& random, const Visit& visit) {
     }
 }
 
-/// To the inside, from steeply to as good as along the surface.
+/// Returns a random inward direction, from steep to almost along the surface.
 Vec3d inward_direction(const Vec3d& normal, Random& random) {
     Vec3d direction = random.direction();
     if (dot(direction, normal) > 0.0) direction = -direction;
@@ -70,8 +70,8 @@ double to_double(const oracle::Number& number) {
     return number.template convert_to<double>();
 }
 
-/// Tolerance for a ray's t if its origin is off the surface by `at.error`: more where it runs along
-/// the surface.
+/// Returns the tolerance for t of a ray whose origin is `at.error` off the surface. It grows as the
+/// ray gets closer to the surface's plane.
 double tolerance(const Hitpoint& at, const Vec3d& direction, double t) {
     return 4.0 * at.error / std::abs(dot(at.normal, direction)) + needed_accuracy * t;
 }
@@ -84,8 +84,8 @@ constexpr int shape_count = 1000;
 
 } // namespace
 
-TEMPLATE_LIST_TEST_CASE("what enters a solid leaves it, where and by which face the oracle says",
-                        "", tests::AllSolids) {
+TEMPLATE_LIST_TEST_CASE("a ray that enters a solid leaves it at the oracle's point and face", "",
+                        tests::AllSolids) {
     using Shape = TestType;
     CAPTURE(name_of(kind_of<Shape>));
     Random random(20260400 + static_cast<int>(kind_of<Shape>));
@@ -125,7 +125,7 @@ TEMPLATE_LIST_TEST_CASE("what enters a solid leaves it, where and by which face 
     CHECK(starts > shape_count);
 }
 
-TEMPLATE_LIST_TEST_CASE("what leaves a solid does not meet it again", "", tests::AllSolids) {
+TEMPLATE_LIST_TEST_CASE("a ray that leaves a solid does not meet it again", "", tests::AllSolids) {
     using Shape = TestType;
     CAPTURE(name_of(kind_of<Shape>));
     Random random(20260500 + static_cast<int>(kind_of<Shape>));
@@ -141,7 +141,8 @@ TEMPLATE_LIST_TEST_CASE("what leaves a solid does not meet it again", "", tests:
     CHECK(starts > shape_count);
 }
 
-TEMPLATE_LIST_TEST_CASE("what leaves a flat surface does not meet it again", "", tests::AllFlat) {
+TEMPLATE_LIST_TEST_CASE("a ray that leaves a flat surface does not meet it again", "",
+                        tests::AllFlat) {
     using Shape = TestType;
     CAPTURE(name_of(kind_of<Shape>));
     Random random(20260600 + static_cast<int>(kind_of<Shape>));
@@ -160,9 +161,11 @@ TEMPLATE_LIST_TEST_CASE("what leaves a flat surface does not meet it again", "",
     CHECK(starts > shape_count / 4);
 }
 
-// A bowl is left and met again, from its outside as from its inside if it is a hyperboloid.
-TEMPLATE_LIST_TEST_CASE("what leaves a curved surface meets the rest of it where the oracle says",
-                        "", tests::AllCurved) {
+// A ray that leaves a bowl's inside meets the bowl again. On a hyperboloid, rays from its outside
+// do so, too.
+TEMPLATE_LIST_TEST_CASE(
+    "a ray that leaves a curved surface meets the rest of it where the oracle does", "",
+    tests::AllCurved) {
     using Shape = TestType;
     CAPTURE(name_of(kind_of<Shape>));
     Random random(20260700 + static_cast<int>(kind_of<Shape>));
@@ -171,7 +174,7 @@ TEMPLATE_LIST_TEST_CASE("what leaves a curved surface meets the rest of it where
     std::array<int, 2> met = {0, 0};
     for_each_hitpoint<Shape>(shape_count, random, [&](const Shape& shape, const Hitpoint& at) {
         const Vec3d inward = inward_direction(at.normal, random);
-        // Close to the surface, or next to an apex, the start and the second crossing are one.
+        // Along the surface, or next to an apex, the start and the second crossing coincide.
         if (!(dot(at.normal, inward) < -0.01)) return;
         for (const bool goes_inside : {true, false}) {
             const Vec3d direction = goes_inside ? inward : -inward;
@@ -201,10 +204,9 @@ TEMPLATE_LIST_TEST_CASE("what leaves a curved surface meets the rest of it where
     if (tests::Nature<Shape>::may_come_back) CHECK(met[false] > starts / 100);
 }
 
-// A ray sent inward along a face may come out of its arithmetic as going outward by a hair. The
-// face that it starts on must then not be where it leaves.
-TEMPLATE_TEST_CASE("what runs along a flat face leaves the solid at the far end", "", float,
-                   double) {
+// Rounding may turn a ray that was sent inward along a face outward by a tiny angle. The ray must
+// still not leave through the face that it starts on.
+TEMPLATE_TEST_CASE("a ray along a flat face leaves the solid at the far end", "", float, double) {
     using Real = TestType;
     const Box box{{-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
     const CappedCylinder cylinder{{0, 0, 0}, {0, 2, 0}, 1};

@@ -9,7 +9,7 @@ using namespace raylane;
 using namespace raylane::core;
 using ray_sets::Random;
 
-/// Shapes that are the same, of one material, are one in the tables; ids stay what they are.
+/// Tables keep one of several identical shapes of one material. Ids do not change.
 
 namespace {
 
@@ -31,7 +31,7 @@ std::vector<ShapeId> first_ones(ShapeId count) {
 
 } // namespace
 
-TEST_CASE("of the same shapes the tables have the first, of every kind and however many") {
+TEST_CASE("tables keep the first of any number of identical shapes of each kind") {
     for (const int copies : {2, 15, 40, 200, 20'000}) {
         CAPTURE(copies);
         Random random(copies);
@@ -55,7 +55,7 @@ TEST_CASE("of the same shapes the tables have the first, of every kind and howev
     }
 }
 
-TEST_CASE("shapes that differ in a bit or in their material are not the same") {
+TEST_CASE("shapes that differ in one bit or in their material are both kept") {
     little_scene::Builder builder;
     const MaterialIndex one = builder.add_material({}), other = builder.add_material({});
     ShapeId count = 0;
@@ -64,7 +64,7 @@ TEST_CASE("shapes that differ in a bit or in their material are not the same") {
         builder.add(Sphere{{0, 0, 0}, std::nextafter(1.0F, 2.0F)}, material);
         builder.add(Plane{{0, 0, 0}, {0, 0, 1}}, material);
         builder.add(Plane{{0, 0, 0}, {0, 0, 2}}, material);
-        // The same bounds.
+        // These have the same bounds.
         builder.add(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, material);
         builder.add(Triangle{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}, material);
         builder.add(Triangle{{1, 0, 0}, {1, 1, 0}, {0, 0, 0}}, material);
@@ -73,7 +73,7 @@ TEST_CASE("shapes that differ in a bit or in their material are not the same") {
     CHECK(ids_in(builder.finish()) == first_ones(count));
 }
 
-TEST_CASE("a thousand shapes in the same bounds are not the same") {
+TEST_CASE("a thousand different shapes with the same bounds are all kept") {
     little_scene::Builder builder;
     const MaterialIndex material = builder.add_material({});
     for (int i = 0; i < 1000; ++i) {

@@ -58,7 +58,7 @@ TEST_CASE("exp is within an ulp") {
         const double x = random.uniform(-3.0, 0.0), y = random.uniform(-707.7, 709.7);
         small.add(core::exp(x), mp::exp(Number(x)));
         large.add(core::exp(y), mp::exp(Number(y)));
-        // Where a power of two changes to the next.
+        // In the middle between two multiples of log 2, the reduction's power of two changes.
         const double edge = (std::floor(random.uniform(-1020, 1023)) + 0.5) * 0.69314718055994531;
         large.add(core::exp(edge), mp::exp(Number(edge)));
     }
@@ -66,7 +66,7 @@ TEST_CASE("exp is within an ulp") {
     large.check("exp, all sizes", 1.0);
 }
 
-TEST_CASE("expm1 is within two ulps, however small its argument") {
+TEST_CASE("expm1 is within two ulps for arguments of any size") {
     Random random;
     Errors fog, small, positive;
     for (int i = 0; i < rounds; ++i) {
@@ -133,7 +133,7 @@ TEST_CASE("atan is within two ulps") {
             add(usual, random.uniform(-3.0, 3.0));
         add(steep, random.sign() * std::exp(random.uniform(0.0, 700.0)));
         add(tiny, random.sign() * std::exp(random.uniform(-700.0, 0.0)));
-        // Where one formula follows the other.
+        // Arguments at which the formula changes.
         add(usual, 0.41421356237309503 + random.uniform(-1e-12, 1e-12));
         add(usual, 2.4142135623730949 + random.uniform(-1e-12, 1e-12));
     }
@@ -158,7 +158,7 @@ TEST_CASE("logarithms are within an ulp") {
     usual.check("log", 0.75);
     of_ten.check("log10", 0.75);
     near_one.check("log near 1", 0.75);
-    // Powers of ten that doubles hold.
+    // Powers of ten that are exact doubles.
     double power = 1.0;
     for (int n = 0; n <= 22; ++n, power *= 10.0)
         CHECK(core::log10(power) == n);
@@ -166,7 +166,7 @@ TEST_CASE("logarithms are within an ulp") {
         CHECK(core::log(std::ldexp(1.0, n)) == static_cast<double>(n * mp::log(Number(2))));
 }
 
-TEST_CASE("elementary functions at the ends of their domains") {
+TEST_CASE("elementary functions are right at the ends of their domains") {
     CHECK(core::log(0.0) == -infinity);
     CHECK(core::log(-0.0) == -infinity);
     CHECK(core::log(infinity) == infinity);

@@ -5,7 +5,7 @@
 using namespace raylane;
 using namespace raylane::core;
 
-/// Media around points, and what it takes to find them.
+/// Media around points, and when the search for them runs.
 
 namespace {
 
@@ -44,7 +44,7 @@ struct Asker {
 
 } // namespace
 
-TEST_CASE("a transmissive material that no shape has makes no scene transmissive") {
+TEST_CASE("an unused transmissive material does not make a scene transmissive") {
     const Scene scene = scene_with(false, false);
     CHECK_FALSE(scene.transmissive().any);
     Asker asker{scene};
@@ -52,7 +52,7 @@ TEST_CASE("a transmissive material that no shape has makes no scene transmissive
     CHECK_FALSE(asker.has_searched());
 }
 
-TEST_CASE("media are searched for where a transmissive body may be, and nowhere else") {
+TEST_CASE("media are searched for only where a transmissive body may be") {
     const Scene scene = scene_with(true, true);
     CHECK(scene.transmissive().any_unbounded);
     Asker asker{scene};
@@ -67,7 +67,7 @@ TEST_CASE("media are searched for where a transmissive body may be, and nowhere 
     CHECK(asker.stacks.top(asker.at(Vec3d(0.0, 14.4999999, 0.0))) == 1);
 }
 
-TEST_CASE("sheets that are no solids may be a body together") {
+TEST_CASE("two sheets can enclose a body together") {
     SceneBuilder builder;
     builder.wants_light = false;
     const MaterialIndex clear = builder.add_material(glass());
@@ -84,7 +84,7 @@ TEST_CASE("sheets that are no solids may be a body together") {
     CHECK(may_be_in_body(scene, {Vec3f(6.0F, -9.0F, -9.0F), Vec3f(39.5F, 9.0F, 9.0F)}));
 }
 
-TEST_CASE("points are in a transmissive body whatever its bounds") {
+TEST_CASE("a point near the surface of a transmissive body is on the right side") {
     SceneBuilder builder;
     builder.wants_light = false;
     const MaterialIndex clear = builder.add_material(glass());
@@ -98,11 +98,12 @@ TEST_CASE("points are in a transmissive body whatever its bounds") {
     for (int i = 0; i < 3000; ++i) {
         const double distance = radius * (1.0 + random.uniform(-1.0, 1.0) * 0x1p-40);
         Vec3d direction = random.direction();
-        if (i % 3 == 0) // where it touches its bounds
+        if (i % 3 == 0) // where the sphere touches its bounds
             direction = Vec3d(i % 9 == 0, i % 9 == 3, i % 9 == 6) * (i % 2 == 0 ? 1.0 : -1.0);
         const Vec3d point = convert<double>(center) + distance * direction;
         const Vec3d off = point - convert<double>(center);
-        if (std::abs(core::length(off) / radius - 1.0) < 0x1p-48) continue; // who knows
+        if (std::abs(core::length(off) / radius - 1.0) < 0x1p-48)
+            continue; // too close to the surface to decide in double
         const bool is_in = core::length(off) < radius;
         inside += is_in ? 1 : 0;
         CHECK((asker.at(point) != empty_space) == is_in);

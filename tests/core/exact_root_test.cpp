@@ -11,7 +11,7 @@ using core::ExactQuadratic;
 using core::ExactRoot;
 using ray_sets::Random;
 
-/// Roots against the oracle's, which are compared by squaring and not by resultants.
+/// Compares roots with the oracle's, which orders roots by squaring, not by resultants.
 namespace {
 
 struct Both {
@@ -22,7 +22,7 @@ struct Both {
 struct Coefficients {
     double A, B, C;
 
-    /// Ours and the oracle's roots, in ascending order; none if this is constant.
+    /// Returns our roots and the oracle's in ascending order; none if the polynomial is constant.
     std::vector<Both> roots() const {
         std::vector<Both> both;
         for (const oracle::FoundRoot& root : oracle::roots(A, B, C))
@@ -35,7 +35,8 @@ double whole(Random& random, int most) {
     return random.integer(-most, most);
 }
 
-/// Small whole numbers, so that many have a root in common, or the same one twice; or any.
+/// Returns small integers, so that many polynomials share a root or have a double root, or random
+/// doubles of all sizes.
 Coefficients any(Random& random) {
     switch (random.integer(0, 3)) {
     case 0: { // (p t - q) (r t - s)
@@ -56,12 +57,12 @@ Coefficients any(Random& random) {
 
 } // namespace
 
-TEST_CASE("roots are ordered as real arithmetic orders them") {
+TEST_CASE("roots have the order of real arithmetic") {
     Random random(20261123);
     int orders[3] = {};
     for (int i = 0; i < 30'000; ++i) {
         const Coefficients F = any(random);
-        // Often a multiple of it, or one with nearly the same roots.
+        // `G` is often a multiple of `F`, or has nearly the same roots.
         Coefficients G = any(random);
         if (random.integer(0, 3) == 0) G = {-3 * F.A, -3 * F.B, -3 * F.C};
         if (random.integer(0, 3) == 0) G = {F.A, F.B, F.C * (1.0 + 0x1p-52)};
@@ -79,7 +80,7 @@ TEST_CASE("roots are ordered as real arithmetic orders them") {
         CHECK(count > 5'000);
 }
 
-TEST_CASE("a root knows its sign, the nearest float and its digits") {
+TEST_CASE("a root has the right sign and nearest float and digits") {
     Random random(20261124);
     int middles = 0;
     for (int i = 0; i < 10'000; ++i) {

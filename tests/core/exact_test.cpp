@@ -11,20 +11,20 @@ using namespace raylane;
 using core::Exact;
 using ray_sets::Random;
 
-/// The last resort of the reference's decisions.
+/// Exact numbers: the last stage of the reference's decisions.
 namespace {
 
 using Quotient = boost::multiprecision::cpp_rational;
 using Number = boost::multiprecision::cpp_bin_float_100;
 
-/// Of any size from 2^-spread to 2^spread, with few bits or all.
+/// Returns a double of about 2^-spread to 2^spread, with few significant bits or all.
 double any(Random& random, int spread) {
     const double mantissa =
         random.integer(0, 2) == 0 ? random.integer(-9, 9) : random.uniform(-1.0, 1.0);
     return std::ldexp(mantissa, random.integer(-spread, spread));
 }
 
-/// One expression in a number type and in ours: the chain of operations is the same.
+/// Evaluates a random chain of operations: the same one for each number type if seeds are equal.
 template <class Real, class Operand>
 Real chain(Random& random, const Operand& operand) {
     Real value = operand(random);
@@ -70,7 +70,7 @@ TEST_CASE("sums, products and quotients of doubles are exact") {
         }
 }
 
-TEST_CASE("what is equal by different ways is equal") {
+TEST_CASE("values that are equal by different formulas compare equal") {
     Random random(7);
     for (int i = 0; i < 300; ++i) {
         const Exact a(any(random, 200)), b(any(random, 200)), c(any(random, 200));
@@ -91,7 +91,7 @@ TEST_CASE("square roots are exact") {
         CHECK((root * root - square).sign() == 0);
         CHECK(((a + root) * (a - root) - (a * a - square)).sign() == 0);
         CHECK(((a + root) / (a - root) * (a - root) - (a + root)).sign() == 0);
-        // A root that is rational is found to be.
+        // A rational root is recognised as rational.
         CHECK((sqrt(a * a) - (a.sign() < 0 ? -a : a)).sign() == 0);
         CHECK((sqrt(a * a) + a).sign() == (a.sign() > 0 ? 1 : 0));
     }

@@ -17,7 +17,7 @@ struct Ball {
     double radius;
 };
 
-/// How far balls reach towards the edges of the picture, 1 at an edge: in each direction.
+/// How far balls reach towards each edge of the image: 1 is at the edge.
 struct Extent {
     double right = -9.0, left = -9.0, above = -9.0, below = -9.0;
 
@@ -38,7 +38,7 @@ Extent extent_of(const Camera& camera, double aspect, const std::vector<Ball>& b
         CHECK(depth > ball.radius);
         const auto reach = [&](double place, double half) {
             if (camera.projection == Projection::orthographic) return (place + ball.radius) / half;
-            // The tangent of the angle to the far side of the ball.
+            // The tangent of the angle to the ball's far side.
             const double angle =
                 std::atan2(place, depth) + std::asin(ball.radius / std::hypot(place, depth));
             return std::tan(angle) / half;
@@ -61,7 +61,7 @@ bool projection_is_limited(const Framing& framing, double near, double size) {
 
 } // namespace
 
-TEST_CASE("a camera that frames sees all of it, as large as that may be") {
+TEST_CASE("a camera that frames balls shows all of them as large as possible") {
     Random random(20261125);
     for (int round = 0; round < 200; ++round) {
         Framing framing;
@@ -85,9 +85,10 @@ TEST_CASE("a camera that frames sees all of it, as large as that may be") {
         const auto [near, far] = frame.depths(frame.camera());
         CHECK(near > 0.0);
         CHECK(far > near);
-        // A wide view may have to be from farther away, so that all is before the eye.
+        // A wide field of view may need a larger distance, so that everything is in front of the
+        // eye.
         if (projection_is_limited(framing, near, std::max(far - near, frame.width()))) continue;
-        // With the margin, at both sides of one direction.
+        // The margin is exact on both sides of one direction.
         CHECK(extent.most() == Approx(1.0 / 1.05).epsilon(1e-4));
         const bool fills_width =
             std::abs(extent.right - extent.left) < 1e-4 && extent.right > extent.most() - 1e-4;
@@ -103,7 +104,7 @@ TEST_CASE("a camera that frames sees all of it, as large as that may be") {
     }
 }
 
-TEST_CASE("what is a point, a box or nothing is framed, too") {
+TEST_CASE("a point and a box and an empty frame have cameras") {
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
         Framing framing;
         framing.projection = projection;

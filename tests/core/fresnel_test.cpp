@@ -13,7 +13,7 @@ namespace {
 
 using Number = boost::multiprecision::cpp_bin_float_100;
 
-/// A ray that meets the plane z = 0 at an angle of this sine.
+/// Returns the refraction of a ray that meets the plane z = 0 at an angle of this sine.
 template <class Real>
 Refraction<Real> refract_at(Real sine, Real n1, Real n2) {
     const Vec3<Real> incident{sine, Real(0), -std::sqrt(Real(1) - sine * sine)};
@@ -29,8 +29,8 @@ Material of(Reflection reflection) {
 }
 
 struct Largest {
-    double error = 0.0;   ///< Schlick's less Fresnel's reflectance, where it is largest
-    double degrees = 0.0; ///< of the incident angle there
+    double error = 0.0;   ///< Schlick's reflectance minus Fresnel's, where they differ most
+    double degrees = 0.0; ///< incident angle there
 };
 
 Largest largest_error(double n1, double n2) {
@@ -51,8 +51,9 @@ Largest largest_error(double n1, double n2) {
 
 } // namespace
 
-TEST_CASE("Schlick's approximation is off by as much as the table says") {
-    // At grazing angles, and always too bright there; least about the index of flint glass.
+TEST_CASE("the largest errors of Schlick's approximation are those of the table") {
+    // Schlick differs most, and is always too bright, at grazing angles in the thinner medium. The
+    // error is smallest near the index of flint glass.
     struct Row {
         double index, error, entering_degrees, leaving_degrees;
     };
@@ -71,8 +72,9 @@ TEST_CASE("Schlick's approximation is off by as much as the table says") {
     }
 }
 
-TEST_CASE("Schlick's approximation by the incident cosine is far off on the way out") {
-    // As both source reports have it: at the critical angle of glass, 6 % instead of all.
+TEST_CASE("Schlick's approximation by the incident cosine is far off for leaving rays") {
+    // Both source reports use this formula: at glass's critical angle, it gives 4 % instead of
+    // 100 %.
     const double n = 1.5, cos_critical = std::sqrt(1.0 - 1.0 / (n * n));
     CHECK(schlick(cos_critical, 0.0, n, 1.0) == 1.0);
     CHECK(dielectric(cos_critical, 0.0, n, 1.0) == 1.0);
@@ -80,7 +82,8 @@ TEST_CASE("Schlick's approximation by the incident cosine is far off on the way 
     CHECK(mistaken == Approx(0.0408).epsilon(0.01));
 }
 
-TEMPLATE_TEST_CASE("the critical angle is approached by ulps from both sides", "", float, double) {
+TEMPLATE_TEST_CASE("refraction is right from ulps below the critical angle to ulps above", "",
+                   float, double) {
     using Real = TestType;
     const Real ulp = std::numeric_limits<Real>::epsilon();
     int wrong = 0, totals = 0;
@@ -109,7 +112,7 @@ TEMPLATE_TEST_CASE("the critical angle is approached by ulps from both sides", "
             for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric}) {
                 const Real share = reflectance(of<Real>(reflection), at, n, Real(1));
                 if (!(share >= last[kind] && share <= Real(1))) FAIL("not continuous");
-                // 1 - R is at most so many times the transmitted cosine.
+                // 1 - R is at most `slope` times the transmitted cosine.
                 const Real slope = std::max(Real(5), Real(2) * (n + Real(1) / n) / at.cos_incident);
                 if (!(share >= Real(1) - slope * std::sqrt(48 * ulp))) FAIL("a step");
                 if (at.total && share != Real(1)) FAIL("not total");
@@ -123,7 +126,7 @@ TEMPLATE_TEST_CASE("the critical angle is approached by ulps from both sides", "
     CHECK(totals > 300 * 15);
 }
 
-TEMPLATE_TEST_CASE("R + T = 1 to the bit for all indices, sides and angles", "", float, double) {
+TEMPLATE_TEST_CASE("R + T = 1 to the bit for all indices and sides and angles", "", float, double) {
     using Real = TestType;
     int not_shares = 0;
     for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})

@@ -52,17 +52,18 @@ Vec3d image(const Transform& transform, const Vec3d& point) {
 struct Body {
     const char* name;
     std::vector<PartShape> shapes;
-    double radius, slope, curvature; ///< of its circles: sqrt(radius^2 + slope y^2 + curvature y)
+    /// Circles have the radius sqrt(radius^2 + slope y^2 + curvature y).
+    double radius, slope, curvature;
 };
 
-/// The square of a circle's radius at a height.
+/// Returns the squared radius of the circle at a height.
 double squared_radius(const Body& body, double height) {
     return body.radius * body.radius + body.slope * height * height + body.curvature * height;
 }
 
 } // namespace
 
-TEST_CASE("bounds of an ellipsoid's form hold it, and little more") {
+TEST_CASE("bounds of an ellipsoid's quadratic form are tight") {
     Random random(1);
     for (int round = 0; round < 300; ++round) {
         CAPTURE(round);
@@ -78,7 +79,7 @@ TEST_CASE("bounds of an ellipsoid's form hold it, and little more") {
             const double reach = length(
                 Vec3d(ellipsoid.axis_u[axis], ellipsoid.axis_v[axis], ellipsoid.axis_w[axis]));
             const double center = ellipsoid.center[axis];
-            // Rounded coefficients move it a little.
+            // Rounded coefficients move the ellipsoid a little.
             CHECK(static_cast<double>(bounds.upper[axis]) > center + reach * (1.0 - 1e-9));
             CHECK(static_cast<double>(bounds.lower[axis]) < center - reach * (1.0 - 1e-9));
             CHECK(static_cast<double>(bounds.upper[axis]) < center + reach * 1.001 + 1e-4);
@@ -87,7 +88,7 @@ TEST_CASE("bounds of an ellipsoid's form hold it, and little more") {
     }
 }
 
-TEST_CASE("a quadric between planes has bounds that hold it") {
+TEST_CASE("bounds of a quadric between planes contain it") {
     const PartShape above = plane({0.0, -1.0, 0.0}, {0.0, -1.0, 0.0}),
                     below = plane({0.0, 1.0, 0.0}, {0.0, 1.0, 0.0});
     const Body bodies[] = {
@@ -116,7 +117,7 @@ TEST_CASE("a quadric between planes has bounds that hold it") {
         }
 }
 
-TEST_CASE("a quadric that goes on without an end has no bounds") {
+TEST_CASE("an infinite quadric has no bounds") {
     const PartShape cylinder = quadric(1.0, 0.0, 1.0, 0.0, -1.0),
                     cone = quadric(1.0, -1.0, 1.0, 0.0, 0.0);
     const PartShape below = plane({0.0, 1.0, 0.0}, {0.0, 1.0, 0.0}),

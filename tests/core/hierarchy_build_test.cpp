@@ -26,7 +26,7 @@ std::size_t count_of(const ShapeLists& lists) {
 Built build(const ShapeLists& lists) {
     Workers alone;
     Built built;
-    // Of as many materials: none is another's duplicate.
+    // Each shape has its own material, so that none is a duplicate.
     MaterialIndices material_of;
     for (std::size_t id = 0; id < count_of(lists); ++id)
         material_of.push_back(static_cast<MaterialIndex>(id));
@@ -50,7 +50,7 @@ ShapeLists all_kinds(int of_each, Random& random, bool lattice) {
     return lists;
 }
 
-/// True if `outer` contains `inner`, which does not touch it.
+/// Returns whether `outer` contains `inner` and does not touch it.
 bool surrounds(const Bounds& outer, const Bounds& inner) {
     for (int axis = 0; axis < 3; ++axis)
         if (outer.lower[axis] >= inner.lower[axis] || outer.upper[axis] <= inner.upper[axis])
@@ -58,19 +58,19 @@ bool surrounds(const Bounds& outer, const Bounds& inner) {
     return true;
 }
 
-/// Walks a hierarchy and notes whatever is wrong with it.
+/// Traverses a hierarchy and counts its faults.
 class Audit {
   public:
     explicit Audit(const Built& built) : built_(built) { visit(0, {built.hierarchy.bounds}); }
 
-    std::map<ShapeId, int> found; // how often each shape
+    std::map<ShapeId, int> found; // number of occurrences of each shape
     int loose = 0;                // shapes that stick out of a node above them
-    int wide = 0;                 // entries with more room than an ulp about what they hold
+    int wide = 0;                 // entries whose bounds are not one ulp larger than their content
     int gaps = 0;                 // entries or lanes that are filled behind empty ones
     std::size_t blocks = 0, nodes = 0;
 
   private:
-    /// The bounds of what is inside.
+    /// Returns the bounds of the content.
     Bounds visit(std::uint32_t index, std::vector<Bounds> above) {
         Bounds all;
         ++nodes;
@@ -80,7 +80,7 @@ class Audit {
             const Child child = node.children[entry];
             if (child.empty()) {
                 ended = true;
-                // Nothing may be found there.
+                // No ray may enter an empty entry.
                 if (!(node.lower[0][entry] > node.upper[0][entry])) ++gaps;
                 continue;
             }
@@ -129,7 +129,7 @@ class Audit {
     const Built& built_;
 };
 
-/// Of the shapes that are no planes, each must be there once, with its own values.
+/// Checks that each shape keeps its values, and that each bounded shape occurs once.
 Audit check(const ShapeLists& lists) {
     const Built built = build(lists);
     Audit audit(built);
@@ -170,7 +170,7 @@ ShapeLists spheres(int count, const auto& make) {
 
 } // namespace
 
-TEST_CASE("each bounded shape of any kind is once in the hierarchy, inside of all above it") {
+TEST_CASE("each bounded shape is once in the hierarchy and inside of all nodes above it") {
     Random random(31);
     for (const bool lattice : {false, true})
         for (const int of_each : {1, 2, 16, 17, 150, 2000}) {
@@ -179,14 +179,14 @@ TEST_CASE("each bounded shape of any kind is once in the hierarchy, inside of al
         }
 }
 
-TEST_CASE("a hierarchy of a few shapes") {
+TEST_CASE("a hierarchy of a few shapes in a row has as few blocks as possible") {
     CHECK(build({}).hierarchy.nodes.empty());
     const auto in_a_row = [](int i) { return Sphere{{static_cast<float>(3 * i), 0, 0}, 1}; };
     for (const int count : {1, 2, 15, 16, 17, 31, 128, 129, 257}) {
         CAPTURE(count);
         const Audit audit = check(spheres(count, in_a_row));
         CHECK(audit.nodes <= audit.blocks);
-        // Nothing keeps neighbours on a line apart: as few blocks as there can be.
+        // Nothing separates neighbours on a line, so that there are as few blocks as possible.
         if (count <= 128) CHECK(audit.blocks == static_cast<std::size_t>((count + 15) / 16));
     }
 }
@@ -205,16 +205,17 @@ TEST_CASE("blocks are well filled where kinds are mixed") {
     CHECK(audit.nodes < audit.blocks / 6);
 }
 
-TEST_CASE("a hierarchy of so many shapes that memory is given back while it is built") {
+TEST_CASE("a hierarchy is complete if memory is released while it is built") {
     Random random(34);
     // 12.8 MB of items, of which their positions are 1.6 MB.
     check(spheres(400'000, [&](int) { return Sphere{convert<float>(random.cube(100.0)), 0.5F}; }));
 }
 
-TEST_CASE("ids of a list need not follow each other") {
+TEST_CASE("ids of a list need not be consecutive") {
     ShapeList<Sphere> list;
     std::vector<ShapeId> ids;
-    for (ShapeId id = 5; id < 300; id += id < 100 ? 1 : 3) { // one by one, and then not
+    for (ShapeId id = 5; id < 300;
+         id += id < 100 ? 1 : 3) { // consecutive at first, then in steps of 3
         list.add(Sphere{{float(id), 0, 0}, 1}, id);
         ids.push_back(id);
         for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -224,24 +225,24 @@ TEST_CASE("ids of a list need not follow each other") {
     }
 }
 
-TEST_CASE("a hierarchy of shapes that nothing tells apart") {
+TEST_CASE("a hierarchy of shapes in one place is complete") {
     for (const int count : {17, 128, 129, 3000, 70'000}) {
         CAPTURE(count);
         const Audit audit = check(spheres(count, [](int) { return Sphere{{1, 2, 3}, 1}; }));
         CHECK(audit.blocks < static_cast<std::size_t>(count) / 8 + 2);
-        // Around one centre, but of many sizes.
+        // Spheres of many sizes around one centre.
         check(spheres(count, [](int i) { return Sphere{{0, 0, 0}, std::exp2(float(i % 60))}; }));
     }
 }
 
-TEST_CASE("a hierarchy in which sizes are as different as floats can be") {
+TEST_CASE("a hierarchy of sizes as different as floats can be is complete") {
     Random random(32);
     for (const float scale : {1e-30F, 1e-15F, 1.0F, 1e15F, 1e28F}) {
         CAPTURE(scale);
         const Audit audit = check(spheres(5000, [&](int) {
             return Sphere{scale * convert<float>(random.cube(100.0)), scale};
         }));
-        // As full whatever the unit.
+        // Blocks are equally full in any unit.
         CHECK(audit.blocks < 5000 / 10);
         CHECK(audit.nodes < audit.blocks / 6);
     }
@@ -252,7 +253,7 @@ TEST_CASE("a hierarchy in which sizes are as different as floats can be") {
     CHECK(audit.nodes < audit.blocks);
 }
 
-TEST_CASE("a hierarchy over flat shapes in one plane") {
+TEST_CASE("a hierarchy over flat shapes in one plane has full blocks") {
     Random random(33);
     ShapeLists lists;
     for (int i = 0; i < 3000; ++i) {

@@ -29,7 +29,7 @@ void add_kind(Builder& builder, MaterialIndex material, int count, bool lattice,
     }
 }
 
-/// All kinds in one heap, with rays that are hard for some of them.
+/// Returns a heap of shapes of all kinds, with rays that are hard for some of them.
 Aimed heap(bool lattice, int of_each_kind, std::uint64_t seed) {
     Random random(seed);
     Builder builder;
@@ -57,10 +57,11 @@ bool same(const Hit<double>& a, const Hit<double>& b) {
 
 } // namespace
 
-TEST_CASE("the hierarchy loses no hit of a heap of all kinds") {
+TEST_CASE("the hierarchy finds the same hits in a heap of all kinds as brute force") {
     for (const bool lattice : {false, true})
         for (const int of_each_kind : {1, 40, 100}) {
-            if (of_each_kind == 100 && !tests::is_full()) continue; // with sanitizers a minute
+            if (of_each_kind == 100 && !tests::is_full())
+                continue; // takes a minute with sanitizers
             const Aimed aimed = heap(lattice, of_each_kind, 20 + of_each_kind);
             Searcher<double> by_hierarchy(aimed.scene, Search::hierarchy);
             Searcher<double> by_trying(aimed.scene, Search::every_shape);
@@ -71,7 +72,7 @@ TEST_CASE("the hierarchy loses no hit of a heap of all kinds") {
                 hits += hit.any() ? 1 : 0;
                 if (!same(hit, by_hierarchy.nearest(ray, OriginSurfaces<double>{}, all).hit))
                     ++lost;
-                // Up to the hit, nothing; just beyond it, something.
+                // The ray crosses nothing before the hit, and something just beyond it.
                 const double off = 2.0 * needed_accuracy * hit.t;
                 if (crosses(by_hierarchy, ray, hit.any() ? hit.t - off : hit.t))
                     ++blocked_otherwise;
@@ -87,7 +88,7 @@ TEST_CASE("the hierarchy loses no hit of a heap of all kinds") {
         }
 }
 
-TEST_CASE("of shapes hit at one distance, the first added counts") {
+TEST_CASE("the first added of the shapes at one distance is hit") {
     const Sphere sphere{{0, 0, 0}, 1};
     Builder builder;
     for (int copy = 0; copy < 40; ++copy)
@@ -103,7 +104,7 @@ TEST_CASE("of shapes hit at one distance, the first added counts") {
     }
 }
 
-TEST_CASE("a ray that starts in a node's plane and runs along it loses nothing") {
+TEST_CASE("a ray in the plane of a node's face loses no hit") {
     // Zero and denormal components: 0 * inf, or the inverse of a denormal, must not decide.
     Builder builder;
     for (int i = 0; i < 100; ++i)

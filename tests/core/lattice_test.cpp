@@ -12,8 +12,8 @@ using namespace raylane::core;
 using ray_sets::Random;
 using ray_sets::Set;
 
-/// Small integers, where rays are tangent and meet rims and edges exactly; and the same rays with
-/// their directions made unit vectors, as cameras have them, where they all but do.
+/// Rays of small integers are tangent to shapes and meet rims and edges exactly. The same rays with
+/// unit directions, as cameras make them, almost do.
 namespace {
 
 #ifdef RAYLANE_FEW_RAYS
@@ -37,7 +37,8 @@ std::vector<oracle::Hit> ahead(std::vector<oracle::Hit> hits) {
     return hits;
 }
 
-/// All crossings ahead, against the oracle. Where double is in no doubt, other tests look.
+/// Compares all crossings ahead with the oracle's, if double was in doubt. Other tests check the
+/// rest.
 template <class Shape>
 void compare(const Shape& shape, const Ray<double>& ray, Tally& tally) {
     ++tally.rays;
@@ -76,8 +77,7 @@ int count_ahead(const Shape& shape, const Vec3d& origin, const Vec3d& direction)
 
 } // namespace
 
-TEMPLATE_TEST_CASE("on small integers every crossing is decided as the oracle does", "",
-                   RAYLANE_ALL_SHAPES) {
+TEMPLATE_TEST_CASE("crossings in small integers agree with the oracle", "", RAYLANE_ALL_SHAPES) {
     using Shape = TestType;
     Random random(20260500 + static_cast<int>(kind_of<Shape>));
     Tally integers, units;
@@ -101,7 +101,7 @@ TEMPLATE_TEST_CASE("on small integers every crossing is decided as the oracle do
 }
 
 TEST_CASE("a line that touches a cone only beyond its end does not cross it") {
-    // At t = 0, on the cone's extension; in double-double that root is anywhere.
+    // The line touches the cone's extension at t = 0. Double-double cannot locate that root.
     const Vec3d origin{0, 2, 5}, direction = normalized(Vec3d(1, 3, -3));
     const CappedCone cone{{2, 2, -1}, {-1, 0, 0}, 0, 3};
     CHECK(oracle::crossings(cone, Ray<double>{origin, direction}).empty());
@@ -109,13 +109,14 @@ TEST_CASE("a line that touches a cone only beyond its end does not cross it") {
 }
 
 TEST_CASE("a line that passes a sphere by 1e-31 misses it") {
-    // (-4, 3, 0) / 5 in double is off by 4e-17: tangent to all but the square of that.
+    // (-4, 3, 0) / 5 in double is off by 4e-17, so that the line is off the tangent by about the
+    // square of that.
     const Vec3d origin{6, -6, 1}, direction = normalized(Vec3d(-4, 3, 0));
     CHECK(count_ahead(Sphere{{-2, 0, 3}, 2}, origin, direction) == 0);
     CHECK(count_ahead(Sphere{{-2, 0, 3}, 2}, origin, {-4, 3, 0}) == 2); // it touches
 }
 
-TEST_CASE("rays that are no numbers cross nothing, and end") {
+TEST_CASE("a ray with infinite or NaN numbers crosses nothing and its solver ends") {
     const double infinity = std::numeric_limits<double>::infinity();
     for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
         CHECK(count_ahead(CappedCone{{0, 0, 0}, {0, 0, 1}, 1, 0}, {bad, 0, 0}, {0, 0, 1}) == 0);

@@ -20,7 +20,7 @@ Scene scene_of(const Lens& lens) {
     return std::move(builder).build();
 }
 
-/// t of the crossings of a line along an axis through the lens.
+/// Returns t of all crossings of a line with the scene, in ascending order.
 std::vector<double> crossings(const Scene& scene, const Vec3d& origin, const Vec3d& direction) {
     Searcher<double> searcher(scene, Search::hierarchy);
     const Ray<double> ray{origin, direction};
@@ -72,7 +72,7 @@ TEST_CASE("glasses have the index of refraction of their catalogues") {
     CHECK(abbe(glass_catalogue()[5].glass) == Approx(32.21).margin(0.02));
 }
 
-TEST_CASE("wavelengths' shares add up to white, from blue to red") {
+TEST_CASE("the shares of wavelengths add up to white and go from blue to red") {
     const std::vector<double> wavelengths = {420, 460, 500, 540, 580, 620, 660};
     const std::vector<Color> shares = shares_of(wavelengths);
     Color sum(0.0F);
@@ -86,8 +86,8 @@ TEST_CASE("wavelengths' shares add up to white, from blue to red") {
     CHECK(shares_of(std::vector<double>{600})[0] == Color(1.0F));
 }
 
-TEST_CASE("lenses are between their surfaces, and in their cylinder") {
-    // Biconvex, plano-convex both ways, meniscus, biconcave, of conics.
+TEST_CASE("a lens lies between its surfaces and within its cylinder") {
+    // Biconvex, plano-convex on either side, meniscus, biconcave, and two with conics.
     const Lens lenses[] = {{{0, 0, 0}, {0, 0, 1}, {6, -6}, {0, 0}, 1.8, 3},
                            {{0, 0, 0}, {0, 0, 2}, {5, 0}, {0, 0}, 1, 2},
                            {{0, 0, 0}, {0, 0, 1}, {0, -5}, {0, 0}, 1, 2},
@@ -118,8 +118,8 @@ TEST_CASE("lenses are between their surfaces, and in their cylinder") {
     }
 }
 
-TEST_CASE("of a thick lens no surface's far side is seen") {
-    // Convex, concave, of a hyperboloid, of an ellipsoid; both ways round. A ball.
+TEST_CASE("a thick lens does not show the far side of its surfaces") {
+    // Convex, concave and hyperboloidal surfaces, each on either side; ellipsoids; spheres; a ball.
     const Lens lenses[] = {{{0, 0, 0}, {0, 0, 1}, {1, 0}, {0, 0}, 5, 0.5},
                            {{0, 0, 0}, {0, 0, 1}, {0, -1}, {0, 0}, 5, 0.5},
                            {{0, 0, 0}, {0, 0, 1}, {-1, 0}, {0, 0}, 5, 0.5},
@@ -146,7 +146,7 @@ TEST_CASE("of a thick lens no surface's far side is seen") {
     }
 }
 
-TEST_CASE("a lens may stand anywhere, and cemented ones have one surface in common") {
+TEST_CASE("a lens may stand anywhere and cemented lenses share one surface") {
     const Vec3d axis(1, 2, -2), vertex(3, -1, 0.5);
     const Scene scene = scene_of({vertex, axis, {6, -6}, {0, 0}, 1.5, 2});
     const std::vector<double> t = crossings(scene, vertex - axis, axis);
@@ -172,13 +172,13 @@ TEST_CASE("a lens may stand anywhere, and cemented ones have one surface in comm
         searcher.sort(ray, {}, hits);
         REQUIRE(hits.size() == 4);
         CHECK(hits[2].joins);
-        CHECK(hits[1].enters()); // the flint, before the crown is left
+        CHECK(hits[1].enters()); // enters the flint before it leaves the crown
         CHECK_FALSE(hits[2].enters());
         CHECK(hits[1].shape > hits[2].shape);
     }
 }
 
-TEST_CASE("what is no lens is refused") {
+TEST_CASE("invalid lenses are refused") {
     CHECK(complaint({{0, 0, 0}, {0, 0, 1}, {6, -6}, {0, 0}, 1.6, 3})
               .starts_with("thickness: must be so much"));
     CHECK(complaint({{0, 0, 0}, {0, 0, 1}, {2, -6}, {0, 0}, 9, 3}) ==

@@ -7,7 +7,7 @@ namespace little_scene {
 
 using namespace raylane::core;
 
-/// Shows its own colour, whatever the light.
+/// Returns a material that shows its own colour in any light.
 inline Material luminous(const Color& color = Color(1.0F)) {
     Material material;
     material.pattern.colors[0] = color;
@@ -16,7 +16,8 @@ inline Material luminous(const Color& color = Color(1.0F)) {
     return material;
 }
 
-/// Shows how far along an axis it is: `at` / `end` in all channels.
+/// Returns a material that shows the position along the way from 0 to `end`, as a fraction in all
+/// channels.
 inline Material ruler(const Vec3f& end) {
     Material material = luminous();
     material.pattern.kind = PatternKind::gradient;
@@ -58,7 +59,7 @@ class Builder : public SceneBuilder {
         return add(shape, add_material(material));
     }
 
-    /// Scenes need a light, if only one that nothing looks at.
+    /// Builds the scene with a light, as scenes need one even if nothing reflects it.
     Scene finish() {
         Light sun;
         sun.kind = LightKind::directional;
@@ -71,7 +72,7 @@ class Builder : public SceneBuilder {
     }
 };
 
-/// The colour along a ray in the given direction, which need not be of unit length.
+/// Returns the colour along a ray in the given direction, which need not be of unit length.
 template <class Real>
 Vec3<Real> color_along(const Scene& scene, const Vec3<Real>& origin, const Vec3<Real>& direction) {
     ReferenceTracer<Real> tracer(scene, scene.settings());

@@ -15,7 +15,7 @@ using Exact = Number (*)(const Number&);
 
 struct Domain {
     double least, most;
-    bool logarithmic; ///< of all sizes between these, of both signs
+    bool logarithmic; ///< log-uniform between these, with both signs
 };
 
 double draw(Random& random, const Domain& of) {
@@ -37,7 +37,7 @@ void check(const char* name, Function computed, Exact exact, double most_ulps,
 
 constexpr double nan_ = std::numeric_limits<double>::quiet_NaN();
 
-/// The same number or both none, and the same sign.
+/// Returns whether both numbers are NaN, or equal with the same sign.
 bool same(double a, double b) {
     return std::isnan(a) ? std::isnan(b) : a == b && std::signbit(a) == std::signbit(b);
 }
@@ -68,7 +68,7 @@ TEST_CASE("hyperbolic functions of readers and their inverses are within three u
           {{-1.0, 1.0, false}, {0x1p-600, 1.0, true}, {0.999, 1.0, false}});
 }
 
-TEST_CASE("angles of points are within three ulps, all around") {
+TEST_CASE("atan2 is within three ulps in all quadrants") {
     Random random;
     Errors errors;
     for (int i = 0; i < rounds; ++i) {
@@ -84,9 +84,9 @@ TEST_CASE("angles of points are within three ulps, all around") {
         }
 }
 
-TEST_CASE("powers of readers are exact where doubles hold them") {
-    // All whole numbers to whole powers that are less than 2^53, and their inverses as near as can
-    // be.
+TEST_CASE("powers of readers are exact where the result is a double") {
+    // All integer powers below 2^53 of integers from -60 to 60 are exact. Their inverses are the
+    // nearest doubles.
     for (int base = -60; base <= 60; ++base) {
         double exact = 1.0;
         for (int n = 0; std::abs(exact) < 0x1p53; ++n, exact *= base) {
@@ -102,7 +102,7 @@ TEST_CASE("powers of readers are exact where doubles hold them") {
         CHECK(core::power(static_cast<double>(root) * root, 1.5) ==
               static_cast<double>(root) * root * root);
     }
-    // Of all sizes; those near 0 are given by fewer bits, and rounded twice.
+    // Results of all sizes. Results near 0 have fewer bits and are rounded twice.
     Random random;
     Errors whole, others, negative, first;
     for (int i = 0; i < rounds; ++i) {
@@ -135,12 +135,12 @@ TEST_CASE("powers of readers are exact where doubles hold them") {
     negative.check("large whole powers", 2.0, 0.5);
 }
 
-TEST_CASE("functions of readers at the ends of their domains") {
+TEST_CASE("functions of readers are right at the ends of their domains") {
     const double values[] = {0.0, -0.0, 0.5, -0.5, 1.0,      -1.0,      2.0, -2.0,
                              3.0, -3.0, 1e6, -1e6, infinity, -infinity, nan_};
     for (const double x : values)
         for (const double y : values) {
-            // Those that are exact, by all libraries.
+            // Compares only special results, which are exact in all libraries.
             const double exact = std::pow(x, y);
             if (std::isfinite(x) && std::isfinite(y) && (exact != 0.0 && std::isfinite(exact)))
                 continue;

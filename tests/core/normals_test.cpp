@@ -13,7 +13,8 @@ using ray_sets::Set;
 
 namespace {
 
-/// An apex has no normal, and next to it a rounded point has any.
+/// Returns whether a point is at an apex. An apex has no normal, and a rounded point next to it may
+/// have any normal.
 template <class Shape>
 bool is_apex(const Shape& shape, const Vec3d& point, Face face) {
     return length(outward_direction(shape, point, face)) < 1e-6;
@@ -58,7 +59,7 @@ TEMPLATE_TEST_CASE("a ray enters against the outward normal and leaves along it"
 }
 
 TEST_CASE("the normal of a cone's body leans to its narrower end") {
-    // Slopes of 3 along the axis to 4 across it.
+    // The body goes 3 along the axis for 4 across it.
     const double along = 0.8, across = 0.6;
     const OpenCone narrowing{{0, 0, 0}, {0, 3, 0}, 4, 0}, widening{{0, 0, 0}, {0, 3, 0}, 0, 4};
     const Vec3d halfway{2, 1.5, 0};

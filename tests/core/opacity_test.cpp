@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-/// What opacity below 1 shows: surfaces blend, in the order of the ray, with what is straight
-/// behind them.
+/// Opacity below 1: surfaces blend, in their order along the ray, with the scene straight behind
+/// them.
 using namespace raylane;
 using namespace little_scene;
 
@@ -35,12 +35,12 @@ Solid ball(double x, double radius) {
 
 } // namespace
 
-TEST_CASE("see-through surfaces blend in their order") {
+TEST_CASE("transparent surfaces blend in their order along the ray") {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> fraction(0, 1);
     for (int round = 0; round < 20; ++round) {
         Builder builder;
-        builder.settings.max_depth = 0; // to go straight on is no depth
+        builder.settings.max_depth = 0; // rays that go straight on are no deeper
         builder.background = Color(0.5F);
         double expected = 0.5;
         for (int i = 0; i < 40; ++i) { // the nearest last
@@ -53,7 +53,7 @@ TEST_CASE("see-through surfaces blend in their order") {
     }
 }
 
-TEST_CASE("no more see-through surfaces are seen than asked for") {
+TEST_CASE("at most max_see_through transparent surfaces are seen") {
     for (const int most : {1, 2, 3}) {
         Builder builder;
         builder.settings.max_see_through = most;
@@ -65,7 +65,7 @@ TEST_CASE("no more see-through surfaces are seen than asked for") {
     }
 }
 
-TEST_CASE("a union of see-through balls has no walls inside") {
+TEST_CASE("a union of transparent balls has no walls inside") {
     Builder builder;
     Solid both{Made::by_union};
     both.parts = {ball(-0.5, 1), ball(0.5, 1), ball(0, 1.2)};
@@ -77,7 +77,7 @@ TEST_CASE("a union of see-through balls has no walls inside") {
     CHECK(gray_along(apart.finish(), {5, 0, 0}, {-1, 0, 0}) == 1.0 - std::pow(0.75, 4));
 }
 
-TEST_CASE("what is seen through is neither bent nor tinted, and mirrors at any depth") {
+TEST_CASE("transparent surfaces do not bend or tint or deepen rays") {
     Builder builder;
     builder.settings.max_depth = 1;
     for (int i = 0; i < 9; ++i) {
@@ -88,11 +88,11 @@ TEST_CASE("what is seen through is neither bent nor tinted, and mirrors at any d
     }
     builder.add_shape(Plane{{0, 0, -2}, {0, 0, 1}}, mirror());
     builder.add_shape(Plane{{0, 0, 40}, {0, 0, 1}}, luminous());
-    // There and back.
+    // The ray passes each of the 18 surfaces twice.
     CHECK(gray_along(builder.finish(), {0.5, 0.25, 39}, {0, 0, -1}) == std::pow(0.5, 36));
 }
 
-TEST_CASE("a see-through surface reflects and refracts as much as there is of it") {
+TEST_CASE("a transparent surface reflects and refracts in proportion to its opacity") {
     Builder builder;
     builder.background = Color(1.0F);
     Material half = glass(1.0F);
@@ -100,14 +100,14 @@ TEST_CASE("a see-through surface reflects and refracts as much as there is of it
     half.transmission = 0.5F;
     half.opacity = 0.5F;
     builder.add_shape(Box{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, half);
-    // Of each surface 1/2 passes, 1/8 is transmitted and 1/4 reflected.
+    // At each surface, 1/2 of the light passes, 1/8 is transmitted and 1/4 reflected.
     builder.settings.max_depth = 2;
     const double through = 0.625, back = 0.25;
     CHECK(seen_down(builder.finish()) ==
           Approx(back + through * through + through * back * through).epsilon(0.02));
 }
 
-TEST_CASE("fog lies before what is behind a pane as if there were none") {
+TEST_CASE("fully transparent panes do not change the fog") {
     for (const FogKind kind : {FogKind::linear, FogKind::exponential, FogKind::linear_z}) {
         const auto seen = [&](bool with_panes) {
             Builder builder;
@@ -124,7 +124,7 @@ TEST_CASE("fog lies before what is behind a pane as if there were none") {
     }
 }
 
-TEST_CASE("a see-through surface shades as much as there is of it") {
+TEST_CASE("a transparent surface shades in proportion to its opacity") {
     Builder builder;
     Material matte = black();
     matte.pattern.colors[0] = Color(1.0F);
@@ -148,7 +148,7 @@ struct Ball {
     double radius;
     bool is_core;
 };
-/// A union of see-through balls, and two opaque ones in it.
+/// A union of transparent balls, and two opaque balls in it.
 const std::vector<Ball> balls = {{{-0.8, 0, 0}, 1.2, false},
                                  {{0.8, 0, 0}, 1.2, false},
                                  {{0, 0.9, 0.3}, 1, false},
@@ -160,7 +160,7 @@ struct Wall {
     const Ball* ball;
 };
 
-/// Where a line from a point meets the cores, or the union's outer walls, in order.
+/// Returns where a line from a point meets the cores and the union's outer walls, in order.
 std::vector<Wall> walls_along(const Vec3d& from, const Vec3d& direction) {
     struct Passage {
         double in, out;
@@ -189,7 +189,7 @@ std::vector<Wall> walls_along(const Vec3d& from, const Vec3d& direction) {
     return walls;
 }
 
-/// White in the light from a direction.
+/// Returns the gray of white surfaces that are lit from a direction.
 double expected_along(const Vec3d& from, const Vec3d& direction, const Vec3d& to_light) {
     double color = 0.0, throughput = 1.0;
     for (const Wall& wall : walls_along(from, direction)) {
@@ -208,7 +208,7 @@ double expected_along(const Vec3d& from, const Vec3d& direction, const Vec3d& to
 
 } // namespace
 
-TEST_CASE("light into a see-through union passes its outer walls alone") {
+TEST_CASE("light into a transparent union passes only its outer walls") {
     Builder builder;
     Material matte = black();
     matte.pattern.colors[0] = Color(1.0F);
@@ -245,7 +245,7 @@ TEST_CASE("light into a see-through union passes its outer walls alone") {
     CHECK(lit > 1000);
 }
 
-TEST_CASE("opacities are fractions, and of one surface at least is seen") {
+TEST_CASE("opacities outside of 0 to 1 and max_see_through below 1 are refused") {
     Builder builder;
     CHECK_THROWS_AS(builder.add_material(pane(1.5F)), InvalidValue);
     CHECK_THROWS_AS(builder.add_material(pane(-0.5F)), InvalidValue);

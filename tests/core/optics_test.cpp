@@ -24,7 +24,7 @@ Real reflectance_at(Reflection reflection, Real sine, Real n1, Real n2) {
 
 } // namespace
 
-TEST_CASE("a mirror sphere reflects to where the textbook says") {
+TEST_CASE("a mirror sphere reflects by the textbook's formula") {
     Builder builder;
     builder.add_shape(Sphere{{0, 0, 0}, 1}, mirror());
     builder.add_shape(Plane{{10, 0, 0}, {-1, 0, 0}}, ruler({0, 0, 20}));
@@ -40,7 +40,7 @@ TEST_CASE("a mirror sphere reflects to where the textbook says") {
     }
 }
 
-TEST_CASE("a slab shifts a ray by the textbook's amount and leaves its direction") {
+TEST_CASE("a slab shifts a ray by the textbook's amount and keeps its direction") {
     const double n = 1.5, thickness = 2.0;
     for (const double degrees : {0.0, 10.0, 45.0, 80.0}) {
         const double sine = std::sin(degrees * 3.14159265358979323846 / 180.0);
@@ -64,8 +64,7 @@ TEST_CASE("a slab shifts a ray by the textbook's amount and leaves its direction
     }
 }
 
-TEMPLATE_TEST_CASE("reflection is total from just behind the critical angle on", "", float,
-                   double) {
+TEMPLATE_TEST_CASE("reflection is total from just beyond the critical angle", "", float, double) {
     using Real = TestType;
     // From index 2 to 1 the critical sine is 1/2, exactly.
     const Real critical(0.5);
@@ -85,8 +84,8 @@ TEMPLATE_TEST_CASE("reflection is total from just behind the critical angle on",
     }
 }
 
-TEST_CASE("what is reflected totally is not lost") {
-    // Inside of water, below its surface y = 0: a floor that shines, and a dark sky.
+TEST_CASE("total reflection loses no light") {
+    // Inside of water, below its surface y = 0, with a luminous floor and a dark sky.
     Builder builder;
     builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, glass(1.5F, Reflection::dielectric));
     builder.add_shape(Plane{{0, -1, 0}, {0, 1, 0}}, luminous({0.25F, 0.5F, 0.75F}));
@@ -97,7 +96,7 @@ TEST_CASE("what is reflected totally is not lost") {
     CHECK(seen.x == Approx(0.25 * 0.04).epsilon(0.01));
 }
 
-TEST_CASE("glass that reflects nothing otherwise reflects all beyond the critical angle") {
+TEST_CASE("glass without other reflection reflects totally beyond the critical angle") {
     Builder builder;
     builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, glass(1.5F, Reflection::constant));
     builder.add_shape(Plane{{0, -1, 0}, {0, 1, 0}}, luminous({0.25F, 0.5F, 0.75F}));
@@ -106,8 +105,7 @@ TEST_CASE("glass that reflects nothing otherwise reflects all beyond the critica
     CHECK(color_along<double>(scene, {0, -0.5, 0}, {0.1, 1, 0}) == Vec3d(0.0));
 }
 
-TEMPLATE_TEST_CASE("what is reflected and what is transmitted is all there is, to the bit", "",
-                   float, double) {
+TEMPLATE_TEST_CASE("reflectance and transmittance add up to 1 to the bit", "", float, double) {
     using Real = TestType;
     for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
         for (const Real n1 : {Real(1), Real(1.33), Real(1.5), Real(2.4)})
@@ -135,7 +133,7 @@ TEST_CASE("glass in an evenly bright room cannot be seen") {
     }
 }
 
-TEST_CASE("reflectance at normal incidence, and at Brewster's angle") {
+TEST_CASE("reflectance is right at normal incidence and at Brewster's angle") {
     CHECK(reflectance_at(Reflection::schlick, 0.0, 1.0, 1.5) == Approx(0.04));
     CHECK(reflectance_at(Reflection::dielectric, 0.0, 1.0, 1.5) == Approx(0.04));
     CHECK(reflectance_at(Reflection::dielectric, 0.5, 1.5, 1.5) == 0.0);
@@ -156,7 +154,7 @@ TEST_CASE("both sides of a surface reflect alike along one path") {
         }
 }
 
-TEST_CASE("absorption follows the length of the way inside") {
+TEST_CASE("absorption follows the length of the path inside") {
     const Vec3f absorption{0.125F, 0.5F, 1.0F};
     Material tinted = glass(1.0F);
     tinted.absorption = absorption;
@@ -177,7 +175,7 @@ TEST_CASE("absorption follows the length of the way inside") {
     expect(scene, {10, 0, 0}, 3.0); // the camera is inside
 }
 
-TEST_CASE("nothing shines through an endless body that absorbs") {
+TEST_CASE("nothing shines through an infinite body that absorbs") {
     Material tinted = glass(1.5F);
     tinted.absorption = {0.125F, 0.0F, 1.0F};
     Builder builder;
@@ -217,7 +215,7 @@ TEST_CASE("each refraction counts against the depth limit") {
 }
 
 TEST_CASE("an opaque surface reflects alike from both sides") {
-    // Behind it lies its own index, from whichever side it is seen.
+    // Behind the surface lies the material's index, whichever side is seen.
     Material varnish = black();
     varnish.reflection = Reflection::dielectric;
     Builder builder;
@@ -229,7 +227,7 @@ TEST_CASE("an opaque surface reflects alike from both sides") {
     CHECK(gray_along(scene, {0, 0, -5}, {0.5, 0, 1}) == Approx(front).epsilon(exactly));
 }
 
-TEST_CASE("a ray knows the index of what surrounds it") {
+TEST_CASE("a ray refracts by the index of the medium around it") {
     // Equal indices bend nothing: a sphere of water in a box of water.
     Builder builder;
     builder.add_shape(Box{{-2, -2, -2}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, glass(1.25F));
@@ -241,14 +239,14 @@ TEST_CASE("a ray knows the index of what surrounds it") {
           Approx(gray_along(builder.finish(), origin, direction)).epsilon(exactly));
 }
 
-TEST_CASE("media nest, and are left in any order") {
+TEST_CASE("media nest and can be left in any order") {
     MediaStacks stacks;
     CHECK(stacks.top(empty_space) == no_medium);
     Media media = stacks.entered(stacks.entered(empty_space, 7), 3);
     CHECK(stacks.top(media) == 3);
     media = stacks.left(media, 7);
     CHECK(stacks.top(media) == 3);
-    CHECK(media == stacks.entered(empty_space, 3)); // the same is said once
+    CHECK(media == stacks.entered(empty_space, 3)); // equal stacks are stored once
     CHECK(stacks.left(media, 5) == media);          // never entered
     CHECK(stacks.left(media, 3) == empty_space);
 
@@ -259,7 +257,7 @@ TEST_CASE("media nest, and are left in any order") {
         CHECK(stacks.top(media) == material);
         media = stacks.left(media, material);
     }
-    CHECK(stacks.top(media) == 0); // however deep, none is forgotten
+    CHECK(stacks.top(media) == 0); // a deep stack forgets no medium
 }
 
 TEST_CASE("a camera may stand inside of bodies") {
@@ -279,7 +277,7 @@ TEST_CASE("a camera may stand inside of bodies") {
     CHECK(length == Approx(3.5).epsilon(0.02));
     CHECK(alone.y == Approx(std::exp(-0.25 * length)).epsilon(exactly));
     CHECK(alone.z == 1.0); // no fog in here
-    // A ball of water in water cannot be seen, nor one around the camera.
+    // A ball of water in water cannot be seen, even if it surrounds the camera.
     for (const float z : {-2.0F, 0.0F}) {
         const Vec3d with_ball = seen([&](Builder& builder) {
             builder.add_shape(Sphere{{0.2F, 0, z}, 1}, water);
@@ -287,12 +285,12 @@ TEST_CASE("a camera may stand inside of bodies") {
         CHECK(with_ball.x == Approx(alone.x).epsilon(exactly));
         CHECK(with_ball.y == Approx(alone.y).epsilon(exactly));
     }
-    // Where a bubble's glass ends, the water goes on.
+    // The glass around the camera does not absorb. Behind it, the water goes on.
     const Vec3d from_glass = seen([&](Builder& builder) {
         builder.add_shape(Sphere{{0, 0, 0}, 1}, glass(1.25F));
     });
     CHECK(from_glass.x == Approx(std::exp(1.0 - length)).epsilon(exactly));
-    // Under the surface of a sea without end.
+    // Under the surface of an infinite sea.
     Builder sea;
     sea.background = Color(1.0F);
     sea.add_shape(Plane{{0, 3, 0}, {0, 1, 0}}, water);
@@ -305,15 +303,16 @@ TEST_CASE("nothing is reflected between equal indices") {
     for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
         for (const double sine : {0.0, 0.5, 0.999999, 1.0})
             CHECK(reflectance_at(reflection, sine, 1.5, 1.5) == 0.0);
-    // Just beyond 1 by rounding: total for no ray into the denser side.
+    // Rounding makes the sine just larger than 1. Only a ray into the thinner medium is reflected
+    // totally.
     const Vec3d grazing{1.0 + 1e-15, 0.0, 0.0};
     CHECK_FALSE(refract(grazing, {0, 0, 1}, 1.5, 1.5).total);
     CHECK_FALSE(refract(grazing, {0, 0, 1}, 1.0, 1.0).total);
     CHECK(refract(grazing, {0, 0, 1}, 1.5, 1.0).total);
 }
 
-TEST_CASE("an apex is seen from wherever it is hit") {
-    // From below, beside a needle: its axis, which stands in for the normal, points away.
+TEST_CASE("an apex is seen from every direction that hits it") {
+    // Seen from below: the needle's axis, which replaces the normal at the apex, points away.
     Builder builder;
     builder.background = Color(1.0F);
     Material lacquer = black();

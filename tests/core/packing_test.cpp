@@ -22,7 +22,7 @@ constexpr float tiny = std::numeric_limits<float>::min();
 constexpr float huge = coordinate_limit;
 
 bool same_bits(const Block<Sphere>& a, const Block<Sphere>& b) {
-    return std::memcmp(&a, &b, sizeof a) == 0; // NaN in what is empty
+    return std::memcmp(&a, &b, sizeof a) == 0; // empty lanes hold NaN
 }
 
 float with_pattern(std::uint32_t pattern) {
@@ -33,7 +33,7 @@ std::uint32_t pattern_of(float number) {
     return std::bit_cast<std::uint32_t>(number);
 }
 
-/// A block by itself, packed.
+/// Packs a single block.
 PackedSpheres packed_alone(const Block<Sphere>& block, const RadiusPalette& palette) {
     PackedSpheres packed;
     packed.palette = palette;
@@ -54,7 +54,7 @@ void check_exact(const Block<Sphere>& block, const RadiusPalette& palette) {
     }
 }
 
-/// One number of the sort that makes packing hard.
+/// Returns a number that makes packing hard.
 float hard_number(Random& random, float near) {
     switch (random.integer(0, 9)) {
     case 0:
@@ -105,7 +105,7 @@ RadiusPalette palette_of(const std::vector<float>& radii, std::size_t id_count) 
 
 } // namespace
 
-TEST_CASE("packed spheres have the bits of plain ones, whatever these are") {
+TEST_CASE("packed spheres have the same bits as plain ones") {
     Random random(5);
     const RadiusPalette palette = palette_of({1, 2, 3, 4}, 1'000'000);
     int packed_rows = 0;
@@ -117,7 +117,7 @@ TEST_CASE("packed spheres have the bits of plain ones, whatever these are") {
     CHECK(packed_rows > 3000);
 }
 
-TEST_CASE("rows whose patterns are 2^24 apart or more stand by themselves") {
+TEST_CASE("rows with bit patterns that are 2^24 or more apart are stored whole") {
     const RadiusPalette palette = palette_of({1}, 16);
     const auto rows = [&](float first, float second) {
         Block<Sphere> block;
@@ -139,7 +139,7 @@ TEST_CASE("rows whose patterns are 2^24 apart or more stand by themselves") {
     CHECK(rows(huge, tiny) == 1);
 }
 
-TEST_CASE("radii for which the ids leave no bits stand by themselves") {
+TEST_CASE("radii that do not fit in a word with the ids are stored whole") {
     const std::pair<std::size_t, std::size_t> most_radii[] = {{0, 256},
                                                               {1, 256},
                                                               {std::size_t{1} << 24, 255},
@@ -164,7 +164,7 @@ TEST_CASE("radii for which the ids leave no bits stand by themselves") {
         }
         CHECK(whole >= static_cast<int>((radii.size() - palette.size()) / block_size));
         CHECK(whole < 20);
-        // The last of both, which is not to be the word of an empty lane.
+        // The last radius with the last id must not have the word of an empty lane.
         Block<Sphere> last;
         last.set(0, {{1, 1, 1}, palette.radii()[palette.size() - 1]},
                  static_cast<ShapeId>(last_id));
@@ -177,7 +177,7 @@ TEST_CASE("radii for which the ids leave no bits stand by themselves") {
 
 namespace {
 
-/// Tasks in another order, on as many threads.
+/// Runs tasks in reverse order on several threads.
 class Spread : public Workers {
   public:
     explicit Spread(int threads) : threads_(threads) {}
@@ -200,7 +200,7 @@ class Spread : public Workers {
 Table<Sphere> table_of(int count, double lower, double upper, int radii, Random& random) {
     ShapeList<Sphere> list;
     for (int i = 0; i < count; ++i) {
-        // As if the hierarchy had put them in order.
+        // In order, as the hierarchy would leave them.
         const double at = lower + (upper - lower) * i / count;
         const auto near = [&] { return static_cast<float>(at + random.uniform(0.0, 1.0)); };
         list.add(Sphere{{near(), near(), near()}, static_cast<float>(1 + random.integer(1, radii))},
@@ -211,7 +211,7 @@ Table<Sphere> table_of(int count, double lower, double upper, int radii, Random&
 
 } // namespace
 
-TEST_CASE("a table of many spheres is packed, and has the same ones") {
+TEST_CASE("a table of many spheres is packed and keeps its spheres") {
     Random random(6);
     Workers alone;
     for (const int radii : {1, 5, 200, 260}) {
@@ -234,9 +234,9 @@ TEST_CASE("a table of many spheres is packed, and has the same ones") {
     }
 }
 
-TEST_CASE("packed spheres are the same bits on any number of threads, and the plain ones") {
+TEST_CASE("packed spheres have the same bits on any number of threads") {
     Random random(7);
-    // Of many tasks, each with rows elsewhere.
+    // Large enough for many tasks, each with rows that are stored whole.
     Table<Sphere> plain = table_of(70'001, -3'000, 4'000, 258, random);
     const auto packed_by = [&](int threads) {
         Table<Sphere> table = plain;
@@ -261,7 +261,7 @@ TEST_CASE("packed spheres are the same bits on any number of threads, and the pl
     }
 }
 
-TEST_CASE("the radii that have numbers are the most frequent, wherever they are met") {
+TEST_CASE("the palette holds the most frequent radii wherever they occur") {
     ShapeList<Sphere> list;
     for (int i = 0; i < 20'000; ++i) {
         const float at = 1000.0F + static_cast<float>(i);
@@ -276,7 +276,7 @@ TEST_CASE("the radii that have numbers are the most frequent, wherever they are 
     CHECK(table.packed()->rows.size() < 20);
 }
 
-TEST_CASE("a table that would not be much smaller stays as it is") {
+TEST_CASE("a table that packing would hardly shrink stays plain") {
     Workers alone;
     ShapeList<Sphere> far_apart;
     for (int i = 0; i < 1000; ++i) {
@@ -288,14 +288,14 @@ TEST_CASE("a table that would not be much smaller stays as it is") {
     Table<Sphere> table(far_apart);
     pack_spheres(table, 1000, 0, alone);
     CHECK(!table.is_packed());
-    // Of as many radii as spheres.
+    // Nearly every sphere has a different radius.
     Random random(8);
     Table<Sphere> radii = table_of(9'000, 1'000, 1'900, 1'000'000, random);
     pack_spheres(radii, 9'000, 0, alone);
     CHECK(!radii.is_packed());
 }
 
-TEST_CASE("materials of shapes take as many bytes as their largest number") {
+TEST_CASE("material indices take as few bytes as the largest of them needs") {
     MaterialIndices indices;
     std::vector<MaterialIndex> expected;
     indices.reserve(400);

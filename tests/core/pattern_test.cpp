@@ -35,7 +35,7 @@ TEST_CASE("a checker changes from cell to cell along its axes") {
     CHECK(at(floor, {1, 3, 1}) == 1.0);
 }
 
-TEST_CASE("what rounding takes to either side of an edge is of the cell that begins there") {
+TEST_CASE("a point that rounding moves across an edge belongs to the cell that begins there") {
     Pattern checker = two_colors(PatternKind::checker);
     checker.axes = 7;
     checker.size = 0.1F;
@@ -93,7 +93,7 @@ TEST_CASE("a gradient is constant beyond its ends") {
     CHECK(at(gradient, {7, 6, 7}) == 1.0);
 }
 
-TEST_CASE("the back plane is a sun before bands, line by line as its source has it") {
+TEST_CASE("the back plane has the colours of its source") {
     Pattern plane;
     plane.kind = PatternKind::back_plane;
     const auto color = [&](double x, double y) { return color_at(plane, Vec3d(x, y, -42)); };

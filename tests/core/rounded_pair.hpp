@@ -2,7 +2,7 @@
 
 namespace raylane::tests {
 
-/// Two doubles, rounded to float, and these widened.
+/// Rounds two doubles to float and widens the results.
 void round_and_widen(const double* from, float* rounded, double* widened);
 
 } // namespace raylane::tests

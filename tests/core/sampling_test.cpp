@@ -13,7 +13,7 @@ using namespace little_scene;
 
 namespace {
 
-/// True if each of so many columns and rows has one of the points.
+/// Returns whether no two points share a cell of a grid of `columns` x `rows`.
 bool is_net(const std::vector<SamplePoint>& points, int columns, int rows) {
     std::set<int> cells;
     for (const SamplePoint& point : points)
@@ -24,7 +24,7 @@ bool is_net(const std::vector<SamplePoint>& points, int columns, int rows) {
 
 } // namespace
 
-TEST_CASE("points of a pixel's sequence are spread over it, wherever one begins") {
+TEST_CASE("each aligned run of a pixel's sequence is spread over the pixel") {
     for (const std::uint32_t pixel : {0U, 1U, 77U, 40000U})
         for (int power = 0; power <= 10; ++power) {
             const std::uint32_t count = 1U << power;
@@ -75,8 +75,8 @@ TEST_CASE("points on lights are spread over pixels and squares of pixels") {
     CHECK(first_of({1, 2, 4, 4}, 0) != first_of({1, 3, 4, 4}, 0));
 }
 
-/// Else a picture has what one side of the lens sees on one side of its pixels.
-TEST_CASE("shuffled points of one sequence say nothing of another's") {
+/// Otherwise, one side of each pixel would show the view from one side of the lens.
+TEST_CASE("shuffled points of one sequence do not correlate with another sequence") {
     constexpr std::uint32_t pixels = 256, count = 64, grid = 8;
     const auto side = [](double x) { return x < 0.5 ? -1.0 : 1.0; };
     double with_sequence = 0.0, with_column = 0.0, with_row = 0.0; // squares of correlations
@@ -95,7 +95,7 @@ TEST_CASE("shuffled points of one sequence say nothing of another's") {
         with_column += column * column / pixels;
         with_row += row * row / pixels;
     }
-    // Of what has the same order it is 1; of what has nothing in common, 1 / 64.
+    // The value is 1 for sequences in the same order, and 1 / 64 for independent ones.
     CHECK(with_sequence < 0.05);
     CHECK(with_column < 0.05);
     CHECK(with_row < 0.05);
@@ -103,8 +103,8 @@ TEST_CASE("shuffled points of one sequence say nothing of another's") {
 
 TEST_CASE("a filter's samples have its density") {
     constexpr int count = 4096;
-    // Standard deviations in pixels: of a square, of a normal distribution cut off at three of its
-    // own, and the window's, by its integral.
+    // Standard deviations in pixels: of a uniform distribution, of a normal distribution that is
+    // cut off at three standard deviations, and of the window, by its integral.
     const std::pair<PixelFilter, double> filters[] = {{PixelFilter::box, std::sqrt(1.0 / 12.0)},
                                                       {PixelFilter::gaussian, 0.4790},
                                                       {PixelFilter::blackman_harris, 0.4155}};
@@ -127,7 +127,7 @@ TEST_CASE("a filter's samples have its density") {
     }
 }
 
-TEST_CASE("a filter spreads an edge over its reach, and keeps what is even") {
+TEST_CASE("a filter spreads an edge over its reach and keeps even areas") {
     for (const PixelFilter filter : {PixelFilter::gaussian, PixelFilter::blackman_harris}) {
         Builder builder;
         builder.settings.width = 8;

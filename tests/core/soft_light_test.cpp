@@ -47,7 +47,8 @@ Light rectangle_light(const Vec3f& corner, const Vec3f& u, const Vec3f& v) {
     return light;
 }
 
-/// What a surface shows of the light, of its radiance; and its solid angle over pi.
+/// A surface's irradiance in units of pi times the light's radiance, and the light's solid angle in
+/// units of pi.
 struct Shown {
     double by_cosine = 0.0, solid_angle = 0.0;
 };
@@ -74,7 +75,7 @@ Shown shown(const Light& light, const Vec3d& point, const Vec3d& normal) {
     return shown(light, point, normal, [](const LightSample<double>&) {});
 }
 
-/// By the Gaussian quadrature's plain relative: midpoints of small cells.
+/// Integrates by the midpoint rule over small cells.
 double solid_angle_of_disc(const Vec3d& middle, const Vec3d& normal, double radius,
                            const Vec3d& point) {
     const Vec3d x =
@@ -102,7 +103,7 @@ double solid_angle_of_rectangle(double x0, double x1, double y0, double y1, doub
 
 } // namespace
 
-TEST_CASE("samples of a sphere light are spread evenly over what is seen of it") {
+TEST_CASE("samples of a sphere light are spread evenly over its visible solid angle") {
     Random random(1);
     for (int round = 0; round < 40; ++round) {
         const double radius = random.log_uniform(0.01, 10.0);
@@ -124,7 +125,7 @@ TEST_CASE("samples of a sphere light are spread evenly over what is seen of it")
             CHECK(of.solid_angle ==
                   Approx(2.0 * (1.0 - std::sqrt(1.0 - r * r / (d * d)))).epsilon(1e-6));
         } else {
-            CHECK(of.by_cosine == Approx(1.0).epsilon(1e-3)); // all of the hemisphere
+            CHECK(of.by_cosine == Approx(1.0).epsilon(1e-3)); // the light covers the hemisphere
             CHECK(of.solid_angle == Approx(4.0).epsilon(1e-12));
         }
         if (d < 2.0 * r) continue;
@@ -132,12 +133,12 @@ TEST_CASE("samples of a sphere light are spread evenly over what is seen of it")
         const Shown slanted = shown(light, point, aslant);
         CHECK(slanted.by_cosine == Approx(dot(aslant, normal) * r * r / (d * d)).epsilon(1e-3));
     }
-    // In its very middle.
+    // From the middle of the light.
     const Shown from_middle = shown(sphere_light({1, 2, 3}, 2.0F), {1, 2, 3}, {0, 1, 0});
     CHECK(from_middle.by_cosine == Approx(1.0).epsilon(1e-3));
 }
 
-TEST_CASE("samples of a disc light are on it, and count for its solid angle") {
+TEST_CASE("samples of a disc light lie on it and add up to its solid angle") {
     Random random(2);
     for (int round = 0; round < 40; ++round) {
         const Vec3f middle = rounded(random.cube(3.0)), axis = rounded(random.cube(2.0));
@@ -158,13 +159,14 @@ TEST_CASE("samples of a disc light are on it, and count for its solid angle") {
         });
         const double expected = solid_angle_of_disc(m, normal, r, point) / pi;
         CHECK(of.solid_angle == Approx(expected).epsilon(2e-4));
-        CHECK(most < 2.0 * (1.0 + r / height) * least); // nearly all count alike
+        CHECK(most < 2.0 * (1.0 + r / height) * least); // weights are nearly equal
     }
-    // Straight above its middle it is known.
+    // Closed forms for a point straight below the middle.
     const Shown above = shown(disc_light({0, 3, 0}, {0, -1, 0}, 2.0F), {0, 0, 0}, {0, 1, 0});
     CHECK(above.by_cosine == Approx(4.0 / 13.0).epsilon(1e-4));
     CHECK(above.solid_angle == Approx(2.0 * (1.0 - 3.0 / std::sqrt(13.0))).epsilon(1e-6));
-    // In its plane it is not seen; nearly there, hardly.
+    // A point in the disc's plane does not see it. A point beside it, close to the plane, hardly
+    // does.
     CHECK(shown(disc_light({0, 0, 0}, {0, 1, 0}, 2.0F), {5, 0, 0}, {0, 1, 0}).solid_angle == 0.0);
     CHECK(shown(disc_light({0, 0, 0}, {0, 1, 0}, 2.0F), {1, 0, 0}, {0, 1, 0}).solid_angle == 0.0);
     const Shown beside = shown(disc_light({0, 0, 0}, {0, 1, 0}, 2.0F), {5, 1e-9, 0}, {0, 1, 0});
@@ -201,15 +203,15 @@ TEST_CASE("samples of a rectangle light are spread evenly by solid angle") {
                           (2.0 * pi);
     const Light corner = rectangle_light({0, 2, 0}, {3, 0, 0}, {0, 0, 1});
     CHECK(shown(corner, {0, 0, 0}, {0, 1, 0}).by_cosine == Approx(factor).epsilon(1e-5));
-    // In its plane, beside it and on it, it is not seen.
+    // Points in its plane, beside it or on it, do not see it.
     CHECK(shown(corner, {-1, 2, 0}, {0, 1, 0}).solid_angle == 0.0);
     CHECK(shown(corner, {1, 2, 0.5}, {0, 1, 0}).solid_angle == 0.0);
-    // Far away it is as a point.
+    // From far away, it acts as a point light.
     const Shown far = shown(corner, {0, -1e6, 0}, {0, 1, 0});
     CHECK(far.by_cosine == Approx(3.0 / (pi * 1e12)).epsilon(1e-5));
 }
 
-TEST_CASE("samples are the same whatever rounding leaves where a normal has a 0") {
+TEST_CASE("a rounding error in the 0 of a normal does not move samples") {
     Light sky, ball;
     sky.kind = LightKind::sky;
     sky.direction = {0, 1, 0};
@@ -246,7 +248,7 @@ TEST_CASE("samples are the same whatever rounding leaves where a normal has a 0"
     }
 }
 
-TEST_CASE("samples of the sky are by the cosine, and show its colours") {
+TEST_CASE("samples of the sky follow the cosine and show its colours") {
     Light light;
     light.kind = LightKind::sky;
     light.direction = {0, -3, 0};
@@ -269,7 +271,7 @@ TEST_CASE("samples of the sky are by the cosine, and show its colours") {
             height += sample.height / count;
         }
         CHECK(cosine == Approx(2.0 / 3.0).epsilon(1e-3));
-        // Half of it, and half of two thirds of the normal's height.
+        // The mean height is 1/2, plus 1/2 of 2/3 of the normal's height.
         CHECK(height == Approx(0.5 + normal.y / 3.0).margin(1e-3));
     }
 }

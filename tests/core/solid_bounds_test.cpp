@@ -12,7 +12,7 @@ using namespace raylane;
 using namespace raylane::core;
 using ray_sets::Random;
 
-/// Where parts of large solids may be seen.
+/// Bounds of the visible surface of each part of a large solid.
 
 namespace {
 
@@ -34,7 +34,7 @@ Scene scene_of(const Solid& solid) {
     return std::move(builder).build();
 }
 
-/// Solids of solids, so many balls in all.
+/// Returns a random solid of solids, of at most `balls` balls.
 Solid any_solid(Random& random, int balls, int depth, bool large = true) {
     if (balls == 1 || depth == 0)
         return large ? ball(random.cube(1.0), random.uniform(3.0, 6.0))
@@ -60,8 +60,8 @@ std::vector<SphereOf<double>> balls_of(const Solid& solid) {
     return all;
 }
 
-/// Whether a point is inside of a solid if it is, or is not, inside of the ball of a number.
-/// `number`: of the next ball.
+/// Returns whether a point is inside of a solid if `of_ball` says whether it is inside of the ball
+/// with the number `ball`. `number` is the number of the next ball.
 bool is_inside(const Solid& solid, const Vec3d& point, std::size_t ball, bool of_ball,
                std::size_t& number) {
     if (solid.made == Made::of_shape) {
@@ -81,7 +81,7 @@ bool is_inside(const Solid& solid, const Vec3d& point, std::size_t ball, bool of
 
 } // namespace
 
-TEST_CASE("A part's bounds have all of its surface that is the solid's") {
+TEST_CASE("a part's bounds contain all of its surface that is the solid's") {
     Random random(1);
     int seen = 0;
     for (int round = 0; round < 60; ++round) {
@@ -114,7 +114,7 @@ TEST_CASE("A part's bounds have all of its surface that is the solid's") {
     CHECK(seen > 1000);
 }
 
-TEST_CASE("Hundreds of facets have different bounds") {
+TEST_CASE("bounds of hundreds of facets are small on average") {
     constexpr int count = 300;
     Solid solid{Made::by_intersection};
     for (int i = 0; i < count; ++i) { // on a spiral of Fibonacci's
@@ -128,10 +128,10 @@ TEST_CASE("Hundreds of facets have different bounds") {
     for (ShapeId id = 0; id < count; ++id)
         area += scene.solids().bounds_of(id)->half_area();
     CAPTURE(area / count);
-    CHECK(area / count < 6.0); // of the whole, 12
+    CHECK(area / count < 6.0); // 12 for the whole solid
 }
 
-TEST_CASE("Solids of very many parts are built part by part, not pair by pair") {
+TEST_CASE("solids of very many parts are built part by part and not pair by pair") {
     Random random(2);
     std::vector<Solid> parts;
     SECTION("that are nearly the same") {

@@ -16,7 +16,7 @@ using ray_sets::Set;
 
 namespace {
 
-/// Steps between two floats on the line of floats.
+/// Returns the number of steps between two floats in the order of all floats.
 std::int64_t ulps_between(float a, float b) {
     const auto rank = [](float f) {
         std::int32_t bits = 0;
@@ -45,7 +45,7 @@ struct Tally {
     std::uint64_t widened = 0;
 };
 
-/// First crossing ahead by the double solver, against the oracle.
+/// Compares the double solver's first crossing ahead with the oracle's.
 template <class Shape>
 void compare(const Shape& shape, const Ray<float>& ray, Tally& tally) {
     const auto truth = oracle::first_hit(shape, ray);
@@ -115,7 +115,7 @@ TEMPLATE_TEST_CASE("the same formulas in the oracle's numbers agree with the ora
     CHECK(compared > 30);
 }
 
-// Reason for the double reference to look at its own error: without, simple coordinates already
+// The reason why the double reference checks its own error: without that, even simple coordinates
 // mislead it.
 TEMPLATE_TEST_CASE("double without error bounds decides wrongly", "", Sphere, CappedCylinder,
                    CappedCone) {

@@ -9,7 +9,7 @@ using namespace raylane::core;
 
 namespace {
 
-/// Two balls beside each other, a floor without an end, and a camera of their own.
+/// Returns two balls side by side, an infinite floor, and a camera.
 SceneBuilder some_balls() {
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -29,7 +29,7 @@ Scene staged_balls(const Staging& staging) {
     return std::move(builder).build();
 }
 
-/// How far a ball reaches towards the edges of a perspective picture: 1 at one of them.
+/// Returns how far a ball reaches towards the edges of a perspective image: 1 is at an edge.
 double reach_of(const Camera& camera, double aspect, const Vec3d& center, double radius) {
     const Vec3d from = convert<double>(camera.from), to = convert<double>(camera.at) - from;
     const Vec3d forward = 1.0 / length(to) * to;
@@ -58,7 +58,7 @@ bool same(const Vec3f& a, const Vec3f& b) {
 
 } // namespace
 
-TEST_CASE("a camera that finds its place sees all that has an end, and little more") {
+TEST_CASE("a camera that finds its place sees all bounded shapes and little more") {
     const Scene scene = staged_balls({.framing = Framing{.direction = {-1, -1, -1}}});
     CHECK(reach_of_balls(scene.camera()) < 1.0);
     CHECK(reach_of_balls(scene.camera()) > 0.9);
@@ -66,7 +66,7 @@ TEST_CASE("a camera that finds its place sees all that has an end, and little mo
     CHECK(scene.fog().kind == FogKind::none);
 }
 
-TEST_CASE("a camera that finds nothing says so") {
+TEST_CASE("a camera that has nothing to find its place by is refused") {
     SceneBuilder builder;
     builder.add(Plane{{0, 0, 0}, {0, 1, 0}}, builder.add_material({}));
     builder.staging = {.framing = Framing{}, .lights = true};
@@ -79,7 +79,7 @@ TEST_CASE("a camera that finds nothing says so") {
     }
 }
 
-TEST_CASE("a camera brings lights and a depth cue along, which a scene without lights needs") {
+TEST_CASE("a camera brings lights and a depth cue to a scene without lights") {
     const Scene scene = staged_balls({.framing = Framing{}, .lights = true, .depth_cue = 0.5F});
     CHECK(scene.own_light_count() == 0);
     REQUIRE(scene.lights().size() == 2);
@@ -88,13 +88,13 @@ TEST_CASE("a camera brings lights and a depth cue along, which a scene without l
     CHECK(scene.fog().kind == FogKind::linear);
     CHECK(scene.fog().start > 0.0F);
     CHECK(scene.fog().end > scene.fog().start);
-    // The same for a camera that has its place.
+    // A camera with a given place brings the same lights.
     const Scene own = staged_balls({.framing = std::nullopt, .lights = true});
     CHECK(own.lights().size() == 2);
     CHECK(same(own.camera().from, {0, 2, 20}));
 }
 
-TEST_CASE("a camera that goes around keeps its distance and its height, and sees all") {
+TEST_CASE("an orbiting camera keeps its target and height and sees all balls") {
     const Staging staging{
         .framing = Framing{.direction = {-1, -1, -1}}, .lights = true, .turning = true};
     const Scene scene = staged_balls(staging);
@@ -110,20 +110,20 @@ TEST_CASE("a camera that goes around keeps its distance and its height, and sees
               same(other.camera.from, view.camera.from));
     }
     CHECK(same(turned(view, up, 360.0).camera.from, view.camera.from));
-    // To its right: from the front it comes to the right side.
+    // It turns to its right: from the front it comes to the right side.
     const View front{{.from = {0, 0, 5}, .at = {0, 0, 0}}, {}, {}};
     CHECK(same(turned(front, up, 90.0).camera.from, {5, 0, 0}));
     CHECK(same(turned(front, {0, 3, 0}, 180.0).camera.from, {0, 0, -5}));
 }
 
-TEST_CASE("solids that are made of others are seen as wholes, discs as discs") {
+TEST_CASE("solids of solids are framed as wholes and discs as discs") {
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
     const auto camera_of = [&](SceneBuilder from) {
         from.staging = {.framing = Framing{}, .lights = true};
         return std::move(from).build().camera();
     };
-    // What is cut off of a large ball by a small box is as small as that.
+    // The intersection of a large ball with a small box is as small as the box.
     Solid solid{.made = Made::by_intersection,
                 .parts = {{.shape = SphereOf<double>{{0, 0, 0}, 100.0}},
                           {.shape = BoxOf<double>{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}}}};
@@ -137,7 +137,7 @@ TEST_CASE("solids that are made of others are seen as wholes, discs as discs") {
     SceneBuilder square;
     const MaterialIndex of_sphere = square.add_material({});
     square.add(Sphere{{0, 0, 0}, 1}, of_sphere);
-    // A ball of the same radius has an outline before its middle.
+    // The outline of a ball of the same radius is in front of its middle.
     CHECK(from_front < camera_of(std::move(square)).from.z);
     CHECK(from_front > 3.0F);
 }

@@ -18,7 +18,8 @@ Light point_light(const Vec3f& position) {
     return light;
 }
 
-/// Reflects half of the light that falls on it at a right angle, and no ambient light.
+/// Returns a material that reflects half of the light that falls on it at a right angle, and no
+/// ambient light.
 Material matte() {
     Material material = luminous();
     material.ambient = 0.0F;
@@ -26,7 +27,8 @@ Material matte() {
     return material;
 }
 
-/// A matte floor seen from (0, 5, 0), lit from (0, 10, 0), with a shape in between.
+/// Returns the colour at the origin of a matte floor that is lit from (0, `light_height`, 0), with
+/// a shape above it.
 template <class Shape>
 Vec3d floor_below(const Shape& shape, const Material& material, float light_height = 10.0F) {
     Builder builder;
@@ -36,7 +38,7 @@ Vec3d floor_below(const Shape& shape, const Material& material, float light_heig
     return color_along<double>(scene, {0.5, 0.5, 0}, {-0.5, -0.5, 0});
 }
 
-/// Lit from both sides of the plane y = 0.
+/// Returns a scene that is lit from both sides of the plane y = 0.
 Scene between_lights(const SmoothTriangle& triangle) {
     Builder builder;
     builder.add_shape(triangle, matte());
@@ -46,7 +48,7 @@ Scene between_lights(const SmoothTriangle& triangle) {
 
 } // namespace
 
-TEST_CASE("diffuse light falls with the cosine, and not with the distance") {
+TEST_CASE("diffuse light falls with the cosine and not with the distance") {
     Builder builder;
     builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, matte());
     const Scene scene = builder.finish(point_light({3, 4, 0}));
@@ -56,7 +58,7 @@ TEST_CASE("diffuse light falls with the cosine, and not with the distance") {
     CHECK(gray_along(scene, {0, -1, 0}, {0, 1, 0}) == 0.0);
 }
 
-TEST_CASE("a highlight is Blinn's") {
+TEST_CASE("a highlight follows Blinn's model") {
     Material shiny = black();
     shiny.specular = 0.5F;
     shiny.exponent = 8.0F;
@@ -68,7 +70,7 @@ TEST_CASE("a highlight is Blinn's") {
           Approx(0.5 * std::pow(0.9, 4.0)).epsilon(exactly));
 }
 
-TEST_CASE("lights add up, and directional ones have no place") {
+TEST_CASE("lights add up and directional lights have no place") {
     Builder builder;
     builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, matte());
     builder.add_light(point_light({0, 1, 0}));
@@ -82,7 +84,7 @@ TEST_CASE("lights add up, and directional ones have no place") {
     CHECK(color.z == Approx(0.5 * (1.0 + 0.75 * 0.8)).epsilon(exactly));
 }
 
-TEST_CASE("what is opaque and before the light makes a shadow") {
+TEST_CASE("an opaque shape in front of a light casts a shadow") {
     const Sphere sphere{{0, 5, 0}, 1};
     CHECK(floor_below(sphere, black()).x == 0.0);
     CHECK(floor_below(sphere, black(), 3.0F).x == Approx(0.5).epsilon(exactly));
@@ -91,7 +93,7 @@ TEST_CASE("what is opaque and before the light makes a shadow") {
     CHECK(floor_below(Disc{{0, 5, 0}, {0, -1, 0}, 1}, black()).x == 0.0);
 }
 
-TEST_CASE("what a transmissive body lets through, its shadow lets through") {
+TEST_CASE("light in a transmissive body's shadow is attenuated as light through it") {
     const Box slab{{-1, 4, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
     CHECK(floor_below(slab, glass(1.5F)).x == Approx(0.5).epsilon(exactly));
 
@@ -112,7 +114,7 @@ TEST_CASE("what a transmissive body lets through, its shadow lets through") {
     CHECK(floor_below(slab, tinted, 5.0F).y == Approx(0.5 * std::exp(-0.5)).epsilon(exactly));
 }
 
-TEST_CASE("a shadow's glass reflects by the angle outside of it") {
+TEST_CASE("the glass that a shadow ray crosses reflects by the angle outside of it") {
     // Light from (3, 4, 0) through a slab; its straight line has a cosine of 0.8 there.
     const double n = 1.5, cosine = 0.8, cosine_inside = std::sqrt(1.0 - 0.36 / (n * n));
     const auto square = [](double a) { return a * a; };
@@ -133,7 +135,7 @@ TEST_CASE("a shadow's glass reflects by the angle outside of it") {
 }
 
 TEST_CASE("light passes from body to touching body without a gap") {
-    // Of one index, they are one body: only its ends reflect. Their common face is where t rounds.
+    // Two bodies of one index are one: only its ends reflect. At their common face, t is rounded.
     const auto seen = [](bool in_two) {
         Builder builder;
         builder.add_shape(Plane{{0, 0.1F, 0}, {0, 1, 0}}, matte());
@@ -159,7 +161,7 @@ TEST_CASE("light passes from body to touching body without a gap") {
         REQUIRE(two[i] == Approx(one[i]).epsilon(1e-9));
 }
 
-TEST_CASE("a one-sided surface is not there for rays to its other side") {
+TEST_CASE("a one-sided surface does not exist for rays to its other side") {
     Material outside_only = luminous();
     outside_only.visible = Visible::outside;
     Material inside_only = luminous();
@@ -180,7 +182,7 @@ TEST_CASE("a one-sided surface is not there for rays to its other side") {
     CHECK(floor_below(disc, inside_only).x == 0.0);
 }
 
-TEST_CASE("paths end at the depth limit, or where their weight is small") {
+TEST_CASE("paths end at the depth limit or where their weight is small") {
     const auto between_mirrors = [](int max_depth, float min_weight) {
         Material half = mirror(0.5F);
         half.ambient = 1.0F;
@@ -208,20 +210,20 @@ TEST_CASE("fog is absent at its first plane and complete at its second") {
         return color_along<double>(builder.finish(), {0, 0, from_z}, {0, 0, -1});
     };
     const auto mixed = [](double f) { return Vec3d(1.0 - f, 0.0, f); };
-    // By world z, wherever the ray comes from.
+    // Fog by world z, wherever the ray starts.
     CHECK(seen(4.0F, FogKind::linear_z, 20.0) == mixed(0.0));
     CHECK(seen(3.0F, FogKind::linear_z, 20.0) == mixed(0.0));
     CHECK(seen(5.0F, FogKind::linear_z, 20.0) == mixed(0.25));
     CHECK(seen(8.0F, FogKind::linear_z, 9.0) == mixed(1.0));
     CHECK(seen(9.0F, FogKind::linear_z, 20.0) == mixed(1.0));
-    // By distance.
+    // Fog by distance.
     CHECK(seen(0.0F, FogKind::linear, 3.0) == mixed(0.0));
     CHECK(seen(0.0F, FogKind::linear, 4.0) == mixed(0.0));
     CHECK(seen(0.0F, FogKind::linear, 6.0) == mixed(0.5));
     CHECK(seen(0.0F, FogKind::linear, 8.0) == mixed(1.0));
     CHECK(seen(0.0F, FogKind::linear, 20.0) == mixed(1.0));
     CHECK(seen(0.0F, FogKind::exponential, 4.0).z == Approx(1.0 - std::exp(-1.0)));
-    // Of what is infinitely far.
+    // A ray that hits nothing ends infinitely far away.
     const auto missed = [&](FogKind kind, float start, float end) {
         Builder builder;
         builder.fog = {kind, {0.0F, 0.0F, 1.0F}, start, end, 0.25F};
@@ -260,20 +262,20 @@ TEST_CASE("a path ends behind fog that takes its weight") {
     CHECK(seen(0.51F) == 0.0);
 }
 
-TEST_CASE("fog lies on reflected rays too, segment by segment") {
+TEST_CASE("fog covers reflected rays segment by segment") {
     Builder builder;
     builder.fog = {FogKind::linear, {0.0F, 0.0F, 1.0F}, 0.0F, 8.0F, 0.0F};
     builder.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, mirror());
     builder.add_shape(Plane{{0, 0, 4}, {0, 0, -1}}, luminous({1.0F, 0.0F, 0.0F}));
-    // 2 to the mirror: a quarter; 4 back: half of the rest.
+    // Over the 2 to the mirror, fog covers a quarter; over the 4 back, half of the rest.
     CHECK(color_along<double>(builder.finish(), {0, 0, 2}, {0, 0, -1}) ==
           Vec3d(0.75 * 0.5, 0.0, 0.75 * 0.5 + 0.25));
 }
 
-TEMPLATE_TEST_CASE("nothing that leaves a surface meets it again", "", float, double) {
+TEMPLATE_TEST_CASE("a ray that leaves a surface does not meet it again", "", float, double) {
     using Real = TestType;
-    // One mirror that shines a little, alone: any self-hit would add to its own colour. Far from
-    // the origin and small, where an epsilon fails (mitsuba3 #1236, #219).
+    // A single luminous mirror: any self-hit would add to its colour. Spheres are small or far from
+    // the origin, where an epsilon fails (mitsuba3 #1236, #219).
     Material shine = mirror();
     shine.ambient = 1.0F;
     shine.pattern.colors[0] = Color(1.0F);
@@ -297,7 +299,7 @@ TEMPLATE_TEST_CASE("nothing that leaves a surface meets it again", "", float, do
         }
 }
 
-TEST_CASE("a thin shell neither leaks nor darkens") {
+TEST_CASE("a thin shell does not leak or darken") {
     // mitsuba3 #1871: spheres of radius 1 and 1 + 4e-5, where a ray epsilon skips the gap.
     const auto seen = [](bool with_shell, double x) {
         Builder builder;
@@ -309,7 +311,7 @@ TEST_CASE("a thin shell neither leaks nor darkens") {
         CHECK(seen(true, 0.00999 * i) == Approx(seen(false, 0.00999 * i)).epsilon(1e-9));
 }
 
-TEST_CASE("smooth triangles shade by their corners' normals, from both sides") {
+TEST_CASE("smooth triangles shade by their corners' normals from both sides") {
     const Scene scene =
         between_lights({{-1, 0, -1}, {-1, 0, 3}, {3, 0, -1}, {0, 1, 1}, {0, 1, 1}, {0, 1, 1}});
     const double slanted = 0.5 * std::sqrt(0.5);
@@ -317,8 +319,8 @@ TEST_CASE("smooth triangles shade by their corners' normals, from both sides") {
     CHECK(gray_along(scene, {0, -1, 0}, {0, 1, 0}) == Approx(slanted).epsilon(exactly));
 }
 
-TEST_CASE("a light behind a smooth triangle does not shine on it, whatever its normals say") {
-    // The normals lean over so far that a light below the flat surface is before them.
+TEST_CASE("a light behind a smooth triangle does not shine on it for any normals") {
+    // The normals lean so far that they face a light below the flat surface.
     const SmoothTriangle triangle{{-1, 0, -1}, {-1, 0, 3}, {3, 0, -1},
                                   {3, 1, 0},   {3, 1, 0},  {3, 1, 0}};
     Builder builder;
@@ -347,7 +349,7 @@ TEST_CASE("a slanted normal sends no ray to the wrong side of the surface") {
         return color_along<double>(builder.finish(), -0.1 * direction, direction);
     };
     const Vec3d red(1, 0, 0);
-    // By the slanted normal the mirror would show what is below it.
+    // With the slanted normal, the mirror would show the plane below it.
     CHECK(seen(mirror(), {{0, 5, 0}, {0, -1, 0}}, {{0, -5, 0}, {0, 1, 0}}, {-0.5, -1, 0}) == red);
     // By the slanted normal the light would be bent up, to the right; by the flat one it is
     // reflected totally, to the left.
@@ -355,8 +357,9 @@ TEST_CASE("a slanted normal sends no ray to the wrong side of the surface") {
           red);
 }
 
-TEST_CASE("what leaves a part of a polygon does not meet another part of it") {
-    // Rounded corners have made a valley of it: from the left half the right one is in the way.
+TEST_CASE("a ray that leaves a part of a polygon does not meet another part of it") {
+    // Rounded corners make the polygon a valley: the right half is in the way of rays from the left
+    // half.
     const Triangle left{{0, 0, -1}, {0, 0, 1}, {-1, 0, 0}},
         right{{0, 0, -1}, {1, 1e-6F, 0}, {0, 0, 1}};
     Material shine = mirror();

@@ -18,7 +18,7 @@ TEST_CASE("transfer to 8 bits clamps and rounds to the nearest code") {
     CHECK(encode(100.6F / 255.0F, Transfer::linear) == 101);
 }
 
-TEST_CASE("transfer to 16 bits does the same") {
+TEST_CASE("transfer to 16 bits clamps and rounds to the nearest code") {
     for (const Transfer transfer : {Transfer::linear, Transfer::srgb}) {
         CHECK(encode_in_16_bits(0.0F, transfer) == 0);
         CHECK(encode_in_16_bits(-1.0F, transfer) == 0);
@@ -37,7 +37,7 @@ TEST_CASE("the sRGB curve passes through its known points") {
     CHECK(encode(0.18F, Transfer::srgb) == 118);      // photographers' middle grey
 }
 
-TEST_CASE("codes that are looked up are those that are worked out") {
+TEST_CASE("codes from the table are the computed codes") {
     for (const Transfer transfer : {Transfer::linear, Transfer::srgb}) {
         const Encoder look_up(transfer);
         std::uint32_t wrong = 0, last = 0;
@@ -45,7 +45,7 @@ TEST_CASE("codes that are looked up are those that are worked out") {
             const float value = std::bit_cast<float>(bits);
             wrong += look_up(value) != encode(value, transfer) ? 1 : 0;
         };
-        // Every 500th float from 0 to above 1, and beside each step of the curve all that are near.
+        // Every 500th float from 0 to above 1, and all floats near each step of the curve.
         for (std::uint32_t bits = 0; bits < std::bit_cast<std::uint32_t>(1.01F); bits += 500) {
             check(bits);
             const std::uint8_t code = encode(std::bit_cast<float>(bits), transfer);

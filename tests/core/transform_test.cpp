@@ -14,7 +14,7 @@ using tests::Random;
 
 namespace {
 
-/// True if no double is nearer.
+/// Returns whether no double is nearer.
 bool is_nearest(double value, const Whole& exact) {
     const auto distance = [&](double to) {
         const Whole off = exact - Whole(to);
@@ -57,7 +57,7 @@ Transform any_transform(Random& random, bool even) {
 
 } // namespace
 
-TEST_CASE("what is moved has each of its numbers rounded once") {
+TEST_CASE("a moved shape has each of its numbers rounded once") {
     Random random(3);
     for (int round = 0; round < 300; ++round) {
         double first[3][4], second[3][4];
@@ -86,7 +86,7 @@ TEST_CASE("what is moved has each of its numbers rounded once") {
     }
 }
 
-TEST_CASE("quarters of a turn, and powers of two, are exact") {
+TEST_CASE("quarter turns and powers of two are exact") {
     Solid solid;
     solid.shape = CylinderOf<double, Ends::capped>{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, 0.7};
     const auto turned =
@@ -100,7 +100,7 @@ TEST_CASE("quarters of a turn, and powers of two, are exact") {
     CHECK(squared_length(larger.axis) == Approx(16.0 * 0.77));
 }
 
-TEST_CASE("what is moved has inside what was inside") {
+TEST_CASE("a moved solid contains the moved points of its inside") {
     Random random(5);
     for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
         int inside = 0;
@@ -144,7 +144,7 @@ TEST_CASE("what is moved has inside what was inside") {
     });
 }
 
-TEST_CASE("fronts of what is mirrored stay fronts") {
+TEST_CASE("mirrored flat shapes keep their fronts") {
     Solid solid;
     solid.shape = TriangleOf<double>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}; // towards z
     const auto mirrored = shape_in<TriangleOf<double>>(Transform::scaling({-1, 1, 1})(solid));
@@ -154,8 +154,7 @@ TEST_CASE("fronts of what is mirrored stay fronts") {
     CHECK(shape_in<PlaneOf<double>>(Transform::scaling({-1, 2, 1})(solid)).normal.z > 0.0);
 }
 
-TEST_CASE(
-    "a stretched open cylinder or cone is endless as a part, and by itself as long as it was") {
+TEST_CASE("a stretched open cylinder or cone is infinite only as a part") {
     const Transform stretched = Transform::scaling({1, 2, 1});
     const auto moved = [&](const PartShape& shape) {
         Solid solid;
@@ -180,7 +179,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a quadric in a box has bounds, whatever else is in its solid") {
+TEST_CASE("a quadric in a box has bounds in any solid") {
     const auto part = [](const PartShape& shape) {
         Solid solid;
         solid.shape = shape;
@@ -213,7 +212,7 @@ TEST_CASE("a quadric in a box has bounds, whatever else is in its solid") {
     CHECK(builder.add_solid(in_box, material) == 0);
 }
 
-TEST_CASE("glass has an index that is a number") {
+TEST_CASE("glass without a finite index is refused") {
     SceneBuilder builder;
     Material material;
     material.glass = glass_catalogue()[0].glass;

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-/// Functions held to 256 bits, in ulps.
+/// Compares functions with results in 256 bits, in ulps.
 namespace raylane {
 
 namespace mp = boost::multiprecision;
@@ -33,7 +33,7 @@ class Random {
     std::mt19937_64 engine_{1};
 };
 
-/// Errors in ulps of the exact result.
+/// Collects errors in ulps of the exact results.
 class Errors {
   public:
     void add(double computed, const Number& exact) {
