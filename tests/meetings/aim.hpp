@@ -6,23 +6,23 @@
 
 namespace raylane::meetings {
 
-/// Place of the frame's origin in the world, and the length of a 1 there: exact where floats have
-/// room.
+/// Place of the frame's origin in the world, and the length of 1 there. Coordinates are exact as
+/// far as floats have the bits.
 class Place {
   public:
     Place(const Vec3f& offset, double size) : offset_(offset), size_(size) {}
 
-    /// From a millionth to a million in size, and now and then where floats end.
+    /// Returns a place of a size from about 1e-6 to 1e6, sometimes at the lower end of floats.
     static Place any(Random& random) {
         const int power = random.integer(0, 19) == 0  ? random.integer(-142, -125)
                           : random.integer(0, 2) == 0 ? 0
                                                       : random.integer(-20, 20);
         Place place(Vec3f(0.0F), std::ldexp(1.0, power));
         switch (random.integer(0, 5)) {
-        case 0: // anywhere near, as far as its bits go
+        case 0: // near the origin, so that few bits suffice
             place.offset_ = random.small_integers(8);
             break;
-        case 1: // far off: what is made is rounded
+        case 1: // far away: shapes are rounded
             place.offset_ = ray_sets::rounded(random.direction() * random.log_uniform(1.0, 1e6));
             break;
         default:
@@ -45,15 +45,16 @@ class Place {
     double size_;
 };
 
-/// Aims rays at a point where shapes meet, which touch in the frame's x and y there.
+/// Aims rays at a point where shapes meet. The shapes touch in the frame's plane of x and y there.
 class Aim {
   public:
-    /// `at`: in the frame.
+    /// `at` is in the frame's coordinates.
     Aim(const Frame& frame, const Place& place, const Vec3d& at)
         : frame_(frame), place_(place), at_(frame(at)) {}
 
-    /// Through the meeting, or past it by 1e-12 to 1e-3 or a few whole numbers; in whole numbers,
-    /// along the common tangent, all but along it, or any way; from near or far, either side.
+    /// Returns a ray through the meeting, or past it by 1e-12 to 1e-3 or by small integers. Its
+    /// direction has small integers, lies in the common tangent plane or almost, or is random. It
+    /// starts near or far, on either side.
     core::Ray<float> ray(Random& random) const {
         const Vec3d way = way_of(random), past = at_ + frame_(past_of(random));
         double before = random.integer(-4, 4);
@@ -61,7 +62,7 @@ class Aim {
         const Vec3f origin = ray_sets::rounded(place_(past - before * frame_(way)));
         Vec3d direction = frame_(way);
         if (random.integer(0, 2) == 0) direction *= random.log_uniform(1e-3, 1e3);
-        // Towards what is meant from where rounding has put the origin.
+        // From the rounded origin towards the exact target.
         if (random.integer(0, 2) == 0 && before != 0.0)
             direction = (place_(past) - core::convert<double>(origin)) / place_.size();
         Vec3f rounded = ray_sets::rounded(direction);
@@ -117,7 +118,7 @@ class Aim {
 
     Frame frame_;
     Place place_;
-    Vec3d at_; // in the place
+    Vec3d at_; // in the place's coordinates
 };
 
 } // namespace raylane::meetings

@@ -5,7 +5,7 @@
 /// Many shapes that meet: enough for a tree.
 namespace raylane::meetings {
 
-/// Collects shapes in a frame of its own at any place, and rays towards where they meet.
+/// Collects shapes in a random frame and place, and rays towards the points where they meet.
 class Gathering {
   public:
     explicit Gathering(Random& random)
@@ -16,7 +16,7 @@ class Gathering {
     Random& random() const { return random_; }
 
     void add(const AnyShape& shape) { meeting_.shapes.push_back(place_(shape)); }
-    /// A point where shapes meet, and which axis is across all of them there.
+    /// Adds a point where shapes meet, and the axis that crosses all of them there.
     void meet_at(const Vec3d& point, int across = 2) {
         aims_.emplace_back(frame_.with_up(across), place_, turned(point, across));
     }
@@ -24,7 +24,7 @@ class Gathering {
         meeting_.shapes.insert(meeting_.shapes.end(), other.shapes.begin(), other.shapes.end());
         meeting_.rays.insert(meeting_.rays.end(), other.rays.begin(), other.rays.end());
     }
-    /// In the frame.
+    /// Adds a ray in the frame's coordinates.
     void add_ray(const Vec3d& origin, const Vec3d& direction) {
         meeting_.rays.push_back(
             {ray_sets::rounded(place_(frame_(origin))), ray_sets::rounded(frame_(direction))});
@@ -39,7 +39,7 @@ class Gathering {
     }
 
   private:
-    /// In the coordinates of Frame::with_up().
+    /// Returns a point in the coordinates of Frame::with_up().
     static Vec3d turned(const Vec3d& point, int up) {
         return {point[(up + 1) % 3], point[(up + 2) % 3], point[up]};
     }
@@ -51,7 +51,8 @@ class Gathering {
     std::vector<Aim> aims_;
 };
 
-/// Balls that touch each other and the plane below: across x across, in one or two layers.
+/// Balls that touch each other and a plane below: `across` x `across` of them, in one or two
+/// layers.
 inline Meeting packing(int across, Random& random, int rays) {
     Gathering gathering(random);
     const Frame& frame = gathering.frame();
@@ -70,12 +71,12 @@ inline Meeting packing(int across, Random& random, int rays) {
                     gathering.meet_at(contact, axis);
                 }
             }
-    if (random.integer(0, 1) == 0) // which has then the highest id
+    if (random.integer(0, 1) == 0) // this plane has the highest id
         gathering.add(core::Plane{frame.exact(0, 0, 0), frame.exact(0, 0, 1)});
     return gathering.make(rays);
 }
 
-/// Boxes on a grid, face on face and partly in each other.
+/// Boxes on a grid that meet face to face and partly overlap.
 inline Meeting stack(int across, Random& random, int rays) {
     Gathering gathering(random);
     const Frame& frame = gathering.frame();
@@ -85,14 +86,14 @@ inline Meeting stack(int across, Random& random, int rays) {
                 const auto edge = [&] { return random.integer(0, 3) == 0 ? 2 : 1; };
                 gathering.add(core::Box{frame.exact(i, j, k), frame.exact(edge(), 0, 0),
                                         frame.exact(0, edge(), 0), frame.exact(0, 0, edge())});
-                // A corner, the middle of an edge, or that of a face.
+                // A corner, or the middle of an edge or of a face.
                 const auto half = [&] { return 0.5 * random.integer(0, 1); };
                 gathering.meet_at({i + half(), j + half(), k}, random.integer(0, 2));
             }
     return gathering.make(rays);
 }
 
-/// Triangles that share edges and corners, on hills or flat; with rays that skim what is flat.
+/// Triangles that share edges and corners, flat or hilly, with rays that graze the flat parts.
 inline Meeting terrain(int across, Random& random, int rays) {
     Gathering gathering(random);
     const Frame& frame = gathering.frame();
@@ -121,7 +122,8 @@ inline Meeting terrain(int across, Random& random, int rays) {
 
 using MakeShell = AnyShape (*)(const Frame&, int);
 
-/// Makers of shapes about one center that touch at its top, for each kind that there are such of.
+/// Returns makers of shapes that have one centre and touch its top, for each kind that has such
+/// shapes.
 inline std::vector<MakeShell> all_shells() {
     std::vector<MakeShell> all;
     core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
@@ -133,8 +135,8 @@ inline std::vector<MakeShell> all_shells() {
     return all;
 }
 
-/// Shapes about one center, of one or several kinds, which touch at its top; the same, some ulps
-/// off, or a little larger.
+/// Shapes of one or several kinds that have one centre and touch its top. Some are equal, some a
+/// few ulps apart, and some slightly larger.
 inline Meeting shells(int count, Random& random, int rays) {
     Gathering gathering(random);
     const Frame& frame = gathering.frame();
@@ -147,7 +149,7 @@ inline Meeting shells(int count, Random& random, int rays) {
         switch (random.integer(0, 3)) {
         case 0:
             break;
-        case 1: // not about that center, but by very little
+        case 1: // slightly off the common centre
             shape = tests::Placing(Vec3f(0.0F),
                                    1.0F + std::ldexp(1.0F, random.integer(-22, -4)))(shape);
             break;
@@ -161,7 +163,7 @@ inline Meeting shells(int count, Random& random, int rays) {
     return gathering.make(rays);
 }
 
-/// One shape over and over, some of them ulps beside the others.
+/// Many copies of one shape, some of them ulps apart.
 inline Meeting copies(int count, Random& random, int rays) {
     Gathering gathering(random);
     const AnyShape shape = make_touching[random.integer(0, core::kind_count - 1)](
@@ -173,7 +175,7 @@ inline Meeting copies(int count, Random& random, int rays) {
     return gathering.make(rays);
 }
 
-/// Cylinders or cones end to end: rays along their common side meet all of them.
+/// Cylinders or cones end to end. Rays along their common side meet all of them.
 inline Meeting pipe(int count, Random& random, int rays) {
     Gathering gathering(random);
     const Frame& frame = gathering.frame();
@@ -193,12 +195,12 @@ inline Meeting pipe(int count, Random& random, int rays) {
     return gathering.make(rays);
 }
 
-/// Pairs of all kinds side by side, each with its own rays.
+/// Pairs of all kinds side by side, each with rays aimed at it.
 inline Meeting crowd(int pairs, Random& random, int rays) {
     Gathering gathering(random);
     for (int i = 0; i < pairs; ++i) {
         const auto kind = [&] {
-            // Few without bounds: one would hide what is behind it.
+            // Few unbounded shapes, as one hides all shapes behind it.
             const int any = random.integer(0, core::kind_count - 1);
             return i > 0 && !tests::is_bounded_kind(static_cast<core::Kind>(any)) ? 0 : any;
         };
@@ -215,7 +217,7 @@ struct Kind {
     Meeting (*make)(int size, Random& random, int rays);
     int least, most; ///< sizes
 };
-/// The last ones are large, and for few rounds.
+/// The last kind is large, and is for few rounds.
 inline constexpr Kind gatherings[] = {
     {"packing", packing, 4, 8},  {"stack", stack, 3, 5},
     {"terrain", terrain, 4, 10}, {"shells", shells, 20, 40},

@@ -16,7 +16,7 @@ AnyShape touching(const Frame& frame, int r, Random& random) {
 
 using MakeTouching = AnyShape (*)(const Frame&, int, Random&);
 #define RAYLANE_TOUCHING(Shape, name, text) touching<core::Shape>,
-/// By kind.
+/// Indexed by kind.
 inline constexpr MakeTouching make_touching[] = {RAYLANE_SHAPES(RAYLANE_TOUCHING)};
 #undef RAYLANE_TOUCHING
 
@@ -24,8 +24,8 @@ inline constexpr MakeTouching make_touching[] = {RAYLANE_SHAPES(RAYLANE_TOUCHING
 enum class Way {
     opposite,   ///< from both sides of a plane
     nested,     ///< from the same side: one in the other, or flush
-    coincident, ///< the same shape twice and more often
-    ulps_apart, ///< any of these, but for one float of one shape, that is 1 to 4 ulps off
+    coincident, ///< one shape twice or more often
+    ulps_apart, ///< any of these, with one float of one shape off by 1 to 4 ulps
 };
 inline constexpr Way all_ways[] = {Way::opposite, Way::nested, Way::coincident, Way::ulps_apart};
 inline constexpr const char* way_names[] = {"opposite", "nested", "coincident", "ulps apart"};
@@ -44,7 +44,7 @@ inline float ulps_off(float value, int ulps) {
     return value;
 }
 
-/// With one of its floats a little off.
+/// Returns the shape with one of its floats off by 1 to 4 ulps.
 template <class Shape>
 Shape beside(const Shape& shape, Random& random) {
     auto floats = core::numbers_of(shape);
@@ -79,7 +79,8 @@ class MeetingMaker {
         }
         meeting_.shapes = {place_(first), place_(second)};
         if (way == Way::ulps_apart) {
-            // Of what has been placed: a copy beside itself, or the other one beside where it was.
+            // A placed shape, or a copy of the first one in its stead, goes a few ulps beside its
+            // place.
             AnyShape& moved = meeting_.shapes[random.integer(0, 1) == 0 ? 0 : 1];
             if (random.integer(0, 2) == 0) moved = meeting_.shapes[0];
             moved = beside(moved, random);

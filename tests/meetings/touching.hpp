@@ -2,17 +2,18 @@
 
 #include "tests/meetings/frame.hpp"
 
-/// Shapes that touch the origin from below: with a face, an edge, a corner, a rim, an apex, or
-/// where their surface is level. In small whole numbers, so that they do.
+/// Shapes that touch the origin from below: with a face, an edge, a corner, a rim, an apex, or a
+/// point where their surface is level. Their numbers are small integers, so that they touch
+/// exactly.
 namespace raylane::meetings {
 
 inline float radius_of(const Frame& frame, double radius) {
     return static_cast<float>(radius * frame.length());
 }
 
-/// Makes shapes of one kind. `r`: a length that shapes which are to coincide share. Some also have
+/// Makes shapes of one kind. Shapes that are to coincide share the length `r`. Some kinds also have
 ///   Shape shell(frame, r)
-/// of which the highest point is the origin, and the center r below it.
+/// which has its highest point at the origin, and its centre r below.
 template <class Shape>
 struct Touching;
 

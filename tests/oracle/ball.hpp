@@ -4,7 +4,7 @@
 
 namespace raylane::oracle {
 
-/// All of a shape is within. Each shape's file has its own
+/// A ball that contains a shape. Each shape's file defines
 ///   Ball ball_around(shape)
 struct Ball {
     core::Vec3d center;
@@ -16,7 +16,7 @@ inline double length_of(const core::Vec3d& v) {
 }
 
 inline Ball ball(const core::Vec3d& center, double radius) {
-    constexpr double slack = 1.0 + 0x1p-20; // far more than what is rounded here
+    constexpr double slack = 1.0 + 0x1p-20; // far more than the rounding errors here
     return {center, radius * slack};
 }
 

@@ -28,7 +28,7 @@ Exact::Exact(double value) {
 }
 
 Exact::operator Number() const {
-    const Number whole(whole_); // rounded, where it has more than 100 digits
+    const Number whole(whole_); // rounded if it has more than 100 digits
     return ldexp(whole, exponent_);
 }
 

@@ -5,11 +5,11 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 
-/// The oracle's numbers. Floats and doubles are whole numbers times powers of two; so are their
-/// sums and products, and nothing is ever rounded.
+/// The oracle's numbers. Floats and doubles are integers times powers of two. So are their sums and
+/// products, which are never rounded.
 namespace raylane::oracle {
 
-/// For what is shown and measured: 100 decimal digits.
+/// 100 decimal digits, for output and measurements.
 using Number = boost::multiprecision::cpp_bin_float_100;
 
 class Exact {
@@ -18,7 +18,7 @@ class Exact {
     Exact(float value);  // NOLINT: implicit, exact
     Exact(double value); // NOLINT: implicit, exact
     Exact(int value);    // NOLINT: implicit, exact
-    // Not inline: cpp_int's are long.
+    // Not inline, as cpp_int's are long.
     Exact(const Exact&);
     Exact(Exact&&) noexcept;
     Exact& operator=(const Exact&);
@@ -43,13 +43,14 @@ struct Surd {
     Exact P, Q;
 };
 
-/// The sign of P + Q sqrt(D): where both parts oppose each other, that of the larger square's.
+/// Returns the sign of P + Q sqrt(D). If the parts have opposite signs, the part with the larger
+/// square decides.
 int sign(const Surd& a, const Exact& D);
 
-/// The sign of P + Q sqrt(D) + R sqrt(E).
+/// Returns the sign of P + Q sqrt(D) + R sqrt(E).
 int sign(const Surd& a, const Exact& D, const Exact& R, const Exact& E);
 
-/// P + Q sqrt(D), to all digits: what would cancel does not.
+/// Returns P + Q sqrt(D) to all digits, by a formula without cancellation.
 Number value(const Surd& a, const Exact& D);
 
 using Vector = core::Vec3<Exact>;

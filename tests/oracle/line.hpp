@@ -7,15 +7,15 @@
 #include <optional>
 #include <vector>
 
-/// Crossings of a line and a shape, in exact numbers, and by other formulas than the solvers use
+/// Exact crossings of a line with a shape. They come from other formulas than the solvers use
 /// (quadratics in cross products with cleared fractions, Cramer's rule, faces one by one), so that
-/// the two do not share a mistake: what these have in common. Each shape's file has its own
+/// the two do not share a mistake. This header has the common parts. Each shape's file defines
 ///   std::vector<Hit> crossings(shape, ray)
 namespace raylane::oracle {
 
 using core::Face;
 
-/// A crossing of the line, t of either sign.
+/// A crossing with the line. t may have either sign.
 struct Hit {
     Root root;
     Number t; ///< its value
@@ -28,7 +28,7 @@ struct Hit {
 
 int compare(const Hit& a, const Hit& b);
 
-/// A ray from a point of its shape.
+/// A ray relative to a point of its shape.
 struct Line {
     Vector f, d;
 
@@ -37,16 +37,16 @@ struct Line {
         : f(vector(ray.origin) - vector(anchor)), d(vector(ray.direction)) {}
 };
 
-/// True if |f + t d - offset| is at most this.
+/// Returns whether |f + t d - offset| is at most `radius`.
 bool is_within(const Line& line, const Root& t, const Vector& offset, const Exact& radius);
 
-/// normal . (f + t d) = height
+/// Returns the crossing with the plane normal . (f + t d) = height.
 std::optional<Hit> plane_crossing(const Line& line, const Vector& normal, const Exact& height = {},
                                   Face face = core::body);
 
-/// Of a convex solid given by where the line crosses its faces: the first of those by which it
-/// enters and the last of those by which it leaves, by the lowest face where these are several. A
-/// line that lies in faces enters and leaves by the others.
+/// Returns the crossings of a convex solid, from those with its faces: the first by which the line
+/// enters and the last by which it leaves. Of equal ones, the lowest face counts. A line that lies
+/// in faces enters and leaves by the other faces.
 std::vector<Hit> first_and_last(const std::vector<Hit>& on_faces);
 
 } // namespace raylane::oracle

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-/// Neighbours of a line, the shapes of many that it may cross: all but those that it surely passes
-/// by, so that exact numbers need not ask each.
+/// Finds the shapes that a line may cross, so that exact numbers need not test all of them. It
+/// leaves out only shapes that the line is certain to miss.
 namespace raylane::oracle {
 
 using core::Vec3d;

@@ -2,13 +2,13 @@
 
 #include "tests/oracle/line.hpp"
 
-/// Normals in exact numbers. Each shape's file has its own
+/// Exact normals. Each shape's file defines
 ///   Normal normal(shape, ray, hit)
-/// the normal outside (in front) at one of its crossings; at an apex what stands in for it: the
-/// axis, to the outside.
+/// which returns the normal towards the outside (the front) at a crossing. At an apex it returns
+/// the axis towards the outside instead.
 namespace raylane::oracle {
 
-/// v0 + t v1 at a root: of any length.
+/// The vector v0 + t v1 at a root t, of any length.
 struct Normal {
     Root t;
     Vector v0, v1;
@@ -19,10 +19,10 @@ struct Normal {
 };
 Vector opposite(const Vector& v);
 
-/// Order of the size of a component of the unit vector and this: -1 if it is less.
+/// Compares the absolute value of a component of the unit vector with `size`: -1 if it is less.
 int compare_size(const Normal& n, int axis, const Exact& size);
 
-/// The unit vector's components, each the nearest float, ties to even.
+/// Returns the unit vector, each component rounded to the nearest float, ties to even.
 core::Vec3f rounded(const Normal& n);
 
 } // namespace raylane::oracle

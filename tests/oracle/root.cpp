@@ -54,7 +54,7 @@ float rounded(const Root& root) {
 }
 
 double rounded_to_double(const Root& root, const Number& digits) {
-    // The digits may have rounded up what was below the middle of two doubles, or twice.
+    // The digits may be rounded up across the middle of two doubles, or be rounded twice.
     double low = std::nextafter(static_cast<double>(digits), 0.0);
     for (int steps = 0; steps < 3; ++steps) {
         const double next = std::nextafter(low, std::numeric_limits<double>::infinity());

@@ -7,7 +7,7 @@
 
 namespace raylane::oracle {
 
-/// A real root of a polynomial of at most second degree: t = (U + V sqrt(D)) / W, exactly.
+/// A real root of a polynomial of at most second degree: exactly t = (U + V sqrt(D)) / W.
 struct Root {
     Exact U, W; ///< W > 0
     int V = 0;  ///< -1, 0 or 1
@@ -21,34 +21,36 @@ struct Root {
     }
 };
 
-/// The sign of a + b t + c t^2 at a root.
+/// Returns the sign of a + b t + c t^2 at a root.
 int sign_at(const Root& t, const Exact& a, const Exact& b, const Exact& c = {});
 
-/// a + b t at a root, to all digits.
+/// Returns a + b t at a root, to all digits.
 Number value_at(const Root& t, const Exact& a, const Exact& b);
 
-/// -1 or 1 where the first digits say which is less, 0 where they do not: those of a value above
-/// come without cancellation.
+/// Returns -1 or 1 if a is less or greater by the first digits, and 0 if these do not decide. The
+/// functions above compute their values without cancellation.
 int compare_digits(const Number& a, const Number& b);
 
-/// -1, 0, 1: a is less, the same, more. What differs in the first digits needs no more of them.
+/// Returns -1, 0 or 1 if a is less, equal or greater. Values that differ in their first digits are
+/// compared by these.
 int compare(const Root& a, const Number& a_value, const Root& b, const Number& b_value);
 int compare(const Root& a, const Root& b);
 
-/// The roots of A t^2 + 2 B t + C in ascending order, two where they are the same, with whether the
-/// polynomial falls there.
+/// A root, and whether the polynomial falls there. roots() returns those of A t^2 + 2 B t + C in
+/// ascending order; a double root twice.
 struct FoundRoot {
     Root t;
     bool falling;
 };
 std::vector<FoundRoot> roots(const Exact& A, const Exact& B, const Exact& C);
 
-/// The float nearest to what is not negative and has these first digits, ties to even.
-/// compare(middle) says on which side of the middle between two floats it is, where digits do not.
+/// Returns the float nearest to a nonnegative number with these first digits, ties to even. If the
+/// digits do not decide, compare(middle) returns on which side of the middle between two floats the
+/// number is.
 template <class Compare>
 float nearest_float(const Number& digits, const Compare& compare) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    // The digits may have rounded up what was below the middle of two floats, or twice.
+    // The digits may be rounded up across the middle of two floats, or be rounded twice.
     float low = std::nextafter(static_cast<float>(digits), 0.0F);
     for (int steps = 0; steps < 3; ++steps) {
         const float next = std::nextafter(low, infinity);
@@ -64,11 +66,11 @@ float nearest_float(const Number& digits, const Compare& compare) {
     return low;
 }
 
-/// The float that is nearest to a positive root, ties to even, but never 0 or infinite.
+/// Returns the float nearest to a positive root, ties to even, but never 0 or infinity.
 float rounded(const Root& root, const Number& digits);
 float rounded(const Root& root);
 
-/// The double that is nearest to a positive root, ties to even.
+/// Returns the double nearest to a positive root, ties to even.
 double rounded_to_double(const Root& root, const Number& digits);
 
 } // namespace raylane::oracle

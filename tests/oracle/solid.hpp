@@ -6,14 +6,14 @@
 #include <map>
 #include <vector>
 
-/// What solids of others are, by the crossings of a whole line with each part in exact numbers:
-/// between two of them nothing changes, and one value after the other tells where the solid's
-/// surface is.
+/// Solids of solids, from the exact crossings of a whole line with each part. Between two crossings
+/// nothing changes. So the values of the expression from one crossing to the next tell where the
+/// solid's surface is.
 namespace raylane::oracle {
 
 enum class Op { part, unite, intersect, subtract, clip };
 
-/// An expression of parts by their numbers, in the order in which they come; what clips has none.
+/// An expression of parts. Parts are numbered in their order; clipping parts have no number.
 struct Expression {
     Op op = Op::part;
     tests::AnyShapeInDouble shape{};
@@ -24,7 +24,7 @@ struct Expression {
 struct SolidHit {
     Hit hit;
     core::ShapeId shape;
-    bool entering; ///< the solid
+    bool entering; ///< whether the ray enters the solid
 };
 
 class SolidLine {
@@ -36,7 +36,7 @@ class SolidLine {
             if (part.traced) part.id = next++;
     }
 
-    /// Those ahead of the ray, in order.
+    /// Returns the surfaces ahead of the ray, in order.
     std::vector<SolidHit> surfaces() {
         std::vector<const Event*> events;
         for (const Part& part : parts_)
@@ -50,7 +50,7 @@ class SolidLine {
         for (std::size_t first = 0, end = 0; first < events.size(); first = end) {
             while (end < events.size() && compare(events[end]->hit, events[first]->hit) == 0)
                 ++end;
-            // What is entered and left at once is as before.
+            // A part that is entered and left at the same t does not change.
             std::map<std::size_t, int> crossed;
             for (std::size_t i = first; i < end; ++i)
                 crossed[events[i]->part] += 1;
@@ -68,7 +68,8 @@ class SolidLine {
         return found;
     }
 
-    /// Whether the origin is inside: -1 yes, 1 no, 0 if it is on the surface of any part.
+    /// Returns -1 if the origin is inside, 1 if it is outside, and 0 if it is on the surface of any
+    /// part.
     int side_of_origin() {
         for (Part& part : parts_) {
             part.before = part.at_first;
@@ -92,7 +93,7 @@ class SolidLine {
         core::ShapeId id = core::no_shape;
         std::vector<std::size_t> of{};
         std::vector<Event> events{};
-        bool at_first = false; ///< far behind the ray
+        bool at_first = false; ///< value far behind the ray
         bool is_flat_on_it = false;
         bool before = false, behind = false;
     };
@@ -132,7 +133,7 @@ class SolidLine {
             part.at_first = !part.events[0].hit.entering;
             return;
         }
-        // It never gets to the other side.
+        // The line never crosses to the other side of the part.
         const int side = std::visit(
             [&]<class Shape>(const Shape& of) {
                 const Vector at = vector(ray_.origin);
@@ -159,7 +160,7 @@ class SolidLine {
             Exact(q.one);
         return value.sign();
     }
-    /// The origin is where the line touches a quadric: elsewhere it is on one side.
+    /// Returns whether the rest of the line is inside of a quadric that it touches at the origin.
     bool is_inside_beside(const tests::AnyShapeInDouble& shape) const {
         return std::visit(
             [&]<class Shape>(const Shape& of) {
@@ -184,7 +185,7 @@ class SolidLine {
         }
         return part.op != Op::unite;
     }
-    /// The first part that changes to a value as the expression does.
+    /// Returns the first part that changes to a value when the expression does.
     std::size_t changed(std::size_t index, bool to) const {
         const Part& part = parts_[index];
         if (part.op == Op::part) return index;

@@ -12,12 +12,12 @@ namespace raylane::oracle {
 struct Found {
     Hit hit;
     core::ShapeId shape;
-    float t; ///< as it is answered
+    float t; ///< t as the library returns it
 
     Found(const Hit& crossing, core::ShapeId with)
         : hit(crossing), shape(with), t(rounded(hit.root, hit.t)) {}
 
-    /// By t; at the same t what is entered before what is left, then by shape.
+    /// Orders by t. At the same t, entering comes before leaving, then the lower shape id.
     bool is_before(const Found& other) const {
         const int order = compare(hit, other.hit);
         if (order != 0) return order < 0;
@@ -29,7 +29,7 @@ struct Found {
 /// All crossings ahead of a ray, in order.
 class Sight {
   public:
-    /// is_seen(shape, entering): whether a crossing counts.
+    /// is_seen(shape, entering) returns whether a crossing counts.
     template <Variant Any, class IsSeen>
     Sight(const std::vector<Any>& shapes, const Neighbours& neighbours,
           const core::Ray<double>& ray, const IsSeen& is_seen)
@@ -44,13 +44,13 @@ class Sight {
     }
 
     const std::vector<Found>& all() const { return all_; }
-    /// The first of those whose rounded t is in (t_min, t_max], or null.
+    /// Returns the first crossing whose rounded t is in (t_min, t_max], or null.
     const Found* first(float t_min, float t_max) const {
         for (const Found& found : all_)
             if (t_min < found.t && found.t <= t_max) return &found;
         return nullptr;
     }
-    /// Of its shape there, to the nearest floats.
+    /// Returns the normal of the crossing's shape there, rounded to the nearest floats.
     const core::Vec3f& normal_of(const Found& found, const Variant auto& shape) {
         normals_.resize(all_.size());
         auto& known = normals_[static_cast<std::size_t>(&found - all_.data())];
@@ -61,7 +61,7 @@ class Sight {
   private:
     core::Ray<double> ray_;
     std::vector<Found> all_;
-    std::vector<std::optional<core::Vec3f>> normals_; // as far as they have been asked for
+    std::vector<std::optional<core::Vec3f>> normals_; // filled on demand
 };
 
 } // namespace raylane::oracle

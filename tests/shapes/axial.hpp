@@ -9,7 +9,7 @@
 /// Shared parts of cylinders and cones.
 namespace raylane::ray_sets {
 
-/// A point of the body, of a rim, of a cap or the apex.
+/// Returns a point of the body, of a rim, of a cap, or the apex.
 template <class Shape>
 SurfacePoint axial_surface(const Shape& c, double r0, double r1, Random& r) {
     const Vec3d base = core::convert<double>(c.base), axis = core::convert<double>(c.axis);
@@ -33,13 +33,13 @@ Vec3d axial_center(const Shape& c) {
 
 namespace raylane::tests {
 
-/// An axis of small integers along x, y or z.
+/// Returns an axis along x, y or z, of a small integer length.
 inline Vec3f axis_of_integers(Random& r) {
     Vec3f axis{0.0F};
     axis[r.integer(0, 2)] = static_cast<float>(r.integer(1, 6) * (r.integer(0, 1) == 0 ? 1 : -1));
     return axis;
 }
-/// Points where cap and wall meet, with such an axis.
+/// Returns points where cap and wall meet, for such an axis.
 inline Seams rims(const Vec3f& base, const Vec3f& axis, float r0, float r1) {
     const int along = axis.x != 0.0F ? 0 : axis.y != 0.0F ? 1 : 2;
     const auto out = [&](float u, float v) {
@@ -64,7 +64,7 @@ inline double axial_distance_to_face(const Vec3f& base, const Vec3f& axis, doubl
            std::hypot(core::length(a), top_radius - base_radius);
 }
 
-/// An axis, with that of the outer and the inner neighbour.
+/// An axis, with the axes of the outer and the inner neighbour.
 struct Axes {
     Vec3f step;
     float count;
@@ -82,8 +82,8 @@ struct Axes {
 
 namespace raylane::oracle {
 
-/// Form of a cylinder or cone along a line: with f and d relative to the base, heights h and widths
-/// w in units that clear all fractions,
+/// The form of a cylinder or cone along a line. f and d are relative to the base. Heights h and
+/// widths w have units that clear all fractions:
 ///   |f x a + t d x a|^2 a.a = (w0 + t w1)^2
 struct AxialForm {
     Vector a;
@@ -110,7 +110,8 @@ std::vector<Hit> axial_crossings(const AnyAxial& shape, const Exact& r0, const E
         if (sign_at(root.t, form.h0, form.h1) < 0 ||
             sign_at(root.t, form.h0 - form.aa, form.h1) > 0)
             continue;
-        // Through the apex from nappe to nappe: the crossing with the mirror image does not count.
+        // The line passes the apex from nappe to nappe. The crossing with the mirror image does not
+        // count.
         const bool in_apex = sign_at(root.t, form.w0, form.w1) == 0;
         if (A.sign() < 0 && in_apex && root.falling != (form.w1.sign() > 0)) continue;
         hits.emplace_back(root.t, root.falling);
@@ -124,12 +125,13 @@ std::vector<Hit> axial_crossings(const AnyAxial& shape, const Exact& r0, const E
         if (is_within(line, hit->root, Exact(end) * form.a, end == 0 ? r0 : r1))
             hits.push_back(*hit);
     }
-    // The double root of a line that touches the body in its middle stands for both.
+    // If the line touches the body between its ends, the double root counts as both crossings.
     return first_and_last(hits);
 }
 
-/// The offset from the axis, less what the body narrows: times a.a a.a,
-///   (f a.a - a (f.a)) a.a - a s (r0 a.a + s f.a), and so for d.
+/// The normal is the offset from the axis minus the body's taper, times a.a a.a:
+///   (f a.a - a (f.a)) a.a - a s (r0 a.a + s f.a)
+/// and the same for d.
 template <class Real, class AnyAxial>
 Normal axial_normal(const AnyAxial& shape, const Exact& r0, const Exact& r1,
                     const core::Ray<Real>& ray, const Hit& hit) {

@@ -139,13 +139,13 @@ struct Written<core::Box> {
 
 namespace raylane::oracle {
 
-/// The outward normal of the faces opposite the corner, or inward.
+/// Returns the normals of the three faces opposite the corner: all outward, or all inward.
 inline std::array<Vector, 3> face_normals(const core::BoxOf<double>& box) {
     const Vector edges[3] = {vector(box.edge_u), vector(box.edge_v), vector(box.edge_w)};
     return {outer(edges[1], edges[2]), outer(edges[2], edges[0]), outer(edges[0], edges[1])};
 }
 
-/// Each face's plane, if its two other coordinates are within the face.
+/// Returns crossings with each face's plane at which the two other coordinates are within the face.
 template <class Real>
 std::vector<Hit> crossings(const core::BoxOf<double>& box, const core::Ray<Real>& ray) {
     std::array<Vector, 3> normals = face_normals(box);
@@ -202,7 +202,7 @@ struct Touching<core::Box> {
         case 1: // an edge
             return {frame.exact(-a, 0, 0), frame.exact(a + r, 0, 0), frame.exact(0, r, -r),
                     frame.exact(0, -1, -1)};
-        case 2: // a face, of a slanted box
+        case 2: // a face of a slanted box
             return {frame.exact(-a, -b, 0), frame.exact(a + r, 0, 0), frame.exact(1, b + r, 0),
                     frame.exact(random.integer(-2, 2), random.integer(-2, 2), -r)};
         default: // a face, or its edge or corner

@@ -29,7 +29,7 @@ struct Target<core::Cone<ends>> {
                              static_cast<double>(c.top_radius), r);
     }
     static Vec3d center(const Shape& c) { return axial_center(c); }
-    /// Along the axis, across it, or along a generator.
+    /// Returns a direction along the axis, across it, or along a generator.
     static Vec3d special(const Shape& c, Random& r) {
         const Vec3d axis = core::convert<double>(c.axis), out = across(axis, r);
         switch (r.integer(0, 3)) {
@@ -76,7 +76,7 @@ struct NestOf<core::Cone<ends>> {
         const double gap =
             r.log_uniform(8.0 * ulp(rounded(widest)), (apex <= 1 ? 0.01 : 0.2) * widest);
         const double taper = (top - base) / static_cast<double>(axes.count);
-        // With sides parallel to the body's, as far as there is one.
+        // The sides are parallel to the body's, as far as the body goes.
         const auto cone = [&](float by, double wider) {
             const double beyond = static_cast<double>(by) * taper;
             return core::CappedCone{axes.base(by), axes.axis(by),
@@ -88,7 +88,7 @@ struct NestOf<core::Cone<ends>> {
     }
 
   private:
-    /// Beyond an apex parallels come too close.
+    /// Makes ends of the outer cone blunt, as parallel sides come too close beyond an apex.
     static core::CappedCone blunt(core::CappedCone outer, double base, double top, double taper,
                                   double gap) {
         if (base - taper + gap < gap) outer.base_radius = rounded(2.0 * gap);
@@ -166,7 +166,7 @@ struct Touching<core::Cone<ends>> {
     static core::Cone<ends> make(const Frame& frame, int r, Random& random) {
         const int length = random.integer(1, 4);
         switch (random.integer(0, 3)) {
-        case 0: // its apex, either way about
+        case 0: // the apex, at either end
             if (random.integer(0, 1) == 0)
                 return {frame.exact(0, 0, -length), frame.exact(0, 0, length), radius_of(frame, r),
                         0};
@@ -175,7 +175,7 @@ struct Touching<core::Cone<ends>> {
             return {frame.exact(3, 4, -length), frame.exact(0, 0, length), radius_of(frame, r),
                     radius_of(frame, 5)};
         default: {
-            // Lying: it narrows by 3 in 4 along e = (4, 0, 3) / 5, and across is (-3, 0, 4) / 5.
+            // A lying cone. It narrows by 3 in 4 along e = (4, 0, 3) / 5; across is (-3, 0, 4) / 5.
             const int width = 5 * random.integer(1, 2), back = 5 * random.integer(0, 2);
             const int on = 5 * random.integer(back == 0 ? 1 : 0, width / 5);
             const auto point = [&](double across, double along) {

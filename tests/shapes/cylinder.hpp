@@ -128,11 +128,11 @@ struct Touching<core::Cylinder<ends>> {
         const int a = random.integer(0, 2), length = random.integer(1, 4);
         const double reach = random.integer(0, 1) == 0 ? length : -length;
         switch (random.integer(0, 3)) {
-        case 0: // an end, about the origin or with it on its rim
+        case 0: // an end, with the origin at its centre or on its rim
             if (random.integer(0, 1) == 0)
                 return {frame.exact(3, 4, -length), frame.exact(0, 0, length), radius_of(frame, 5)};
             return {frame.exact(0, 0, 0), frame.exact(0, 0, -length), radius_of(frame, r)};
-        case 1: // with its rim where it lies
+        case 1: // lying, with the origin on the rim
             return {frame.exact(0, 0, -r), frame.exact(reach, 0, 0), radius_of(frame, r)};
         default: // lying
             return {frame.exact(reach > 0 ? -a : a, 0, -r), frame.exact(reach * (a + 1), 0, 0),

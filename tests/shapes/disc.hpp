@@ -105,7 +105,7 @@ namespace raylane::meetings {
 
 template <>
 struct Touching<core::Disc> {
-    /// About the origin, or with it on its rim.
+    /// The origin is near the disc's centre, or on its rim.
     static core::Disc make(const Frame& frame, int r, Random& random) {
         const bool rim = random.integer(0, 1) == 0;
         return {rim ? frame.exact(3, 4, 0) : frame.exact(random.integer(-1, 1), 0, 0),

@@ -11,7 +11,7 @@ namespace raylane::ray_sets {
 
 template <>
 struct Target<core::Ellipsoid> {
-    /// Half of them with axes at right angles.
+    /// Half of them have orthogonal axes.
     static core::Ellipsoid make(Random& r, bool lattice) {
         while (true) {
             core::Ellipsoid e{r.small_integers(3), r.small_integers(3), r.small_integers(3),
@@ -127,9 +127,9 @@ struct Written<core::Ellipsoid> {
 
 namespace raylane::oracle {
 
-/// p = a u + b v + c w by the normal equations G (a, b, c) = (p . u, p . v, p . w), G being the
-/// axes' inner products, without their fractions: G's adjugate gives a, b and c times its
-/// determinant.
+/// Solves p = a u + b v + c w by the normal equations G (a, b, c) = (p . u, p . v, p . w), where G
+/// has the axes' inner products. The adjugate of G gives a, b and c times the determinant of G,
+/// without fractions.
 struct NormalEquations {
     std::array<Vector, 3> axes, adjugate;
     Exact determinant;
@@ -143,11 +143,11 @@ struct NormalEquations {
         adjugate = {outer(gram[1], gram[2]), outer(gram[2], gram[0]), outer(gram[0], gram[1])};
         determinant = inner(gram[0], adjugate[0]);
     }
-    /// G is symmetric, and so is its adjugate.
+    /// Returns the coordinates times the determinant. G is symmetric, and so is its adjugate.
     Vector coordinates(const Vector& p) const {
         return times({inner(axes[0], p), inner(axes[1], p), inner(axes[2], p)});
     }
-    /// Half the gradient of |coordinates(p)|^2, given these.
+    /// Returns half the gradient of |coordinates(p)|^2, from these coordinates.
     Vector gradient(const Vector& at) const {
         const Vector weights = times(at);
         return weights.x * axes[0] + weights.y * axes[1] + weights.z * axes[2];
@@ -189,7 +189,7 @@ namespace raylane::meetings {
 
 template <>
 struct Touching<core::Ellipsoid> {
-    /// All of the height is that of one axis, which leads to the top.
+    /// Only the third axis has a height. It leads to the top.
     static core::Ellipsoid make(const Frame& frame, int r, Random& random) {
         const int x = random.integer(-1, 1), y = random.integer(-1, 1);
         const int a = random.integer(1, 3), b = random.integer(1, 3), s = random.integer(-1, 1);

@@ -11,63 +11,63 @@
 
 #include <array>
 
-/// Parts that tests know of a shape, all of them in its own file here:
-///   tests::Nature                  what tests choose it by
-///   ray_sets::Target               how to make it, and where to aim at it
-///   oracle::crossings, normal      where a line crosses it, in exact numbers
-///   oracle::ball_around            what it is within
-///   tests::placed                  the same elsewhere and larger
-///   meetings::Touching             one that touches others
-///   tests::NestOf                  one close between others
-///   tests::Restated                one surface in other numbers
-///   tests::Written                 one as a file and a program have it
-///   tests::Seamed                  solids: where their faces meet
-///   tests::distance_to_face        solids, and what has_displacement
-///   hard_cases::scaled, extreme, swap_axes   where they are not the usual ones
-/// A part that is missing and asked for does not compile.
+/// Parts that tests need of a shape. All of them are in the shape's file in this folder:
+///   tests::Nature                  the traits by which tests choose shapes
+///   ray_sets::Target               makes random shapes, and points to aim at
+///   oracle::crossings, normal      exact crossings with a line
+///   oracle::ball_around            a ball around the shape
+///   tests::placed                  the shape moved and scaled
+///   meetings::Touching             a shape that touches others
+///   tests::NestOf                  a shape close between two others
+///   tests::Restated                the same surface in other numbers
+///   tests::Written                 a shape as text of a file and as code
+///   tests::Seamed                  solids: points where faces meet
+///   tests::distance_to_face        solids, and shapes with has_displacement
+///   hard_cases::scaled, extreme, swap_axes   for shapes that differ from the default
+/// A part that is missing and used does not compile.
 namespace raylane::tests {
 
-/// Traits of a surface: each shape's Nature is Solid, Flat or Curved, and may differ from the usual
-/// in what else there is.
+/// Traits of a surface. Each shape's Nature is Solid, Flat or Curved, and may override the other
+/// traits.
 struct AnySurface {
     static constexpr bool is_bounded = true;
-    /// Rays that leave it outward may meet it again.
+    /// Rays that leave the surface outward may meet it again.
     static constexpr bool may_come_back = false;
-    /// There is a bound to how far float may displace it.
+    /// The displacement by rounding to float has a bound.
     static constexpr bool has_displacement = false;
-    /// Many of them may be one polygon.
+    /// Many such shapes may form one polygon.
     static constexpr bool tiles_polygons = false;
-    /// Its filter also tells, at a glance, what passes it by.
+    /// The filter also has a cheap test for shapes that a ray misses.
     static constexpr bool is_sifted = false;
 };
-/// Closed: what enters it leaves it.
+/// A closed surface: a ray that enters also leaves.
 struct Solid : AnySurface {};
-/// Rays that leave it do not meet it again.
+/// A ray that leaves the surface does not meet it again.
 struct Flat : AnySurface {};
-/// It ends at a rim, and what goes inward from it may meet it again.
+/// A surface that ends at a rim. A ray that goes inward from it may meet it again.
 struct Curved : AnySurface {};
 
 template <class Shape>
 struct Nature;
 
-/// One surface, said in ways that are the same in real numbers and whose numbers differ, by i = 0,
-/// 1, 2, ..., as far as there are any.
+/// One surface in several descriptions, for i = 0, 1, 2, ... They are equal in real numbers but
+/// differ in their numbers, if the shape has more than one.
 template <class Shape>
 struct Restated;
 
-/// Solids made of small integers, and points, four of a solid's, where two of its faces meet or its
-/// wall ends in a point: on small integers too as far as there are any.
+/// Solids of small integers, and four points for each, where two faces meet or the wall ends in a
+/// point. The points have small integers, too, as far as possible.
 template <class Shape>
 struct Seamed;
 
-/// Text of one such shape's object in a scene file, `text`, and the same by_name<Shape>() of
-/// fields, which are the library's as they are core's.
+/// The text of a shape's object in a scene file, `text`, and by_name<Shape>(), the same shape by
+/// names of fields. The names are the same in the library and in core.
 template <class Shape>
 struct Written;
 
 using Seams = std::array<Vec3f, 4>;
 
-/// Number whose fifths make Pythagorean triples.
+/// Returns a number whose fifths make Pythagorean triples.
 inline float five_times(int least, Random& random) {
     return static_cast<float>(5 * random.integer(least, 2));
 }

@@ -10,7 +10,7 @@
 
 namespace raylane::ray_sets {
 
-/// Ellipsoids, paraboloids, hyperboloids of one and two sheets, and any form at all.
+/// Makes ellipsoids, paraboloids, hyperboloids of one and two sheets, and random forms.
 template <>
 struct Target<core::Quadric> {
     static core::Quadric make(Random& r, bool lattice) {
@@ -49,7 +49,8 @@ struct Target<core::Quadric> {
         }
         return q;
     }
-    /// Not on the surface in general: a point of the box, and the form's normal there.
+    /// Starts at a random point of the box. The result is near the surface if Newton's method
+    /// converges.
     static SurfacePoint surface(const core::Quadric& q, Random& r) {
         const Vec3d p = {r.uniform(static_cast<double>(q.lower.x), static_cast<double>(q.upper.x)),
                          r.uniform(static_cast<double>(q.lower.y), static_cast<double>(q.upper.y)),
@@ -57,7 +58,7 @@ struct Target<core::Quadric> {
         return slide(q, p, r);
     }
     static Vec3d center(const core::Quadric& q) { return core::convert<double>(q.center); }
-    /// Directions in which the leading term vanishes, where there are any: d.M d = 0.
+    /// Returns a direction in which the leading term vanishes, if possible: d.M d = 0.
     static Vec3d special(const core::Quadric& q, Random& r) {
         const double ratio = -static_cast<double>(q.xx) / static_cast<double>(q.zz);
         if (r.integer(0, 1) == 0 && ratio > 0.0 && std::isfinite(ratio))
@@ -67,7 +68,7 @@ struct Target<core::Quadric> {
     static double size(const core::Quadric&) { return 1.0; }
 
   private:
-    /// Newton's method along the gradient.
+    /// Moves a point to the surface by Newton's method along the gradient.
     static SurfacePoint slide(const core::Quadric& q, Vec3d p, Random& r) {
         Vec3d gradient = r.direction();
         for (int step = 0; step < 8; ++step) {
@@ -95,7 +96,7 @@ struct Nature<core::Quadric> : Curved {
     static constexpr bool has_displacement = true;
 };
 
-/// The form is that of p / factor.
+/// Uses the form of p / factor.
 inline core::Quadric placed(core::Quadric q, const Placing& by) {
     const float factor = by.factor();
     q.center = by.point(q.center);
@@ -108,7 +109,7 @@ inline core::Quadric placed(core::Quadric q, const Placing& by) {
     return q;
 }
 
-/// The neighbours are other levels of the same form.
+/// The neighbours are other level sets of the same form.
 template <>
 struct NestOf<core::Quadric> {
     static Nest make(double size, Random& r) {
@@ -154,7 +155,7 @@ struct Restated<core::Quadric> {
     }
 };
 
-/// To first order.
+/// Returns the distance to first order.
 inline double distance_to_face(const core::Quadric& quadric, core::Face, const Vec3d& point) {
     const Vec3d p = point - core::convert<double>(quadric.center);
     return std::abs(core::quadric_value(quadric, p)) /
@@ -189,7 +190,7 @@ struct Written<core::Quadric> {
 
 namespace raylane::oracle {
 
-/// M p, and half the gradient M p + linear.
+/// Returns M p. M p + linear is half the gradient.
 inline Vector product(const core::QuadricOf<double>& q, const Vector& p) {
     return {inner(vector(core::Vec3d(q.xx, q.xy, q.xz)), p),
             inner(vector(core::Vec3d(q.xy, q.yy, q.yz)), p),
@@ -231,7 +232,8 @@ inline Ball ball_around(const core::QuadricOf<double>& q) {
 
 namespace raylane::meetings {
 
-/// Balls, pipes, sheets, cups and cones: coincident with what is made of the same length.
+/// Makes balls, pipes, sheets, cups and cones. They coincide with other shapes of the same length
+/// `r`.
 template <>
 struct Touching<core::Quadric> {
     static core::Quadric make(const Frame& frame, int r, Random& random) {
@@ -245,7 +247,7 @@ struct Touching<core::Quadric> {
             add(q.xz, v.x * v.z);
             add(q.yz, v.y * v.z);
         };
-        double up = 0.0; // times z
+        double up = 0.0; // coefficient of z
         switch (random.integer(0, 4)) {
         case 0: // a ball of radius r
             add_square(0);
@@ -266,7 +268,7 @@ struct Touching<core::Quadric> {
             add_square(1);
             up = r;
             break;
-        default: // a cone, its apex here
+        default: // a cone with its apex at the origin
             add_square(0);
             add_square(1);
             add_square(2);
@@ -280,7 +282,7 @@ struct Touching<core::Quadric> {
         q.x = static_cast<float>(up * frame.row(2).x);
         q.y = static_cast<float>(up * frame.row(2).y);
         q.z = static_cast<float>(up * frame.row(2).z);
-        // Bounds, half of them with the meeting at a face.
+        // For half of them, the bounds have a face at the meeting.
         const float reach = radius_of(frame, 2 * r + random.integer(1, 3));
         q.lower = Vec3f(-reach);
         q.upper = Vec3f(reach);
@@ -288,7 +290,7 @@ struct Touching<core::Quadric> {
         return q;
     }
 
-    /// A ball.
+    /// Returns a ball.
     static core::Quadric shell(const Frame& frame, int r) {
         const float radius = radius_of(frame, r);
         core::Quadric ball{};
@@ -325,7 +327,7 @@ inline void swap_axes(core::Quadric& q, int a, int b) {
     for (core::Vec3f* const vector : {&q.center, &q.lower, &q.upper})
         std::swap((*vector)[a], (*vector)[b]);
     float* const squares[] = {&q.xx, &q.yy, &q.zz};
-    float* const mixed[] = {&q.yz, &q.xz, &q.xy}; // by the axis that they leave out
+    float* const mixed[] = {&q.yz, &q.xz, &q.xy}; // by the axis that each leaves out
     float* const linear[] = {&q.x, &q.y, &q.z};
     for (float* const* const terms : {squares, mixed, linear})
         std::swap(*terms[a], *terms[b]);

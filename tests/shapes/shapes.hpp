@@ -15,14 +15,14 @@
 #include <tuple>
 #include <type_traits>
 
-/// All that tests know of shapes, and lists of them to test.
+/// Includes everything that tests know of shapes, and lists the shapes to test.
 namespace raylane::tests {
 
 #define RAYLANE_THEN(Shape, name, text) , Shape
 #define RAYLANE_BUT_FIRST(first, ...) __VA_ARGS__
 #define RAYLANE_BUT_FIRST_OF(...) RAYLANE_BUT_FIRST(__VA_ARGS__)
-/// For TEMPLATE_TEST_CASE, by the names that they have within raylane::core: given a list that is a
-/// type, it would number the tests.
+/// List for TEMPLATE_TEST_CASE, by the names within raylane::core. If the list were a type, Catch2
+/// would number the tests.
 #define RAYLANE_ALL_SHAPES RAYLANE_BUT_FIRST_OF(none RAYLANE_SHAPES(RAYLANE_THEN))
 
 namespace detail {
@@ -38,7 +38,7 @@ struct AllOf<Sort, std::tuple<Shapes...>> {
 
 } // namespace detail
 
-/// For TEMPLATE_LIST_TEST_CASE: of all shapes those of one sort, which is Solid, Flat or Curved.
+/// List for TEMPLATE_LIST_TEST_CASE: all shapes of one sort, which is Solid, Flat or Curved.
 template <class Sort>
 using AllOf = typename detail::AllOf<Sort, core::Shapes>::Type;
 using AllSolids = AllOf<Solid>;
@@ -54,7 +54,7 @@ inline constexpr bool is_bounded = Nature<Shape>::is_bounded;
 
 } // namespace raylane::tests
 
-/// Shapes of floats are asked as those of the same doubles.
+/// Shapes of floats are tested as shapes of the same doubles.
 namespace raylane::oracle {
 
 template <class Shape>

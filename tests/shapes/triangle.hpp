@@ -25,7 +25,7 @@ struct Target<core::Triangle> {
     }
     static SurfacePoint surface(const core::Triangle& t, Random& r) {
         double u = r.uniform(0.0, 1.0), v = r.uniform(0.0, 1.0 - u);
-        switch (r.integer(0, 4)) { // edges and corners count as much as the inside
+        switch (r.integer(0, 4)) { // edges and corners are about as frequent as the inside
         case 0:
             v = 0.0;
             break;
@@ -99,7 +99,7 @@ struct NestOf<core::Triangle> {
         };
         return {t, moved(step()), moved(-step()), false};
     }
-    /// With small numbers times a power of two.
+    /// Returns a triangle whose coordinates are small integers times a power of two.
     static core::Triangle triangle(double size, Random& r) {
         const double grid = std::exp2(std::max(0.0, std::ceil(std::log2(size / 512.0))));
         while (true) {
@@ -140,7 +140,7 @@ struct Restated<core::Triangle> {
         return {corners[i % 3], corners[(i + 1) % 3], corners[(i + 2) % 3]};
     }
 };
-/// A smooth triangle says in one way alone how normals go between its corners.
+/// A smooth triangle has only one description of how its normals are interpolated.
 template <>
 struct Restated<core::SmoothTriangle> {
     static core::SmoothTriangle make(int) {
@@ -178,7 +178,7 @@ struct Written<core::SmoothTriangle> {
 
 namespace raylane::oracle {
 
-/// Cramer's rule for f + t d = u e + v g.
+/// Solves f + t d = u e + v g by Cramer's rule.
 template <class Real, class AnyTriangle>
 std::vector<Hit> triangle_crossing(const AnyTriangle& triangle, const core::Ray<Real>& ray) {
     const Line line(ray, triangle.a);
@@ -236,7 +236,7 @@ namespace raylane::meetings {
 
 template <>
 struct Touching<core::Triangle> {
-    /// The origin inside, on an edge, or at a corner.
+    /// The origin is inside, on an edge, or at a corner.
     static core::Triangle make(const Frame& frame, int r, Random& random) {
         switch (random.integer(0, 2)) {
         case 0:
