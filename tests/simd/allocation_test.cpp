@@ -9,7 +9,7 @@
 #include <new>
 #include <vector>
 
-/// In a program of its own: it counts what is asked of the heap.
+/// A separate program, as it counts all allocations.
 namespace {
 
 std::atomic<long> allocations = 0;
@@ -21,7 +21,7 @@ void* counted(std::size_t bytes, std::size_t alignment) {
     return memory;
 }
 
-/// Not inline: g++ would take malloc's other half for a mistake.
+/// Not inline, as g++ would take free() for a mismatch with operator new.
 __attribute__((noinline)) void release(void* memory) {
     std::free(memory);
 }
@@ -77,7 +77,7 @@ TEST_CASE("nothing is allocated inside the wavefront loop") {
     const simd::SceneData data(scene);
     simd::Wavefront wavefront(data, scene.settings(), {&simd::kernels_of(simd::best_isa())});
     Film film(64, 64);
-    wavefront.render({0, 0, 8, 8}, film); // what surrounds the camera is found at first
+    wavefront.render({0, 0, 8, 8}, film); // finds the media around the camera
     const long before = allocations;
     wavefront.render({0, 0, 64, 64}, film);
     CHECK(wavefront.counters().deferred > 0);
@@ -87,8 +87,8 @@ TEST_CASE("nothing is allocated inside the wavefront loop") {
 
 namespace {
 
-/// Balls on a lattice, so large that each touches its neighbours, and every third of them seen from
-/// outside alone.
+/// Returns balls on a lattice. Each touches its neighbours, and every third is visible only from
+/// outside.
 Scene touching_balls(int side) {
     SceneBuilder builder;
     builder.wants_light = false;
@@ -104,7 +104,7 @@ Scene touching_balls(int side) {
     return std::move(builder).build();
 }
 
-/// Calls `ask` twice, and tells how much of the heap the second one took.
+/// Calls `ask` twice. Returns the number of allocations of the second call.
 template <class Ask>
 long allocated_by_second(const Ask& ask) {
     ask();
@@ -115,13 +115,13 @@ long allocated_by_second(const Ask& ask) {
 
 } // namespace
 
-TEST_CASE("nothing is allocated by a library's call after the first of its kind") {
+TEST_CASE("a repeated call of the library allocates nothing") {
     constexpr std::size_t count = 10000;
     for (const int side : {4, 21}) { // the second has tiles
         const Scene scene = touching_balls(side);
         const simd::StreamTracer tracer(scene, 1);
         const float far = static_cast<float>(side);
-        // From one point line by line; along the lattice, through contacts; from everywhere.
+        // Rays from one point line by line; along the lattice, through contacts; from everywhere.
         for (const int kind : {0, 1, 2}) {
             std::vector<float> of_rays[6];
             for (std::size_t i = 0; i < count; ++i) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-/// Pictures without their background, to be laid over another.
+/// Images without their background, to be composited over another.
 using namespace raylane;
 using namespace little_scene;
 
@@ -66,13 +66,13 @@ double largest_alpha_difference(const Film& a, const Film& b) {
 
 } // namespace
 
-TEST_CASE("over a background, a picture with an alpha is the one that has it") {
+TEST_CASE("an image with alpha over a background equals the image without alpha") {
     for (const Color& background : {Color(0.0F), Color(1.0F), Color(0.2F, 0.5F, 3.0F)})
         for (const int most : {1, 3, Settings::see_through_limit})
             for (const bool in_fog : {false, true}) {
                 Cloud cloud(/*with_mirrors=*/false);
                 cloud.settings.max_see_through = most;
-                // What is at infinity is all fog.
+                // Everything at infinity is hidden by the fog.
                 cloud.background = in_fog ? Color(9.0F) : background;
                 if (in_fog)
                     cloud.fog = {
@@ -96,7 +96,7 @@ TEST_CASE("over a background, a picture with an alpha is the one that has it") {
             }
 }
 
-TEST_CASE("an alpha is the share of its pixel that a disc has") {
+TEST_CASE("alpha is the share of a pixel that a disc covers times its opacity") {
     Builder builder;
     builder.settings.width = builder.settings.height = 8;
     builder.settings.grid = 64;
@@ -113,7 +113,7 @@ TEST_CASE("an alpha is the share of its pixel that a disc has") {
         covered += static_cast<double>(alpha);
     CHECK(covered == Approx(0.75 * 3.14159265 * 6.25).epsilon(1e-3));
     CHECK(film.alpha_at(4, 4) == 0.75F);
-    CHECK(film.at(4, 4) == Color(0.375F)); // multiplied
+    CHECK(film.at(4, 4) == Color(0.375F)); // premultiplied
     CHECK(film.alpha_at(0, 0) == 0.0F);
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("mirrors and glass show the background and cover it") {
     CHECK(film.at(20, 2) == Color(0.0F));
 }
 
-TEST_CASE("what goes through glass behind a pane in one plane with it has not gone straight on") {
+TEST_CASE("a ray through glass behind a pane in the same plane does not go straight on") {
     Builder builder;
     builder.settings.width = builder.settings.height = 4;
     builder.settings.alpha = true;
@@ -169,7 +169,7 @@ TEST_CASE("a medium around the camera absorbs the background") {
         CHECK(drawn(scene, by(engine)).alpha_at(1, 1) == Approx(1.0 - mean).epsilon(1e-6));
 }
 
-TEST_CASE("an alpha has the same bits whatever draws it") {
+TEST_CASE("alpha has the same bits for all tiles and threads and instruction sets") {
     for (const float quality : {0.0F, 36.0F}) {
         Cloud cloud(/*with_mirrors=*/true);
         cloud.settings.quality = quality;
@@ -196,7 +196,7 @@ TEST_CASE("an alpha has the same bits whatever draws it") {
     }
 }
 
-TEST_CASE("a quality counts what is seen of a background") {
+TEST_CASE("a quality takes the visible background into account") {
     Builder builder;
     builder.settings.width = builder.settings.height = tests::sanitized ? 24 : 64;
     builder.settings.quality = 36;
@@ -204,14 +204,14 @@ TEST_CASE("a quality counts what is seen of a background") {
     builder.camera = {.from = {0, 0, 9}, .at = {0, 0, 0}, .field_of_view = 30};
     std::mt19937 random(8);
     std::uniform_real_distribution<float> place(-2, 2);
-    for (int i = 0; i < 40; ++i) // black: their colours are alike
+    for (int i = 0; i < 40; ++i) // black, so that their colours do not differ
         builder.add_shape(CappedCylinder{{place(random), place(random), place(random)},
                                          {place(random), place(random), place(random)},
                                          0.03F},
                           black());
     builder.background = Color(1.0F);
     const Scene scene = builder.finish();
-    // As many samples as black before white takes.
+    // It takes as many samples as black shapes in front of white.
     const Film film = drawn(scene), white = without_alpha(scene);
     int partly = 0;
     for (int y = 0; y < film.height(); ++y)
@@ -223,7 +223,7 @@ TEST_CASE("a quality counts what is seen of a background") {
     CHECK(largest_alpha_difference(drawn(scene, by(simd::Engine::reference)), film) < 1e-6);
 }
 
-TEST_CASE("a spectrum has the alpha of its pictures") {
+TEST_CASE("a spectrum has the alpha of its images") {
     Cloud cloud(/*with_mirrors=*/false);
     const Film plain = drawn(cloud.finish());
     Cloud in_colors(/*with_mirrors=*/false);

@@ -2,15 +2,15 @@
 
 #include "simd/kernel/lanes/bounded.hpp"
 
-/// Operations of numbers with bounds, in lanes. For units that are built for one instruction set,
-/// so without anything inline that others share.
+/// Operations of bounded numbers, in lanes. Units for one instruction set include this header, so
+/// it must not have inline functions that other units share.
 namespace raylane::simd {
 
 struct BoundedColumns {
     double high[8], low[8], error[8];
 };
 
-/// By tests::Operation, from 0 on. Returns the number of lanes.
+/// `operation` is a tests::Operation, counted from 0. Returns the number of lanes.
 using BoundedOperation = int (*)(int operation, const BoundedColumns& a, const BoundedColumns& b,
                                  BoundedColumns& result);
 

@@ -8,14 +8,15 @@
 #include <cmath>
 #include <vector>
 
-/// Surfaces that coincide, which rays walk through one by one: rounding puts each of them before or
-/// behind the others, and again before them once they are passed.
+/// Coincident surfaces, which rays pass one by one. Rounding may put each of them before or behind
+/// the others, and before them again after the ray has passed it.
 using namespace raylane;
 using namespace little_scene;
 
 namespace {
 
-/// Every walk ends, by every precision and engine; where the reference is asked, with its colours.
+/// Checks that all walks end, with every precision and engine. Except in single precisions, both
+/// engines must give the same colours.
 void check_ends(const Scene& scene) {
     const tests::Deadline deadline(300); // it takes a fraction of a second
     for (const Precision precision : all_precisions) {
@@ -56,7 +57,7 @@ class Room : public Builder {
         add_shape(Plane{offset + Vec3f(0, -2, 0), {0, 1, 0}}, matte);
     }
 
-    /// One plane, said in many ways.
+    /// Adds one plane in `count` descriptions.
     void add_sheets(int count, const Material& material) {
         ray_sets::Random random(3);
         const Vec3f normal(0.3F, 1.0F, -0.2F);
@@ -89,8 +90,8 @@ Material seen_from(Visible side) {
 
 const Vec3f offsets[] = {{0, 0, 0}, {1000, -700, 300}, {1e6F, 3e6F, -2e6F}};
 
-/// Planes about y = 1000 that are closer to each other than numbers are there, but not to what
-/// starts a little above or below. Where x is positive, they lie one below the other.
+/// Planes near y = 1000 that are closer to each other than doubles are there, but not for rays that
+/// start a little above or below. At positive x, they lie one below the other.
 class CloseSheets : public Builder {
   public:
     explicit CloseSheets(const Material& material) {
@@ -110,7 +111,7 @@ class CloseSheets : public Builder {
 
 } // namespace
 
-TEST_CASE("shadow rays find their way through glass that coincides with glass") {
+TEST_CASE("shadow rays get through coincident surfaces of glass") {
     for (const Vec3f& offset : offsets) {
         Room sheets(offset);
         sheets.add_sheets(5, glass(1.0F));
@@ -121,7 +122,7 @@ TEST_CASE("shadow rays find their way through glass that coincides with glass") 
     }
 }
 
-TEST_CASE("rays find their way through surfaces that coincide and are not seen") {
+TEST_CASE("rays get through coincident invisible surfaces") {
     for (const Vec3f& offset : offsets)
         for (const Visible side : {Visible::inside, Visible::outside}) {
             Room sheets(offset);
@@ -133,13 +134,13 @@ TEST_CASE("rays find their way through surfaces that coincide and are not seen")
         }
 }
 
-TEST_CASE("rays pass surfaces that are closer together than numbers") {
+TEST_CASE("rays get through surfaces that are closer together than doubles") {
     CloseSheets scene(seen_from(Visible::inside));
     scene.look(1001.0F, 1000.0F);
     check_ends(scene.finish());
 }
 
-TEST_CASE("light passes glass that is closer together than numbers") {
+TEST_CASE("light gets through glass surfaces that are closer together than doubles") {
     CloseSheets scene(glass(1.0F));
     Material matte = luminous();
     matte.diffuse = 1.0F;

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-/// Surfaces of one material that lie in each other are one surface, however many they are.
+/// Any number of coincident surfaces of one material are one surface.
 using namespace raylane;
 using namespace little_scene;
 
 namespace {
 
-/// A room with a checkered floor and a light, and what is put into it.
+/// A room with a checkered floor and a light, to which a test adds shapes.
 class Room : public Builder {
   public:
     Room() {
@@ -75,7 +75,7 @@ long count_differences(const std::vector<Color>& a, const std::vector<Color>& b)
     return count;
 }
 
-/// The picture of so many is that of one, to the bit, by both engines.
+/// Checks that several shapes give the same image as one, to the bit, with both engines.
 template <class Add>
 void check_are_one(const Add& add, bool opaque_only = false) {
     for (const Substance& substance : all_substances()) {
@@ -98,14 +98,14 @@ void check_are_one(const Add& add, bool opaque_only = false) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("any number of one shape in each other are one", "[native]",
+TEMPLATE_TEST_CASE("any number of coincident shapes are one shape", "[native]",
                    RAYLANE_ALL_SHAPES) {
     check_are_one([](Room& room, int i, MaterialIndex material) {
         room.add(tests::Restated<TestType>::make(i), material);
     });
 }
 
-TEST_CASE("a sphere and the quadrics in it are one", "[native]") {
+TEST_CASE("a sphere and coincident quadrics are one shape", "[native]") {
     check_are_one([](Room& room, int i, MaterialIndex material) {
         const float scale = static_cast<float>(i);
         Quadric ball{};
@@ -117,7 +117,7 @@ TEST_CASE("a sphere and the quadrics in it are one", "[native]") {
     });
 }
 
-/// An atom of five bonds has five balls where one model puts one.
+/// An atom with five bonds has five balls in some models, and one in others.
 TEST_CASE("balls at the ends of bonds are one ball", "[native]") {
     check_are_one([](Room& room, int i, MaterialIndex material) {
         if (i == 0)
@@ -130,7 +130,7 @@ TEST_CASE("balls at the ends of bonds are one ball", "[native]") {
     });
 }
 
-/// Of fronts that overlap, what is in front of the others is the whole of it.
+/// The union of the overlapping fronts is the largest front.
 TEST_CASE("boxes whose fronts lie in one plane have one front", "[native]") {
     check_are_one(
         [](Room& room, int i, MaterialIndex material) {
@@ -144,8 +144,9 @@ TEST_CASE("boxes whose fronts lie in one plane have one front", "[native]") {
         /*opaque_only=*/true);
 }
 
-/// What leaves the ball aslant falls as far as it goes aside: onto edges of the floor's cells.
-TEST_CASE("where symmetric paths meet the edges of a pattern's cells, both engines see one cell") {
+/// Because of symmetry, a ray that leaves the ball obliquely may fall as far as it goes aside: onto
+/// an edge of the floor's cells.
+TEST_CASE("both engines see one cell where symmetric paths meet edges of a pattern's cells") {
     for (const Substance& substance : all_substances()) {
         CAPTURE(substance.name);
         const auto picture = [&](simd::Engine engine) {

@@ -4,7 +4,7 @@
 
 namespace raylane::tests {
 
-/// Ends the program if it is still there after so many seconds: for what may not end by itself.
+/// Ends the program if this object still exists after so many seconds. For code that may not end.
 class Deadline {
   public:
     explicit Deadline(unsigned seconds) { alarm(seconds); }

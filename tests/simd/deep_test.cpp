@@ -6,7 +6,7 @@
 #include <cmath>
 #include <pthread.h>
 
-/// Rays that go on for long, on threads with little stack.
+/// Long paths on threads with a small stack.
 using namespace raylane;
 using namespace little_scene;
 
@@ -31,7 +31,7 @@ void on_small_stack(Act act) {
     pthread_attr_destroy(&attributes);
 }
 
-/// Two mirrors, `count` panes of glass all in each other between them.
+/// Returns a scene of two mirrors with `count` coincident panes of glass between them.
 Scene hall(int count) {
     Builder hall;
     hall.settings.width = hall.settings.height = 3;
@@ -52,14 +52,15 @@ Scene hall(int count) {
 
 } // namespace
 
-TEST_CASE("a thousand reflections, and any number of contacts, fit a small stack", "[native]") {
+TEST_CASE("a thousand reflections and any number of contacts fit a small stack", "[native]") {
     if (tests::sanitized) {
         WARN("skipped: a sanitizer's frames are larger");
         return;
     }
     for (const int panes : {0, 1, 40}) {
         const Scene scene = hall(panes);
-        // What 1000 reflections add up to; or fewer, with panes to go through between two of them.
+        // The sum of 1000 reflections, or of fewer if panes between the mirrors take some of the
+        // depth.
         const int reflections = panes == 0 ? 1000 : 332;
         const double sum = (1.0 - std::pow(0.999, reflections + 1)) / 0.001;
         for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {

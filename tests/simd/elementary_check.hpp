@@ -2,7 +2,7 @@
 
 #include "simd/kernel/lanes/elementary.hpp"
 
-/// The elementary functions of arrays, for units that are built for one instruction set.
+/// Elementary functions of arrays, for units that are built for one instruction set.
 namespace raylane::simd {
 
 /// Values of x and y in, results of each function out; `count` is a multiple of 8.
@@ -37,7 +37,7 @@ struct ElementaryCheck {
     }
 };
 
-/// ElementaryCheck of an instruction set, by a unit of its own.
+/// Runs ElementaryCheck; defined in the kernel unit of each instruction set.
 template <Isa isa>
 void elementary(const ElementaryArrays& arrays);
 

@@ -15,7 +15,8 @@ using namespace raylane::simd;
 
 namespace {
 
-/// All magnitudes and signs: a third of all sizes, a third about 1, a third of whole quarter turns.
+/// Returns numbers of both signs: a third of all sizes, a third below 2 in size, a third of whole
+/// quarter turns.
 std::vector<double> numbers(int count, unsigned seed) {
     std::mt19937_64 engine(seed);
     const auto uniform = [&](double low, double high) {
@@ -47,7 +48,7 @@ int differing(const std::vector<double>& vector, const std::vector<double>& x,
     for (std::size_t i = 0; i < x.size(); ++i) {
         const double expected = scalar(x[i], y[i]);
         const bool same =
-            std::isnan(expected) // of infinite arguments
+            std::isnan(expected) // for infinite arguments
                 ? std::isnan(vector[i])
                 : std::bit_cast<std::uint64_t>(vector[i]) == std::bit_cast<std::uint64_t>(expected);
         count += same ? 0 : 1;
@@ -59,7 +60,7 @@ void check(void (*fill)(const ElementaryArrays&)) {
     constexpr int count = 60000;
     const std::vector<double> x = numbers(count, 1);
     std::vector<double> y = numbers(count, 2);
-    for (std::size_t i = 0; i < 36; ++i) // each special number with each
+    for (std::size_t i = 0; i < 36; ++i) // pairs of special numbers
         y[i] = y[(i * 7) % 18];
     std::vector<double> exp(count), expm1(count), pow(count), sin(count), cos(count), atan(count);
     fill({x.data(), y.data(), exp.data(), expm1.data(), pow.data(), sin.data(), cos.data(),
@@ -75,7 +76,7 @@ void check(void (*fill)(const ElementaryArrays&)) {
 
 } // namespace
 
-TEST_CASE("elementary functions have the scalar ones' bits in every lane") {
+TEST_CASE("elementary functions have the same bits in every lane as the scalar functions") {
     for (const Isa isa : all_isas) {
         CAPTURE(name_of(isa));
         if (is_available(isa)) check(of_isa(isa, []<Isa which>() { return &elementary<which>; }));

@@ -4,8 +4,8 @@
 #include "tests/sanitized.hpp"
 #include "tests/simd/field_failures.hpp"
 
-/// Failures reported of other renderers: rays that hit what they leave, or pass what is near it, by
-/// an offset that suits no scale but one.
+/// Failures reported of other renderers: rays that hit the surface that they leave, or skip
+/// surfaces close to it, as their offset suits one scale only.
 using namespace field;
 using ray_sets::Random;
 
@@ -16,8 +16,8 @@ constexpr double invisible = 1e-5;
 
 } // namespace
 
-// Rays that leave a cone or a paraboloid met it again, and its tests were switched off.
-TEST_CASE("mmp/pbrt-v3 #44: what a cone or paraboloid reflects does not meet it again", "[long]") {
+// Rays that left a cone or a paraboloid met it again, and its tests were switched off.
+TEST_CASE("mmp/pbrt-v3 #44: reflected rays do not meet their cone or paraboloid again", "[long]") {
     shapes_in_double = GENERATE(false, true);
     const Vec3f center{1000, 2000, -3000};
     const CappedCone cone{center, {0, 0, 1}, 1, 0};
@@ -37,8 +37,8 @@ TEST_CASE("mmp/pbrt-v3 #44: what a cone or paraboloid reflects does not meet it 
 
 namespace {
 
-/// Coordinate x at which a ray through a glass ball meets the plane z = `plane`: Snell's law by
-/// hand. Where it enters and leaves, the ray is moved across the surface by `offset`.
+/// Returns the coordinate x at which a ray through a glass ball meets the plane z = `plane`, by
+/// Snell's law. At both crossings, the ray is moved across the surface by `offset`.
 double reached_through_ball(const Sphere& ball, double index, double plane, Ray<double> ray,
                             double offset) {
     const Vec3d center = convert<double>(ball.center);
@@ -85,8 +85,8 @@ TEST_CASE("mitsuba3 #219: a lens at large coordinates bends rays where they hit 
     CHECK(worst_moved > 0.1);
 }
 
-// The offset, 9e-5 and more, was wider than the gap between glass and what it covers: rays began
-// inside the inner sphere, and light leaked.
+// The offset, 9e-5 and more, was wider than the gap between the glass and the inner sphere: rays
+// began inside the inner sphere, and light leaked.
 TEST_CASE("mitsuba3 #1871: a shell of 4e-5 about a sphere leaks no light", "[long]") {
     shapes_in_double = GENERATE(false, true);
     const Sphere inner{{0, 0, 0}, 1}, outer{{0, 0, 0}, 1.0F + 4e-5F};
@@ -97,7 +97,7 @@ TEST_CASE("mitsuba3 #1871: a shell of 4e-5 about a sphere leaks no light", "[lon
     builder.add_shape(inner, red);
     builder.add_shape(outer, glass(1.5F));
     int hits = 0, wrong = 0, leaks = 0;
-    // Bent inwards by glass of 1.5, whatever enters comes within 1 / 1.5 of the centre.
+    // Glass of 1.5 bends all rays that enter, so that they come within 1 / 1.5 of the centre.
     for_each_pixel(builder.finish(), [&](const Ray<double>& ray, const Color& color) {
         const auto seen = first_seen(std::vector{outer}, ray);
         hits += seen ? 1 : 0;
@@ -113,7 +113,7 @@ TEST_CASE("mitsuba3 #1871: a shell of 4e-5 about a sphere leaks no light", "[lon
     CHECK(leaks == hits);
 }
 
-// Of the rays that leave a sphere the size of a pea, some hit it again.
+// Some of the rays that left a sphere the size of a pea hit it again.
 TEST_CASE("mitsuba3 #1236: rays that leave a small sphere do not hit it", "[long]") {
     shapes_in_double = GENERATE(false, true);
     const Sphere sphere{{0, 0.083F, 0.4F}, 0.015F};
@@ -185,7 +185,8 @@ TEST_CASE("RenderKit/ospray #279: the inside of a thin cylinder is seen", "[long
     }
 }
 
-// Surfaces nearer behind a transparent box than the smallest t that counts were not there: black.
+// Surfaces behind a transparent box were lost (black) if they were nearer than the smallest t that
+// counts.
 TEST_CASE("POV-Ray #125: a plane 7e-7 below a transparent box is seen through it", "[long]") {
     shapes_in_double = GENERATE(false, true);
     const float depth = -1.0000007F;

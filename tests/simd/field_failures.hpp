@@ -12,15 +12,15 @@
 #include <optional>
 #include <vector>
 
-/// Scenes that other renderers drew wrongly: pictures held against the oracle, pixel by pixel, and
-/// the textbook's formulas in float, which fail on them.
+/// Scenes that other renderers rendered wrongly. Images are compared with the oracle, pixel by
+/// pixel. The textbook's formulas in float fail on these scenes.
 namespace field {
 
 using namespace raylane;
 using namespace little_scene;
 
-/// True where scenes have shapes in double: their numbers are no floats, and so near to these that
-/// no pixel tells.
+/// If true, scenes have shapes in double. Their numbers are not floats, but so close to floats that
+/// no pixel changes.
 inline bool shapes_in_double = false; // NOLINT: tests run one after the other
 
 class FieldBuilder : public Builder {
@@ -39,8 +39,8 @@ class FieldBuilder : public Builder {
     }
 };
 
-/// Shines a little by itself, so that what is hit is known from what is not, and is matte or, like
-/// plastic, has a highlight as well.
+/// Returns a material that is slightly luminous, so that hits differ from misses. It is matte or,
+/// like plastic, has a highlight.
 inline Material chalk(float specular = 0.0F) {
     Material material = luminous();
     material.ambient = 0.25F;
@@ -61,7 +61,7 @@ inline Film drawn(const Scene& scene) {
     return simd::render(scene, scene.settings(), {}).film;
 }
 
-/// Calls visit(ray, colour) for each pixel of a scene's picture.
+/// Calls visit(ray, colour) for each pixel of a scene's image.
 template <class Visit>
 void for_each_pixel(const Scene& scene, const Visit& visit) {
     const Film film = drawn(scene);
@@ -77,7 +77,7 @@ struct Seen {
     Vec3d normal; ///< towards the viewer
 };
 
-/// First of some shapes that the oracle sees.
+/// Returns the first of some shapes that the oracle finds along a ray.
 template <class Shape>
 std::optional<Seen> first_seen(const std::vector<Shape>& shapes, const Ray<double>& ray) {
     std::optional<Seen> first;
@@ -104,14 +104,14 @@ struct Comparison {
     double worst = 0.0; ///< difference of brightness where both hit
 };
 
-/// Chalk's brightness where nothing is in the way of the light.
+/// Returns chalk's brightness in unobstructed light.
 inline double brightness(const Vec3d& normal, const Vec3d& to_light, double specular) {
     const double cos = std::max(dot(normal, to_light), 0.0);
     return 0.25 + 0.5 * cos + (cos > 0.0 ? specular * std::pow(cos, 16.0) : 0.0);
 }
 
-/// A scene of chalk, lit from `to_light`, which the oracle shades without any shadows. A highlight
-/// must be looked at from the light.
+/// Compares a scene of chalk, lit from `to_light`, with the oracle's hits shaded without shadows.
+/// If there is a highlight, the view must be from the light.
 template <class Shape>
 Comparison compare(const Scene& scene, const std::vector<Shape>& shapes, const Vec3d& to_light,
                    double specular = 0.0) {
@@ -151,7 +151,7 @@ inline std::optional<float> textbook_hit(const Sphere& sphere, const Ray<float>&
     return std::nullopt;
 }
 
-/// |p|^2 - (p.a)^2 = (r0 + k p.a)^2 for the unit axis a.
+/// Solves |p|^2 - (p.a)^2 = (r0 + k p.a)^2 for the unit axis a.
 template <class Axial>
 std::optional<float> textbook_axial_hit(const Axial& shape, float r0, float r1,
                                         const Ray<float>& ray, float least) {
@@ -180,8 +180,8 @@ inline Ray<float> rounded(const Ray<double>& ray) {
     return {convert<float>(ray.origin), convert<float>(ray.direction)};
 }
 
-/// The same comparison of the textbook, with shadow rays that begin at `epsilon`; of bodies whose
-/// caps are not seen.
+/// Makes the same comparison for the textbook's formulas, with shadow rays that begin at `epsilon`.
+/// Caps of bodies must not be visible.
 template <class Shape>
 Comparison compare_textbook(const Scene& scene, const std::vector<Shape>& shapes,
                             const Vec3d& to_light, float epsilon) {
@@ -212,8 +212,8 @@ Comparison compare_textbook(const Scene& scene, const std::vector<Shape>& shapes
     return result;
 }
 
-/// Mirrors in a white room. A convex one that reflects once cannot be seen; what its reflection
-/// hits again is black, and so is one that reflects not at all.
+/// Renders mirrors in a white room. With one reflection, a convex mirror cannot be seen, and is
+/// black where the reflection hits it again. Without reflections it is black.
 inline Film in_white_room(FieldBuilder builder, int reflections) {
     builder.background = Color(1.0F);
     builder.settings.max_depth = reflections;
@@ -226,7 +226,8 @@ inline int count_not_white(const Film& film) {
     return count;
 }
 
-/// The same by the textbook: of the camera's rays, those whose reflection meets the shape again.
+/// Returns the number of camera rays whose reflection meets the shape again by the textbook's
+/// formulas.
 template <class Shape>
 int textbook_self_hits(const Scene& scene, const Shape& shape, float epsilon) {
     int count = 0;
@@ -241,7 +242,7 @@ int textbook_self_hits(const Scene& scene, const Shape& shape, float epsilon) {
     return count;
 }
 
-/// A builder for a small square picture.
+/// Returns a builder for a small square image.
 inline FieldBuilder square(int pixels, const Camera& camera) {
     FieldBuilder builder;
     builder.settings.width = builder.settings.height = pixels;

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-/// Failures reported of other renderers: what is seen from far away, or along its axis.
+/// Failures reported of other renderers: shapes seen from far away, or along their axis.
 using namespace field;
 using ray_sets::Random;
 
@@ -15,7 +15,7 @@ constexpr int pixels = tests::sanitized ? 48 : 96;
 constexpr double visible = 0.01; // in brightness
 constexpr double invisible = 1e-5;
 
-/// Each of some shapes of chalk, under a sun.
+/// Returns a scene of some shapes of chalk, under a sun.
 template <class Shape>
 Scene chalk_scene(FieldBuilder builder, const std::vector<Shape>& shapes, const Vec3f& sunlight,
                   float specular = 0.0F) {
@@ -87,8 +87,8 @@ TEST_CASE("mitsuba3 #512: a unit sphere seen from 1,000 units away has no rings"
     CHECK(textbook.worst > visible);
 }
 
-// Cones of about a unit's size, seen from afar: the solver's precision gave out where they are
-// looked at along their axes, in rings about the centre of projection.
+// Cones of about unit size, seen from far away: the solver lost its precision where the view was
+// along their axes, in rings about the centre of projection.
 TEST_CASE("NVIDIA/VisRTX #333: cones have no rings about the centre of projection", "[long]") {
     shapes_in_double = GENERATE(false, true);
     std::vector<CappedCone> cones;
@@ -110,7 +110,7 @@ TEST_CASE("NVIDIA/VisRTX #333: cones have no rings about the centre of projectio
 }
 
 // Seen exactly along its axis, a cylinder was a bar and a circle: the wall's leading coefficient
-// was nothing but rounding.
+// was only a rounding error.
 TEST_CASE("NVIDIA/VisRTX #73: a cylinder seen along its axis is a disc", "[long]") {
     shapes_in_double = GENERATE(false, true);
     const Vec3f base{-30.005F, -77.1061F, -16.8721F}, top{-30.005F, -27.301F, 16.8721F};
@@ -124,7 +124,8 @@ TEST_CASE("NVIDIA/VisRTX #73: a cylinder seen along its axis is a disc", "[long]
     CHECK(ours.wrong == 0);
     CHECK(ours.worst < invisible);
 
-    // From everywhere, and by the textbook: behind where the axis enters it leaves.
+    // Views along random axes. With the textbook's formulas, the axis leaves some cylinders before
+    // it enters.
     Random random(73);
     int wrong = 0, lost = 0;
     constexpr int views = 40;
@@ -178,8 +179,8 @@ TEST_CASE("NVIDIA/VisRTX #54: two halves of a cylinder are as bright as the whol
     CHECK(textbook > visible);
 }
 
-// Curves stood in for cylinders and cones and put balls on their ends; molecules need neither balls
-// nor triangles.
+// Curves replaced cylinders and cones and put balls on their ends. Molecules need no balls there
+// and no triangles.
 TEST_CASE("RenderKit/ospray #421: bonds and arrows have no balls on their ends", "[long]") {
     shapes_in_double = GENERATE(false, true);
     std::vector<OpenCylinder> bonds;
@@ -213,5 +214,5 @@ TEST_CASE("RenderKit/ospray #421: bonds and arrows have no balls on their ends",
     });
     CHECK(hits > pixels * pixels / 20);
     CHECK(wrong == 0);
-    CHECK(beyond > 10); // the difference is one that can be seen
+    CHECK(beyond > 10); // the difference is visible
 }

@@ -16,9 +16,9 @@ using namespace raylane::simd;
 using namespace raylane::filter_trial;
 using namespace raylane::mutations;
 
-/// A search for rays that break the filters' bounds. Of what a filter allows for rounding, each ray
-/// needs a part: with less, the filter would say something of it that is not so. The search climbs
-/// to where that part is largest.
+/// Searches for rays that break the filters' bounds. Each ray needs a part of the filter's
+/// allowance for rounding: with less, the filter's answer would be wrong. The search climbs to
+/// where that part is largest.
 
 namespace {
 
@@ -30,7 +30,7 @@ ScaledFilters scaled_filters_of(Isa isa) {
     return of_isa(isa, []<Isa which>() { return scaled_filters<which>(); });
 }
 
-/// One shape and one ray before the filters.
+/// Tests one shape and one ray with the filters.
 template <class Shape>
 class Trial {
   public:
@@ -41,14 +41,15 @@ class Trial {
         view_ = stream_.view();
     }
 
-    /// True if the filter is wrong when it allows for this part of the rounding.
+    /// Returns whether the filter is wrong if it allows for this part of the rounding.
     bool is_lie(double part) {
         *filters_.half_ulp = static_cast<float>(part * 0x1p-24);
         filters_.checks.bound_rays(kind_of<Shape>, view_of(block_), 0, view_);
         return lie(stream_.answer(0), truth_) != nullptr;
     }
 
-    /// The part that the ray needs, given that it is more than `least`; 1 if all of it does not do.
+    /// Returns the part that the ray needs, which must be more than `least`; 1 if even the whole
+    /// does not suffice.
     double part_needed(double least) {
         double most = 1.0;
         if (is_lie(most)) return most;
@@ -67,7 +68,8 @@ class Trial {
     FilterStream view_{};
 };
 
-/// The ray meant may be `slack` away from its floats, and have a length that is not quite 1.
+/// Normalises a ray, with a length that is sometimes not quite 1. Without `slack`, the origin
+/// becomes floats.
 void tidy(Ray<double>& ray, bool slack, Random& random) {
     if (!slack) ray.origin = in_double(ray_sets::rounded(ray.origin));
     ray.direction = normalized(ray.direction);
@@ -93,14 +95,15 @@ Summit<Shape> climb(const ScaledFilters& filters, bool slack, int steps, Random&
         tidy(next.ray, slack, random);
         if (!is_valid(next.shape)) continue;
         Trial<Shape> trial(filters, next);
-        // A little less than it was is good enough, to get off the lesser hills.
+        // Accepts a slightly smaller part, to leave local maxima.
         if (!trial.is_lie((random.integer(0, 7) == 0 ? 0.98 : 1.001) * summit.part)) continue;
         summit = {trial.part_needed(0.98 * summit.part), next};
     }
     return summit;
 }
 
-/// True if the oracle agrees on what is true. Double-double is not enough for all floats.
+/// Returns whether the oracle agrees with the solver. Double-double does not suffice for all
+/// floats.
 template <class Shape>
 bool is_confirmed(const Attempt<Shape>& attempt) {
     const First truth = first_crossing(attempt.shape, attempt.ray);

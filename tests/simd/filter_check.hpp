@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-/// The filters for the tests: plain data, as nothing inline may be shared with units that are built
-/// for newer processors.
+/// Interface of the filters for tests. It is plain data, as no inline function may be shared with
+/// units that are built for newer processors.
 namespace raylane::simd {
 
 /// 16 shapes of one kind, structure of arrays: value k of lane i at values[k][i]; ids in the bits
@@ -21,16 +21,16 @@ struct FilterStream {
     const float* origin[3];
     const float* direction[3];
     const float* slack;
-    /// Out: Bounds, the masks as 1 or 0; may_meet, 1 for filters that have none; and 1 where what
-    /// is in the way is not what the bounds say.
+    /// Out: Bounds, with masks as 1 or 0; may_meet, 1 for filters that do not have it; and
+    /// contradicts, 1 if the obstacle differs from the bounds.
     float *possible, *lower, *certain, *upper, *may_meet, *contradicts;
 };
 
 struct FilterChecks {
-    /// One shape of a block against all rays.
+    /// Tests one shape of a block with all rays.
     void (*bound_rays)(core::Kind kind, const ShapeBlock& block, int lane,
                        const FilterStream& stream);
-    /// One ray against all 16 shapes of a block, into the stream's first 16 places.
+    /// Tests one ray with all 16 shapes of a block. Results go to the stream's first 16 entries.
     void (*bound_block)(core::Kind kind, const ShapeBlock& block, const FilterStream& stream,
                         std::size_t ray);
 };

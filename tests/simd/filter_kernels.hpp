@@ -29,8 +29,8 @@ struct FilterChecksOf {
         bounds.upper.store_unaligned(stream.upper + i);
     }
 
-    /// True if the obstacle in one lane's way is not as the bounds say, when that lane alone is
-    /// asked about.
+    /// Returns whether the obstacle in one lane differs from the bounds, if only that lane is
+    /// requested.
     template <class Filter>
     static bool contradicts(const Filter& filter, const FilterRays<Arch>& rays,
                             const Bounds<Arch>& bounds, std::size_t lane) {

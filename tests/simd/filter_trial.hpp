@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-/// One ray, or many, before the filters: what they say, and whether that is so.
+/// Tests one ray or many with the filters and checks the answers.
 namespace raylane::filter_trial {
 
 using namespace core;
@@ -22,7 +22,7 @@ inline FilterChecks checks_of(Isa isa) {
     return of_isa(isa, []<Isa which>() { return filter_checks<which>(); });
 }
 
-/// A ray as it is meant, and as the filters see it.
+/// An exact ray, and the rounded ray that filters get.
 struct Doubled {
     Ray<double> ray;
     Ray<float> rounded;
@@ -41,8 +41,8 @@ inline Ray<double> with_unit_direction(Ray<double> ray) {
     return ray;
 }
 
-/// The first crossing with t > 0, and what t may be off by. Not known where one of the crossings
-/// may be anywhere, even in double-double: at a line that touches a cone's extension, say.
+/// The first crossing with t > 0, and a bound on the error of t. It is not known if a crossing has
+/// no bound even in double-double, for example of a line that touches a cone's extension.
 struct First {
     double t = infinity<double>;
     double error = 0.0;
@@ -123,7 +123,7 @@ ShapeBlock view_of(const Block<Shape>& block) {
     return {block.values, reinterpret_cast<const float*>(block.ids)};
 }
 
-/// Fault of an answer; null if it has none.
+/// Returns the fault of an answer, or null if it is right.
 inline const char* lie(const Answer& answer, const First& truth) {
     if (answer.contradicts) return "what is in the way was not what the bounds say";
     if (!truth.known) return nullptr;

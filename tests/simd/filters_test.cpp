@@ -13,7 +13,7 @@ using namespace raylane::simd;
 using namespace raylane::filter_trial;
 using namespace raylane::hard_cases;
 
-/// The filters' bounds against the certified answer in double.
+/// Compares the filters' bounds with the certified answer in double.
 
 namespace {
 
@@ -21,7 +21,7 @@ int rounds() {
     return tests::rounds(500);
 }
 
-/// True if the tightness of the bounds is to be printed.
+/// Returns whether the tightness of the bounds is to be printed.
 bool wants_report() {
     return std::getenv("RAYLANE_TEST_REPORT") != nullptr;
 }
@@ -120,7 +120,7 @@ TEST_CASE("a plane may be met beyond the largest float") {
     }
 }
 
-TEST_CASE("a sphere that rays leave straight out is in doubt by each way alike") {
+TEST_CASE("bounds and obstacles agree for rays that leave a sphere along its normal") {
     Random random(41);
     int possible = 0;
     for (int round = 0; round < 100; ++round) {
@@ -147,7 +147,7 @@ TEST_CASE("a sphere that rays leave straight out is in doubt by each way alike")
 
 namespace {
 
-/// Tightness of the bounds, in t plus the distance of the origin from the shape.
+/// Tightness of the bounds, as a part of t plus the distance from the origin to the shape's centre.
 struct Tightness {
     std::vector<double> gaps;   ///< from lower to t
     std::vector<double> widths; ///< from lower to upper, where certain

@@ -18,8 +18,8 @@ using namespace raylane::core;
 using namespace raylane::simd;
 using namespace raylane::mutations;
 
-/// A search for rays whose t is further off after the finish than it says. It climbs to where the
-/// error is the largest part of its bound.
+/// Searches for rays whose t has a larger error after `finish` than its bound. The search climbs to
+/// where the error is the largest part of its bound.
 
 namespace {
 
@@ -32,15 +32,15 @@ int rounds() {
 /// Kind of rays.
 enum class Aim {
     any,     ///< directions of doubles, of length 1 +- 2^-48
-    again,   ///< the same, and what is doubtful is finished again
-    rounded, ///< meant along floats of any length, which the library brings to length 1
+    again,   ///< the same, and `finish_again` refines doubtful rays
+    rounded, ///< along floats of any length, which the library normalises
     onward,  ///< from the surface
 };
 
-/// A number in double-double and what it may be off by.
+/// A number in double-double with a bound on its error.
 using Wide = Bounded<DoubleDouble>;
 
-/// The first crossing, as core::solve has it, but with all of t.
+/// Returns the first crossing like core::solve(), but with all digits of t.
 template <class Shape>
 std::optional<core::Crossing<Wide>> first_crossing(const Shape& shape, const Ray<double>& ray,
                                                    const Start& start) {
@@ -57,7 +57,7 @@ struct Finish {
     std::uint32_t hit;
 };
 
-/// One ray and one shape through a unit's finish, and if it says so through the next one.
+/// Solves one ray and one shape by a unit's `finish`, and with `again` by `finish_again` as well.
 template <class Shape>
 Finish finish(const FinishKernels& kernels, const Shape& shape, const Ray<double>& ray,
               const Start& start, bool again) {
@@ -103,12 +103,12 @@ struct Started : Attempt<Shape> {
     Start start;
 };
 
-/// The part of the bound that the error is: 1 where it breaks, or where what is called certain is
-/// not so; 0 where nothing is.
+/// Returns the error as a part of its bound: 1 or more if the bound breaks or an answer that is
+/// called certain is wrong, 0 if nothing is certain.
 template <class Shape>
 double part_needed(const Started<Shape>& attempt, Aim aim) {
     Ray<double> ray = attempt.ray;
-    DoubleDouble unit(1.0); // of the true t
+    DoubleDouble unit(1.0); // converts t to that of a unit direction
     if (aim == Aim::rounded) {
         const Vec3<DoubleDouble> d = convert<DoubleDouble>(ray.direction);
         unit = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
@@ -123,12 +123,13 @@ double part_needed(const Started<Shape>& attempt, Aim aim) {
     const double doubt = static_cast<double>(unit) * truth->t.error;
     const bool same = (result.hit & hit_face) == truth->face &&
                       ((result.hit & hit_entering) != 0) == truth->entering;
-    // Where even double-double is not sure, one cannot tell.
+    // Even double-double cannot decide.
     if (!(doubt < 0x1p-10 * result.error)) return 0.0;
     if (!same) return 1.0;
     const auto off = static_cast<double>(truth->t.value * unit - DoubleDouble(result.t));
     if (aim != Aim::again) return std::abs(off) / result.error;
-    // Without the last rounding, to double, which would hide all others; and of rays that need it.
+    // The last rounding, to double, would hide all other errors, so it is left out. Only rays that
+    // need `finish_again` count.
     const double rounding = 0x1p-52 * std::abs(result.t), error = result.error - rounding;
     const bool needs_it =
         (finish(finish_kernels_of(best_isa()), attempt.shape, ray, attempt.start, false).hit &
@@ -149,7 +150,7 @@ void tidy(Started<Shape>& attempt, Aim aim, Random& random) {
     }
 }
 
-/// A ray to the shape; or onward from where it hits.
+/// Returns a ray to the shape, or onward from its hit.
 template <class Shape>
 std::optional<Started<Shape>> first_attempt(Aim aim, bool lattice, Random& random) {
     Started<Shape> attempt{};
@@ -170,7 +171,7 @@ std::optional<Started<Shape>> first_attempt(Aim aim, bool lattice, Random& rando
     return attempt;
 }
 
-/// A changed attempt. A start on the surface leaves only the ray's direction to change.
+/// Returns a changed attempt. If the ray starts on the surface, only its direction changes.
 template <class Shape>
 Started<Shape> changed(Started<Shape> attempt, Aim aim, Random& random) {
     if (aim == Aim::onward)
@@ -198,7 +199,7 @@ Summit<Shape> climb(Aim aim, int steps, Random& random) {
         const Started<Shape> next = changed(at.attempt, aim, random);
         if (!is_valid(next.shape)) continue;
         const double part = part_needed(next, aim);
-        // A little less than it was is good enough, to get off the lesser hills.
+        // Accepts a slightly smaller part, to leave local maxima.
         if (part < (random.integer(0, 7) == 0 ? 0.95 : 1.0) * at.part) continue;
         at = {part, next};
         if (part > highest.part) highest = at;
@@ -206,8 +207,8 @@ Summit<Shape> climb(Aim aim, int steps, Random& random) {
     return highest;
 }
 
-/// True if the oracle agrees on what is true. Double-double is not enough for all floats. (Of a
-/// start on the surface the oracle knows nothing.)
+/// Returns whether the oracle agrees with the solver. Double-double does not suffice for all
+/// floats. The oracle cannot check rays that start on the surface.
 template <class Shape>
 bool is_confirmed(const Started<Shape>& attempt) {
     if (attempt.start.on_surface) return true;
@@ -240,7 +241,7 @@ std::string description(const Summit<Shape>& summit) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("no search finds a ray whose t is further off than the finish says", "",
+TEMPLATE_TEST_CASE("no search finds a ray whose t has a larger error than its bound", "",
                    RAYLANE_ALL_SHAPES) {
     const int climbs = std::max(1, rounds());
     const auto any = highest<TestType>(Aim::any, climbs, 37),
@@ -255,7 +256,7 @@ TEMPLATE_TEST_CASE("no search finds a ray whose t is further off than the finish
     CHECK(rounded.part < 1.0);
     CHECK(onward.part < 1.0);
     CHECK(again.part < 1.0);
-    // A bound that nothing comes near gives speed away.
+    // A bound that no error comes near costs speed.
     if (climbs >= full_rounds) {
         CHECK(any.part > 0.01);
         CHECK(again.part > 0.01);

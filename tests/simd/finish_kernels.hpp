@@ -6,7 +6,7 @@
 
 namespace raylane::simd {
 
-/// The kernels that finish crossings by exact. Those that search take a minute to compile.
+/// The kernels that solve crossings for `exact`. The search kernels take a minute to compile.
 struct FinishKernels {
     decltype(MethodKernels::finish) finish;
     RefineKernels refine;

@@ -21,7 +21,7 @@ using namespace raylane::simd;
 using ray_sets::Random;
 using ray_sets::Set;
 
-/// Hits that the finish is certain of, against the certified scalar solver in double.
+/// Compares hits that `finish` is certain of with the certified scalar solver in double.
 
 namespace {
 
@@ -69,7 +69,7 @@ Expected expected(const Shape& shape, const Ray<double>& ray, const Start& start
     return {};
 }
 
-/// The arrays of Found, with a few values more than whole packets.
+/// The arrays of Found, padded to whole packets.
 struct Rays {
     std::vector<Ray<double>> rays;
     std::vector<Expected> truth;
@@ -94,7 +94,7 @@ struct Rays {
         slot.push_back(to);
     }
 
-    /// View of the rays for the finish. Values behind the last ray must not matter.
+    /// Returns a view of the rays for `finish`. Values after the last ray must not matter.
     Found view(Random& random) {
         const std::size_t room = (rays.size() + 15) / 16 * 16;
         for (std::vector<double>* array : {&ox, &oy, &oz, &dx, &dy, &dz})
@@ -130,8 +130,8 @@ Ray<double> unit(const Ray<float>& ray) {
     return {convert<double>(ray.origin), normalized(convert<double>(ray.direction))};
 }
 
-/// A ray to the shape, or half the time one that leaves it again from where that one hits; either
-/// to the side where the surface's normal says it goes, or (`adverse`) to the other.
+/// Adds a ray to the shape or, half the time if that hits, a ray that leaves the shape at the hit.
+/// Its side is that of the surface's normal, or with `adverse` sometimes the other.
 template <class Shape>
 void add_ray(Rays& rays, const Shape& shape, std::uint32_t slot, ShapeId id, Set set, bool adverse,
              Random& random) {
@@ -158,7 +158,7 @@ void add_rays(Rays& rays, const Tables& tables, bool lattice, bool adverse, int 
     const auto& table = std::get<Table<Shape>>(tables);
     std::uint32_t place = 0;
     for (int i = 0; i < count; ++i) {
-        // The same shape for some time, so that there are packets of one shape, of one kind, and of
+        // Keeps a shape for some time, so that there are packets of one shape, of one kind, and of
         // all kinds.
         if (random.integer(0, 15) == 0 || i == 0)
             place =
@@ -188,14 +188,14 @@ void add_shapes(Tables& tables, bool lattice, int count, Random& random) {
 
 struct Share {
     long hits = 0, doubtful = 0;
-    /// Of rays that do not start on the shape, those that miss it included.
+    /// Counts rays that do not start on the shape, including those that miss it.
     long elsewhere = 0, doubtful_elsewhere = 0;
 };
 
-/// Way in which the rays are finished.
+/// Kernels that solve the rays: `finish` alone, or `finish_again` as well.
 enum class Way { once, again };
 
-/// Checks one ray of `rays` after the finish.
+/// Checks one ray of `rays` after `finish`.
 void check(const Rays& rays, std::size_t i, bool adverse, Share& share) {
     const Expected& truth = rays.truth[i];
     const std::uint32_t hit = rays.hit[i];
@@ -227,7 +227,7 @@ void check(const Rays& rays, std::size_t i, bool adverse, Share& share) {
     const Vec3d shading(rays.sx[i], rays.sy[i], rays.sz[i]);
     CAPTURE(normal.x, normal.y, normal.z, truth.normal.x, truth.normal.y, truth.normal.z);
     if (!(std::abs(length(normal) - 1.0) < 1e-7)) FAIL("no unit normal");
-    // By an apex, a small error of the point is a large one of the normal.
+    // Near an apex, a small error of the point is a large error of the normal.
     const double tolerance = adverse ? 1e-2 : 1e-6;
     if (adverse && !truth.has_normal) return;
     if (!(length(normal - truth.normal) < tolerance)) FAIL("another normal");
@@ -238,7 +238,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b, std::
     return std::bit_cast<std::uint64_t>(a[i]) == std::bit_cast<std::uint64_t>(b[i]);
 }
 
-/// Finishes the rays on every instruction set that there is.
+/// Solves the rays on every available instruction set.
 void check_all(Rays& rays, const Tables& tables, bool adverse, Random& random, Share& share,
                Way way = Way::once) {
     const SceneView scene = view_of(tables);
@@ -273,7 +273,7 @@ void check_all(Rays& rays, const Tables& tables, bool adverse, Random& random, S
 
 } // namespace
 
-TEMPLATE_TEST_CASE("what the finish is certain of is right", "", RAYLANE_ALL_SHAPES) {
+TEMPLATE_TEST_CASE("certain answers of finish are right", "", RAYLANE_ALL_SHAPES) {
     Random random(21);
     Share share;
     for (int round = 0; round < rounds(); ++round) {
@@ -291,7 +291,7 @@ TEMPLATE_TEST_CASE("what the finish is certain of is right", "", RAYLANE_ALL_SHA
     CHECK(share.doubtful * 2 < share.hits);
 }
 
-TEMPLATE_TEST_CASE("what is finished again is right, and hardly ever in doubt", "",
+TEMPLATE_TEST_CASE("answers of finish_again are right and hardly ever doubtful", "",
                    RAYLANE_ALL_SHAPES) {
     Random random(24);
     Share hard, lattice;
@@ -308,11 +308,11 @@ TEMPLATE_TEST_CASE("what is finished again is right, and hardly ever in doubt", 
     std::printf("hard rays, %s: %.3g of %ld doubtful in the end\n",
                 std::string(name_of(core::kind_of<TestType>)).c_str(), part, hard.elsewhere);
     CHECK(hard.elsewhere > rounds() * 25);
-    // What is left are edges and rims that are met exactly.
+    // The rest meet edges and rims exactly.
     CHECK(part < 0.04);
 }
 
-TEMPLATE_TEST_CASE("the finish is certain of ordinary rays", "", RAYLANE_ALL_SHAPES) {
+TEMPLATE_TEST_CASE("finish is certain of ordinary rays", "", RAYLANE_ALL_SHAPES) {
     Random random(22);
     Share share;
     for (int round = 0; round < rounds(); ++round) {
@@ -330,10 +330,10 @@ TEMPLATE_TEST_CASE("the finish is certain of ordinary rays", "", RAYLANE_ALL_SHA
           tests::most_by_chance(2e-4 * static_cast<double>(share.hits)));
 }
 
-TEST_CASE("the finish sorts out packets of many kinds, and leaves lanes without a shape alone") {
+TEST_CASE("finish sorts out packets of many kinds and leaves lanes without a shape alone") {
     Random random(23);
     Share share;
-    for (int round = 0; round < rounds() / 5 + 4; ++round) { // one alone may have no hit
+    for (int round = 0; round < rounds() / 5 + 4; ++round) { // a single round may have no hit
         Tables tables;
         Rays by_kind;
         for_each_table(tables, [&]<class Shape>(Table<Shape>&) {

@@ -4,13 +4,12 @@
 using namespace raylane;
 using namespace raylane::tests;
 
-/// Frusta of rays that have something in common against the same rays one by one, and against the
-/// scalar search.
+/// Compares frusta of coherent rays with the same rays one by one, and with the scalar search.
 
 namespace {
 
-/// Rays from anywhere to one light, which frusta see in another order.
-/// `strays`: of each hundred packets, those that hold rays from anywhere between the others.
+/// Checks rays from anywhere to one light, which frusta put in another order. In each
+/// hundred packets, `strays` hold rays from anywhere.
 void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
     CAPTURE(std::string(kernels.name), overlapping, strays);
     Rays rays(3001, overlapping ? 9.0 : 12.0);
@@ -28,10 +27,10 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
     for (const std::size_t count : {std::size_t{5}, std::size_t{16}, std::size_t{63},
                                     std::size_t{256}, std::size_t{257}, rays.count}) {
         CAPTURE(count);
-        const RoundedRays rounded = rays.round(kernels); // what is behind them is overwritten
+        const RoundedRays rounded = rays.round(kernels); // overwrites entries after them
         TraceCounters counters{};
         Answers alone(rays.padded), together(rays.padded);
-        for (std::size_t i = 0; i < rays.padded; ++i) // what is blocked is not to be looked at
+        for (std::size_t i = 0; i < rays.padded; ++i) // blocked rays must be skipped
             alone.state[i] = together.state[i] = i % 7 == 0   ? blocked
                                                  : i % 7 == 1 ? doubtful
                                                               : unblocked;
@@ -51,15 +50,15 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
         }
         CHECK(lowered == 0);
         CHECK(opposed == 0);
-        CHECK(different <= static_cast<int>(count) / 50); // what only may be there
+        CHECK(different <= static_cast<int>(count) / 50); // possible but uncertain blockers
         if (count != rays.count) continue;
-        CHECK((counters.in_frusta > 0) == !overlapping); // where too much is before them, none are
-        CHECK(any > static_cast<int>(count) / 4);        // with those that were blocked before
+        CHECK((counters.in_frusta > 0) == !overlapping); // not with too many shapes in front
+        CHECK(any > static_cast<int>(count) / 4);        // including rays that were blocked before
         CHECK(any < static_cast<int>(count));
     }
 }
 
-/// Rays that have something in common see in a frustum what they see one by one.
+/// Checks that coherent rays see the same in a frustum as one by one.
 void check_frustum(const Kernels& kernels, const Coherence& coherence, int planes) {
     CAPTURE(std::string(kernels.name), coherence.converging, coherence.parallel, coherence.beyond,
             planes);
@@ -86,7 +85,8 @@ void check_frustum(const Kernels& kernels, const Coherence& coherence, int plane
         CAPTURE(count);
         const RoundedRays rounded = rays.round(kernels);
         Answers alone(rays.padded), together(rays.padded);
-        // Some have met something before all else; or all have, just behind what is nearest.
+        // Some rays already have a hit before all shapes; or all have one just behind the nearest
+        // hit.
         for (std::size_t i = 0; i < count; ++i) {
             const bool behind = count % 2 == 0 && hits[i].any();
             const float met = behind                         ? 1.01F * static_cast<float>(hits[i].t)
@@ -105,13 +105,13 @@ void check_frustum(const Kernels& kernels, const Coherence& coherence, int plane
             traced.check(together, i, hits[i]);
             different += alone.agree(together, i) ? 0 : 1;
         }
-        CHECK(different <= static_cast<int>(count) / 50); // what only may be there
+        CHECK(different <= static_cast<int>(count) / 50); // possible but uncertain hits
     }
 }
 
 } // namespace
 
-TEST_CASE("rays to a light are put in another order for nobody to notice") {
+TEST_CASE("reordering rays to a light does not change their answers") {
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
         check_light(kernels_of(isa), true, 100);
@@ -120,7 +120,7 @@ TEST_CASE("rays to a light are put in another order for nobody to notice") {
     }
 }
 
-TEST_CASE("rays see in a frustum what they see alone") {
+TEST_CASE("rays see the same in a frustum as alone") {
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
         for (const Coherence& coherence : {
@@ -129,7 +129,7 @@ TEST_CASE("rays see in a frustum what they see alone") {
                  Coherence{{6.0F, 25.0F, 5.0F}, true, false, false, false},   // to a light
                  Coherence{{0.0F, 0.0F, 0.0F}, false, true, false, false},    // parallel
              })
-            for (const int planes : {0, 2}) // which are in no tree, and whose t has no limit
+            for (const int planes : {0, 2}) // planes are in no tree and their t has no limit
                 check_frustum(kernels_of(isa), coherence, planes);
     }
 }

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <iterator>
 
-/// Shapes of all proportions and sizes, and rays in double at them: harder than the sets alone.
+/// Shapes of all proportions and sizes, and rays in double at them: harder than ray_sets alone.
 namespace raylane::hard_cases {
 
 using namespace core;
 using ray_sets::Set;
 
-/// True if all its numbers are finite.
+/// Returns whether all numbers of a shape are finite.
 template <class Shape>
 bool is_shape(const Shape& shape) {
     for (const float value : numbers_of(shape))
@@ -20,7 +20,7 @@ bool is_shape(const Shape& shape) {
     return true;
 }
 
-/// Rays to try on a shape: those of the sets, and what is particular to filters.
+/// Returns a ray to try on a shape: one from the sets, or one that is hard for filters.
 template <class Shape>
 Ray<double> attack(const Shape& shape, bool lattice, Random& random) {
     const Set set = lattice ? Set::lattice : ray_sets::any_set(random);

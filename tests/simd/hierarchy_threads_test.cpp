@@ -12,8 +12,8 @@ using ray_sets::Random;
 
 namespace {
 
-/// Enough for several strips of items and several parts of the tree. Many are there twice, and one
-/// more often than a part has items.
+/// Enough shapes for several strips of items and several parts of the tree. Many occur twice, and
+/// one occurs more often than a part has items.
 struct ManyShapes {
     ShapeLists lists;
     ShapeId all = 0, bounded = 0;
@@ -60,7 +60,7 @@ MaterialIndices of_one_material(std::size_t count) {
     return indices;
 }
 
-/// Counts what it is told.
+/// Counts the shapes that the builder reports as placed.
 struct Told : simd::ParallelWorkers {
     using ParallelWorkers::ParallelWorkers;
     void placed(std::size_t count, std::size_t all) override {
@@ -98,7 +98,7 @@ TEST_CASE("the hierarchy is the same to the bit on any number of threads", "[nat
     }
 }
 
-TEST_CASE("what a worker throws comes out of the build") {
+TEST_CASE("an exception in a worker propagates out of the build") {
     struct Failing : simd::ParallelWorkers {
         using ParallelWorkers::ParallelWorkers;
         void placed(std::size_t, std::size_t) override { throw std::bad_alloc(); }

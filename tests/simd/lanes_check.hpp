@@ -3,8 +3,8 @@
 #include "simd/kernel/lanes/doubles.hpp"
 #include "simd/kernel/lanes/short_lanes.hpp"
 
-/// `Lanes` and registers against loops over numbers. For units
-/// that are built for one instruction set, so without anything inline that others share.
+/// Compares `Lanes` and registers with loops over numbers. Units for one instruction set include
+/// this header, so it must not have inline functions that other units share.
 namespace raylane::simd {
 
 template <class Arch>
@@ -18,7 +18,8 @@ struct LanesCheck {
         return static_cast<std::uint32_t>(state >> 32);
     }
 
-    /// All bit patterns, NaN and denormal ones included; or, for sums that cancel, few exponents.
+    /// Returns a float of any bit pattern, including NaN and denormal numbers, or (`tame`) one with
+    /// few exponents, for sums that cancel.
     float random_float(bool tame) {
         std::uint32_t bits = random();
         if (tame) bits = (bits & 0x83FFFFFF) | 0x3C000000;
@@ -34,7 +35,7 @@ struct LanesCheck {
                __builtin_bit_cast(std::uint64_t, a) == __builtin_bit_cast(std::uint64_t, b);
     }
 
-    /// Zeros, infinities and NaN among them, and such as are equal.
+    /// Returns a number that may be a zero, an infinity or NaN. Equal numbers are frequent.
     template <class Number>
     Number random_number() {
         constexpr float special[] = {0.0F, 1.0F, -1.5F, __builtin_inff(), __builtin_nanf("")};
@@ -44,7 +45,8 @@ struct LanesCheck {
         return static_cast<Number>(random_float(choice % 2 == 0)) / 3;
     }
 
-    /// Each lane of registers of floats, or doubles, as C++ has it, and SSE where that is silent.
+    /// Checks each lane of registers of floats or doubles against C++, and against SSE where C++
+    /// does not define the result.
     template <class F>
     int operation_failures(int rounds) {
         using Number = typename F::value_type;
@@ -85,7 +87,7 @@ struct LanesCheck {
                   [](Number p, Number q) { return !(p < q) && p == p ? p : q; });
             check(select((x < y) | ~(y == y), x, y),
                   [](Number p, Number q) { return p < q || q != q ? p : q; });
-            // Of NaN, xsimd 8.1 says for SSE alone that it is unequal.
+            // Only for SSE does xsimd 8.1 say that NaN is unequal.
             check(select((x != y) & (x == x) & (y == y), x, y),
                   [](Number p, Number q) { return p == p && q == q && p != q ? p : q; });
             check((x & F(Number(-0.0))) ^ abs(y), [](Number p, Number q) {
@@ -153,7 +155,7 @@ struct LanesCheck {
                 a[i] = random_float(tame);
                 b[i] = random_float(tame);
                 c[i] = random_float(tame);
-                // Half an ulp of the sum, give or take a little: where rounding twice goes wrong.
+                // A product of about half an ulp of the sum: rounding twice goes wrong there.
                 if (round % 4 == 0)
                     c[i] = a[i] * b[i] * 0x1p24F * (random() % 2 == 0 ? 1.0F : -1.0F);
             }
@@ -166,7 +168,7 @@ struct LanesCheck {
         return failures;
     }
 
-    /// As far off as SSE's may be, which filters count on.
+    /// The error may be as large as SSE's, which filters rely on.
     int reciprocal_root_failures(int rounds) {
         constexpr double most = 1.5 * 0x1p-12;
         int failures = 0;
@@ -184,7 +186,7 @@ struct LanesCheck {
         return failures;
     }
 
-    /// What takes numbers from elsewhere, or from one type to another.
+    /// Checks operations that load from elsewhere or convert between types.
     int move_failures(int rounds) {
         using F = Floats<Arch>;
         using D = DoubleLanes<Arch>;
@@ -318,7 +320,7 @@ struct LanesCheck {
         int failures = 0;
         for (int round = 0; round < rounds; ++round) {
             float values[size];
-            for (float& value : values) // as distances are: not negative, but perhaps -0
+            for (float& value : values) // like distances: not negative, but perhaps -0
                 value = round % 16 == 0 ? -0.0F : __builtin_fabsf(random_float(false));
             const std::uint32_t wanted = random() & ((1U << size) - 1);
             const auto x = Floats<Arch>::load_unaligned(values);
@@ -374,7 +376,7 @@ struct LanesCheck {
     }
 };
 
-/// LanesCheck of an instruction set, by a unit of its own.
+/// Runs LanesCheck; defined in the kernel unit of each instruction set.
 template <Isa isa>
 int lanes_failures();
 

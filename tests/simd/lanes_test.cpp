@@ -56,7 +56,7 @@ BoundedCounts bounds_of(BoundedOperation operate) {
 
 } // namespace
 
-TEST_CASE("bounds hold in lanes, whatever operands are within theirs") {
+TEST_CASE("bounds in lanes hold for all operands within their bounds") {
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
         CAPTURE(name_of(isa));
@@ -67,7 +67,7 @@ TEST_CASE("bounds hold in lanes, whatever operands are within theirs") {
     }
 }
 
-TEST_CASE("lanes do what loops over numbers do") {
+TEST_CASE("lanes give the same results as loops over numbers") {
     for (const Isa isa : all_isas) {
         CAPTURE(name_of(isa));
         if (is_available(isa))
@@ -75,7 +75,7 @@ TEST_CASE("lanes do what loops over numbers do") {
     }
 }
 
-TEST_CASE("a queue has room for all that a ray may enter, and loses none of it") {
+TEST_CASE("a queue has room for all nodes that a ray may enter and loses none of them") {
     for (const Isa isa : all_isas) {
         CAPTURE(name_of(isa));
         if (is_available(isa))

@@ -17,7 +17,7 @@ using namespace raylane::simd;
 using ray_sets::Random;
 using ray_sets::Set;
 
-/// Streams of rays that all but miss: the bounds of a shape, or the shape itself.
+/// Streams of rays that almost miss a shape's bounds, or the shape itself.
 namespace {
 
 constexpr int of_each_kind = tests::sanitized ? 6 : 40;
@@ -53,7 +53,7 @@ struct Stream {
     }
 };
 
-/// A point of the surface, of many the one that is furthest along an axis.
+/// Returns the furthest along an axis of many random points of the surface.
 template <class Shape>
 Vec3d furthest(const Shape& shape, int axis, double side, Random& random) {
     Vec3d best = ray_sets::Target<Shape>::surface(shape, random).point;
@@ -64,7 +64,7 @@ Vec3d furthest(const Shape& shape, int axis, double side, Random& random) {
     return best;
 }
 
-/// Along the face of a shape's bounds, up to some ulps before or behind it.
+/// Returns a ray along a face of a shape's bounds, up to some ulps in front of it or behind it.
 template <class Shape>
 Ray<float> along_bounds(const Shape& shape, Random& random) {
     const int axis = random.integer(0, 2);
@@ -139,8 +139,9 @@ TEST_CASE("traversal and brute force agree on rays along the faces of bounds", "
     }
 }
 
-TEMPLATE_LIST_TEST_CASE("the vectors lead through a solid: in, out, and no further", "[long]",
-                        tests::AllSolids) {
+TEMPLATE_LIST_TEST_CASE(
+    "the vector engine finds the entry and the exit of a solid and no third hit", "[long]",
+    tests::AllSolids) {
     using Shape = TestType;
     CAPTURE(name_of(kind_of<Shape>));
     Random random(20260700 + static_cast<int>(kind_of<Shape>));
@@ -174,7 +175,7 @@ TEMPLATE_LIST_TEST_CASE("the vectors lead through a solid: in, out, and no furth
             for (const oracle::Hit& hit : oracle::crossings(shape, stream.get(k)))
                 if (hit.t > 0) truth.push_back(hit.t.template convert_to<float>());
             through += truth.size() == 2 ? 1 : 0;
-            // Where both are one float, or neighbours, there may be no next one.
+            // If both are one float, or neighbours, there may be no second hit.
             const bool touches = truth.size() == 2 && ulps_apart(truth[0], truth[1]) <= 1;
             if (found[k].size() != truth.size() && !(touches && found[k].size() == 1)) ++wrong;
             if (found[k].size() != truth.size()) continue;

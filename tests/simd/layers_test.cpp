@@ -6,13 +6,13 @@
 
 #include <numeric>
 
-/// What pictures have beside their colours, and parts of pictures.
+/// Layers (AOVs) beside an image's colours, and crops of images.
 using namespace raylane;
 using namespace little_scene;
 
 namespace {
 
-/// A ball seen from behind a cut solid and a sheet that is seen from one side only, on a floor;
+/// Returns a ball on a floor, behind a triangle and a sheet that is visible only from its back;
 /// 41 x 33 pixels.
 Scene still_life(float quality = 0.0F) {
     Builder builder;
@@ -26,7 +26,7 @@ Scene still_life(float quality = 0.0F) {
     builder.camera.field_of_view = 30.0F;
     builder.add_shape(Plane{{0, -1, 0}, {0, 1, 0}}, ruler({3, 0, 3}));
     builder.add_shape(Sphere{{0, 0, 0}, 1}, mirror(0.5F));
-    builder.add_shape(Sphere{{0, 0, 0}, 1}, mirror(0.5F)); // no material of its own to be dropped
+    builder.add_shape(Sphere{{0, 0, 0}, 1}, mirror(0.5F)); // another material, so it is not dropped
     Material sheet = luminous();
     sheet.visible = Visible::inside;
     builder.add_shape(Disc{{0, 0, 3}, {0, 0, 1}, 0.7F}, sheet);
@@ -47,7 +47,7 @@ bool same(const core::Layers& a, const core::Layers& b) {
 
 } // namespace
 
-TEST_CASE("layers have what the ray through a pixel's middle sees first") {
+TEST_CASE("layers hold the first hit of the ray through a pixel's middle") {
     const Scene scene = still_life();
     const core::Layers layers = layers_of(scene);
     Settings settings = scene.settings();
@@ -86,12 +86,12 @@ TEST_CASE("layers have what the ray through a pixel's middle sees first") {
             if (!hit.entering) true_normal = -true_normal;
             CHECK(length(Vec3d(normal - true_normal)) < 1e-6);
         }
-    for (const std::size_t shape : {0U, 1U, 4U, 5U}) // the last: nothing
+    for (const std::size_t shape : {0U, 1U, 4U, 5U}) // the last is for misses
         CHECK(seen[shape] != 0);
-    CHECK(seen[3] == 0); // seen from its back alone
+    CHECK(seen[3] == 0); // visible only from its back
 }
 
-TEST_CASE("layers have the same bits whatever traces them") {
+TEST_CASE("layers have the same bits for all threads and engines and instruction sets") {
     const Scene scene = still_life();
     const core::Layers layers = layers_of(scene);
     simd::RenderOptions options;
@@ -108,7 +108,7 @@ TEST_CASE("layers have the same bits whatever traces them") {
             options.isa = isa;
             CHECK(same(layers, layers_of(scene, options)));
         }
-    CHECK(simd::render(scene, scene.settings(), {}).layers.width == 0); // not asked for
+    CHECK(simd::render(scene, scene.settings(), {}).layers.width == 0); // not requested
 }
 
 TEST_CASE("layers count the samples that a quality takes") {
@@ -119,13 +119,14 @@ TEST_CASE("layers count the samples that a quality takes") {
     const auto& samples = rendering.layers.samples;
     CHECK(*std::min_element(samples.begin(), samples.end()) == 1);
     CHECK(*std::max_element(samples.begin(), samples.end()) >= 4);
-    // Pixels that were not even started again, after a sample in the middle.
+    // Primary rays include a sample in the middle of each pixel, which counts only in pixels that
+    // get no more samples.
     const std::uint64_t all = std::accumulate(samples.begin(), samples.end(), 0ULL);
     CHECK(all <= rendering.counters.primary);
     CHECK(all + samples.size() >= rendering.counters.primary);
 }
 
-TEST_CASE("a part of a picture has the bits that it has in the whole") {
+TEST_CASE("a crop has the same bits as in the whole image") {
     for (const float quality : {0.0F, 25.0F})
         for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
             if (quality != 0.0F && engine == simd::Engine::reference) continue; // it takes long
@@ -154,7 +155,7 @@ TEST_CASE("a part of a picture has the bits that it has in the whole") {
         }
 }
 
-TEST_CASE("a part that is not in the picture is refused") {
+TEST_CASE("a crop that is not inside of the image is refused") {
     const Scene scene = still_life();
     for (const Region& crop :
          {Region{0, 0, 42, 33}, {-1, 0, 3, 3}, {3, 3, 3, 5}, {40, 32, 41, 34}, {5, 5, 4, 6}}) {

@@ -13,15 +13,15 @@
 #include <optional>
 #include <string>
 
-/// Hits that the engine finds with each precision that promises no more than its formulas, against
-/// the scalar twin of it: core's formulas in numbers that do the same operations.
+/// Compares the engine's hits in each uncertified precision with the precision's scalar twin:
+/// core's formulas in numbers that do the same operations.
 namespace raylane::tests {
 
-/// The numbers of core::Precision::plain_double's twin, and of the others'.
+/// Number type of a precision's twin.
 template <core::Precision precision>
 using Twin = std::conditional_t<core::is_single(precision), float, Separate>;
 
-/// The first crossing of a ray that crosses nothing: its t is infinite.
+/// Returns the crossing that stands for a miss: its t is infinite.
 template <class Real>
 core::Crossing<Real> nothing() {
     return {Real(std::numeric_limits<float>::infinity()), core::body, false};
@@ -32,7 +32,7 @@ bool is_hit(const core::Crossing<Real>& crossing) {
     return static_cast<double>(crossing.t) < std::numeric_limits<double>::infinity();
 }
 
-/// One shape, and rays at it.
+/// One shape, and rays towards it.
 template <core::Precision precision, class Shape>
 class MethodRound {
   public:
@@ -46,7 +46,8 @@ class MethodRound {
         paths_.start_nowhere(0, capacity);
     }
 
-    /// A direction of length 1, as far as doubles can tell. `start` is on the shape, if anywhere.
+    /// Adds a ray. `direction` has the length 1, as far as doubles can tell. `start` may be on the
+    /// shape.
     void add(const core::Vec3<Real>& origin, const core::Vec3d& direction,
              const core::Start& start = {}) {
         const std::size_t lane = paths_.count++;
@@ -68,7 +69,8 @@ class MethodRound {
     const core::Ray<Real>& last_ray() const { return rays_[paths_.count - 1]; }
     const core::Crossing<Real>& last_expected() const { return expected_[paths_.count - 1]; }
 
-    /// Lets the kernels find what the twin has found. Returns how many rays hit the shape.
+    /// Checks that the kernels find the same crossings as the twin. Returns how many rays hit the
+    /// shape.
     int check(const simd::Kernels& kernels) const {
         simd::Query finder(data_, {&kernels, precision}, simd::Asked::floats);
         const simd::Arena arena =
@@ -99,7 +101,7 @@ class MethodRound {
         return std::move(builder).build();
     }
 
-    /// The first crossing ahead, unless it has overflown.
+    /// Returns the first crossing ahead, or a miss if its t overflows.
     core::Crossing<Real> solved(const core::Ray<Real>& ray, const core::Start& start) const {
         core::Judge<Real> judge(precision);
         const Real zero(0.0F);
@@ -109,7 +111,7 @@ class MethodRound {
         return nothing<Real>();
     }
 
-    /// Only what no float can hold may be left to others.
+    /// Only a t that no float can hold may be left open.
     void check_left_open(const simd::Kernels& kernels, std::size_t lane) const {
         using Limits = std::numeric_limits<float>;
         const double t = static_cast<double>(expected_[lane].t);
@@ -124,9 +126,10 @@ class MethodRound {
         FAIL_CHECK(what);
     }
 
-    /// True if the shape is where it was expected. Bounds may keep rays away from one that is not.
+    /// Returns whether the ray hits the shape in real arithmetic. Otherwise bounds may reject the
+    /// ray.
     bool is_there(std::size_t lane) const {
-        if (paths_.origin_slot[lane] == slot_) return true; // no bounds are asked
+        if (paths_.origin_slot[lane] == slot_) return true; // bounds are not tested
         const core::Ray<double> ray = simd::ray_of(paths_, lane);
         std::uint64_t widened = 0;
         for (const core::Crossing<double>& crossing : core::solve(shape_, ray, {}, widened))

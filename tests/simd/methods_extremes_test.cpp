@@ -7,14 +7,14 @@
 
 #include <cmath>
 
-/// Shapes and rays of which some number overflows, underflows or is 0.
+/// Shapes and rays with numbers that overflow, underflow or are 0.
 using namespace raylane;
 using namespace raylane::core;
 using ray_sets::Random;
 
 namespace {
 
-/// Of any size that a float has, 0 and the largest not rarely.
+/// Returns a float of any size. Zero and the largest floats are frequent.
 float any_float(Random& random) {
     const float sign = random.integer(0, 1) == 0 ? 1.0F : -1.0F;
     switch (random.integer(0, 7)) {
@@ -30,7 +30,8 @@ float any_float(Random& random) {
     }
 }
 
-/// Each component of any size; or all but along what is special to the shape.
+/// Returns a direction with components of any size, or one almost along a special direction of the
+/// shape.
 template <class Shape>
 Vec3d any_direction(const Shape& shape, Random& random) {
     if (random.integer(0, 3) == 0) {
@@ -47,7 +48,7 @@ Vec3d any_direction(const Shape& shape, Random& random) {
     }
 }
 
-/// Near the shape, as its size goes, or anywhere.
+/// Returns a point near the shape, in proportion to its size, or anywhere.
 Vec3f any_origin(const Vec3f& near, float size, Random& random) {
     if (random.integer(0, 2) == 0) return {any_float(random), any_float(random), any_float(random)};
     const Vec3f origin = near + size * ray_sets::rounded(random.cube(4.0));
@@ -98,7 +99,7 @@ void check(int& hits) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("what is huge, tiny or 0 is hit at a finite distance, or missed", "",
+TEMPLATE_TEST_CASE("shapes that are huge or tiny or 0 are hit at a finite distance or missed", "",
                    RAYLANE_ALL_SHAPES) {
     int hits = 0;
     check<Precision::fast, TestType>(hits);

@@ -10,7 +10,7 @@ using ray_sets::Set;
 
 namespace {
 
-/// Rays from anywhere, or from where they have hit the shape.
+/// Adds rays from anywhere, or from where they hit the shape.
 template <Precision precision, class Shape>
 void add_rays(tests::MethodRound<precision, Shape>& round, const Shape& shape, bool lattice,
               Random& random) {
@@ -45,12 +45,12 @@ void check() {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("every lane is the scalar formulas in float", "", RAYLANE_ALL_SHAPES) {
+TEMPLATE_TEST_CASE("every lane equals the scalar formulas in float", "", RAYLANE_ALL_SHAPES) {
     check<Precision::fast, TestType>();
     check<Precision::robust, TestType>();
 }
 
-TEMPLATE_TEST_CASE("every lane in double is the scalar formulas in double, not fused", "",
+TEMPLATE_TEST_CASE("every lane in double equals the scalar formulas in double without fusing", "",
                    RAYLANE_ALL_SHAPES) {
     check<Precision::plain_double, TestType>();
 }

@@ -21,7 +21,7 @@ struct Attempt {
     Ray<double> ray;
 };
 
-/// Exactly, in C++'s notation.
+/// Returns the exact numbers in C++'s notation.
 template <class Shape>
 std::string description(const Shape& shape, const Ray<double>& ray) {
     std::ostringstream out;
@@ -51,14 +51,14 @@ inline float stepped(float value, int ulps) {
     return value;
 }
 
-/// To `bits` significant bits.
+/// Rounds to `bits` significant bits.
 inline double snapped(double value, int bits) {
     if (value == 0.0 || !std::isfinite(value)) return value;
     const int exponent = std::ilogb(value) - bits;
     return std::ldexp(std::round(std::ldexp(value, -exponent)), exponent);
 }
 
-/// Some of a shape's floats, each by `change`.
+/// Applies `change` to some of a shape's floats.
 template <class Shape, class Change>
 Shape some_changed(const Shape& shape, Random& random, const Change& change) {
     Numbers<Shape> floats = numbers_of(shape);
@@ -138,7 +138,7 @@ void change_origin(Vec3d& origin, const Vec3d& direction, const Shape& shape, Ra
             if (random.integer(0, 1) == 0) origin[axis] = snapped(origin[axis], bits);
         break;
     }
-    case 4: // keeping what is aimed at
+    case 4: // keeps the aim
         origin = center + (origin - center) * (1.0 + size * random.uniform(-1.0, 1.0));
         break;
     default:

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
-/// Shapes between two neighbours, a small gap away on either side: a skin outside of it, and
-/// another inside. All coordinates are whole numbers below 2^23 in size, so that the gaps are what
-/// they are said to be, and stay so wherever a nest is placed; radii are any floats.
+/// A shape between two neighbours at a small gap: a skin outside of it, and another inside. All
+/// coordinates are integers below 2^23 in size, so that gaps are exact, and stay exact wherever a
+/// nest is placed. Radii are any floats.
 namespace raylane::tests {
 
 using core::Vec3d;
@@ -19,20 +19,21 @@ using ray_sets::rounded;
 
 struct Nest {
     AnyShape shape, outer, inner;
-    /// Whatever leaves `shape` outward meets `outer`.
+    /// Every ray that leaves `shape` outward meets `outer`.
     bool closed;
-    /// Whatever leaves it inward meets `inner`.
+    /// Every ray that leaves `shape` inward meets `inner`.
     bool parted = false;
 };
 
-/// The smallest gap between coordinates: an ulp of the largest is 1 where a nest is far away.
+/// The smallest gap between coordinates. If a nest is far away, an ulp of the largest coordinate is
+/// 1.
 inline constexpr double least_gap = 4.0;
 
 inline double ulp(float value) {
     return static_cast<double>(std::nextafter(value, 2 * value) - value);
 }
 
-/// Between two radii: from 4 of their ulps to half of them.
+/// Returns a gap between two radii: from 4 of their ulps to half of them.
 inline float gap_of_radii(float radius, Random& r) {
     return rounded(r.log_uniform(4.0 * ulp(radius), 0.5 * static_cast<double>(radius)));
 }
@@ -41,7 +42,7 @@ inline Vec3f whole(const Vec3d& v) {
     return rounded(glm::round(v));
 }
 
-/// A step across planes with this normal, of at least 4 and whole numbers.
+/// Returns a step of integers, at least 4 across planes with this normal.
 inline Vec3f step_across(const Vec3d& normal, double size, Random& r) {
     const Vec3d n = core::normalized(normal);
     while (true) {
@@ -50,12 +51,12 @@ inline Vec3f step_across(const Vec3d& normal, double size, Random& r) {
     }
 }
 
-/// Number of gaps of this length that make up some length: 4 to 2^16.
+/// Returns the number of gaps that make up a length: 4 to 2^16.
 inline float number_of_gaps(double length, double gap) {
     return rounded(std::clamp(std::round(length / gap), 4.0, 0x1p16));
 }
 
-/// Makes nests of one kind, of about this size.
+/// Makes nests of one kind and of about a given size.
 template <class Shape>
 struct NestOf;
 

@@ -14,7 +14,7 @@ using ray_sets::Set;
 
 /// Place of a nest, and its size.
 struct Place {
-    double size; ///< of the nest, about
+    double size; ///< approximate size of the nest
     Vec3f offset;
     float factor;
 
@@ -30,7 +30,7 @@ struct Place {
     }
 };
 
-/// A ray from one of the sets, for the shape of a nest.
+/// Returns a ray from one of the sets, for the shape of a nest.
 inline Ray<double> ray_to(const Nest& nest, const Place& place, Random& r) {
     constexpr Set sets[] = {Set::random,  Set::random,   Set::inside, Set::on_surface,
                             Set::grazing, Set::parallel, Set::zeros,  Set::far};
@@ -45,7 +45,7 @@ inline Ray<double> ray_to(const Nest& nest, const Place& place, Random& r) {
             normalized(convert<double>(ray.direction))};
 }
 
-/// Enough of them that there is a hierarchy.
+/// Returns enough spheres for a hierarchy.
 inline std::vector<AnyShape> far_spheres(const Place& place, Random& r) {
     std::vector<AnyShape> spheres;
     for (int i = 0; i < 30; ++i)

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <random>
 
-/// Surfaces of opacities below 1: both engines, and all instruction sets, have one picture of them.
+/// Surfaces with opacities below 1: both engines and all instruction sets render the same image.
 using namespace raylane;
 using raylane::tests::picture;
 using namespace little_scene;
 
 namespace {
 
-/// Balls of all opacities, some of which mirror or transmit, before a floor, in fog.
+/// Returns balls of all opacities in front of a floor, some of which reflect or transmit, in fog.
 Scene cloud(Projection projection, bool in_fog, int most) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> place(-2, 2), fraction(0, 1);
@@ -55,7 +55,7 @@ Scene cloud(Projection projection, bool in_fog, int most) {
 
 } // namespace
 
-TEST_CASE("see-through surfaces are the same picture by both engines and all instruction sets",
+TEST_CASE("both engines and all instruction sets render the same transparent surfaces",
           "[native]") {
     for (const Projection projection : {Projection::perspective, Projection::orthographic})
         for (const bool in_fog : {false, true})
@@ -75,7 +75,7 @@ TEST_CASE("see-through surfaces are the same picture by both engines and all ins
             }
 }
 
-TEST_CASE("panes that mirror, transmit and are seen through outgrow no queue") {
+TEST_CASE("transparent panes that reflect and transmit do not outgrow a queue") {
     Builder builder;
     builder.settings.width = builder.settings.height = 32;
     builder.settings.max_depth = 3;
@@ -93,7 +93,7 @@ TEST_CASE("panes that mirror, transmit and are seen through outgrow no queue") {
         CHECK(vector[i].x == Approx(reference[i].x).epsilon(1e-4));
 }
 
-TEST_CASE("a picture of a quality has what is behind see-through surfaces") {
+TEST_CASE("an image of a quality shows the scene behind transparent surfaces") {
     Builder builder;
     builder.settings.width = builder.settings.height = 64;
     builder.settings.quality = 40;

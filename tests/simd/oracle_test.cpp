@@ -15,8 +15,8 @@ using namespace raylane::simd;
 using ray_sets::Random;
 using ray_sets::Set;
 
-/// The engine, exact as it is by default, against the oracle: which shape a ray hits and whether
-/// from outside, t, and the point. RAYLANE_TEST_ROUNDS=4600 makes it ten million rays.
+/// Compares the engine, with its default of exact, with the oracle: which shape a ray hits, whether
+/// it enters, t, and the point. RAYLANE_TEST_ROUNDS=4600 makes ten million rays.
 
 namespace {
 
@@ -25,7 +25,7 @@ constexpr int shapes_a_scene = 3;
 
 struct Tally {
     std::size_t rays = 0, hits = 0, wrong = 0;
-    std::uint64_t left = 0;                     ///< to the scalar reference
+    std::uint64_t left = 0;                     ///< rays left to the scalar reference
     std::vector<double> t_errors, point_errors; ///< in ulps of float
 
     static double at(std::vector<double>& values, double share) {
@@ -34,7 +34,7 @@ struct Tally {
     }
 };
 
-/// Of a float of that size.
+/// Returns the ulp of a float of that size.
 double ulp(double value) {
     return std::ldexp(1.0, std::max(std::ilogb(value), -126) - 23);
 }
@@ -89,7 +89,7 @@ class Trial {
         const Ray<double> ray = ray_of(paths_, i);
         std::optional<oracle::Hit> truth;
         ShapeId id = no_shape;
-        bool touches = false; // several of them, at one point
+        bool touches = false; // several shapes at one point
         for (ShapeId k = 0; k < shapes_a_scene; ++k) {
             const std::optional<oracle::Hit> hit = oracle::first_hit(shapes_[k], ray);
             if (!hit) continue;
@@ -100,7 +100,7 @@ class Trial {
             id = k;
         }
         ++tally.rays;
-        // Where surfaces touch, the engine leaves more than a hit to the reference.
+        // The engine leaves rays to the reference where surfaces touch.
         const std::span<const std::uint32_t> contacts = finder.at_contacts();
         const bool at_contacts = std::find(contacts.begin(), contacts.end(), i) != contacts.end();
         const bool hit = hits.slot[i] != no_slot;
@@ -122,7 +122,8 @@ class Trial {
             off = std::max(off, distance(ray.origin[axis] + t * ray.direction[axis], right));
             largest = std::max(largest, std::abs(static_cast<double>(right)));
         }
-        // As near as double can tell, where the ray comes from far and hits near the origin.
+        // Errors of double itself do not count: they are large if a ray comes from far away and
+        // hits near the origin.
         const double start = length(ray.origin) + t;
         tally.point_errors.push_back(off <= 0x1p-50 * start ? 0.0 : off / ulp(largest));
     }
@@ -135,7 +136,8 @@ class Trial {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("the engine decides as the oracle does", "[long]", RAYLANE_ALL_SHAPES) {
+TEMPLATE_TEST_CASE("the engine decides in the same way as the oracle", "[long]",
+                   RAYLANE_ALL_SHAPES) {
     const Kernels& kernels = kernels_of(best_isa());
     Random random(20261100 + static_cast<std::uint64_t>(kind_of<TestType>));
     for (const Set set : ray_sets::all_sets) {

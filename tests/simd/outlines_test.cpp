@@ -5,13 +5,13 @@
 
 #include <cmath>
 
-/// Lines along the edges of what a picture shows.
+/// Lines along the edges of shapes in an image.
 using namespace raylane;
 using namespace little_scene;
 
 namespace {
 
-/// 4 units high, seen along -z.
+/// A view along -z, 4 units high.
 class Drawing : public Builder {
   public:
     explicit Drawing(int pixels = 100) {
@@ -28,7 +28,7 @@ core::Film drawn(const Scene& scene, const simd::RenderOptions& options = {}) {
     return simd::render(scene, scene.settings(), options).film;
 }
 
-/// Red is how much of a pixel lines hide; all else is blue.
+/// Returns how many pixels lines hide. Red is the hidden share of a pixel; everything else is blue.
 double hidden(const core::Film& film) {
     double sum = 0.0;
     for (const Color& pixel : film.pixels())
@@ -48,7 +48,7 @@ const Color blue{0, 0, 1};
 
 } // namespace
 
-TEST_CASE("a ball has a line of a width in pixels around it, whatever the resolution") {
+TEST_CASE("the line around a ball has its width in pixels at any resolution") {
     for (const int pixels : {50, 100, 333})
         for (const float width : {0.5F, 1.0F, 3.0F, 8.0F}) {
             Drawing drawing(pixels);
@@ -72,7 +72,7 @@ TEST_CASE("a ball has a line of a width in pixels around it, whatever the resolu
         }
 }
 
-TEST_CASE("a surface has no lines within it, however steep, and none at the picture's border") {
+TEST_CASE("a steep surface has no lines within it and none at the image's border") {
     for (const bool orthographic : {true, false}) {
         Drawing drawing;
         if (!orthographic) drawing.camera.projection = Projection::perspective;
@@ -94,8 +94,8 @@ TEST_CASE("a surface has no lines within it, however steep, and none at the pict
     CHECK(hidden(drawn(inside.finish())) == 0.0);
 }
 
-TEST_CASE("where surfaces meet there are lines if they are asked for") {
-    // Two balls in each other at x = 0, and a stick that ends in one.
+TEST_CASE("lines follow creases and changes of material if these are requested") {
+    // Two balls that intersect at x = 0.
     const auto scene_with = [](float creases, bool two_materials) {
         Drawing drawing;
         drawing.settings.outline.creases = creases;
@@ -110,24 +110,24 @@ TEST_CASE("where surfaces meet there are lines if they are asked for") {
     CHECK(hidden_around(drawn(scene_with(60.0F, false)), 50, 50) == 1.0); // 88.9 degrees
     CHECK(hidden_around(drawn(scene_with(100.0F, false)), 50, 50) == 0.0);
     CHECK(hidden_around(drawn(scene_with(100.0F, true)), 50, 50) == 1.0);
-    // All around both there is one.
+    // The outline goes around both.
     CHECK(hidden_around(drawn(scene_with(180.0F, false)), 8, 50) == 1.0);
 }
 
-TEST_CASE("a shape before another has a line, and so has a shape before itself") {
+TEST_CASE("a shape in front of another or in front of itself has a line") {
     Drawing discs;
     const MaterialIndex paint = discs.add_material(luminous(blue));
     discs.add(Disc{{0, 0, 0}, {0, 0, 1}, 5.0F}, paint);
-    discs.add(Disc{{0, 0, 0.1F}, {0, 0, 1}, 1.0F}, paint); // 2.5 pixels before it
+    discs.add(Disc{{0, 0, 0.1F}, {0, 0, 1}, 1.0F}, paint); // 2.5 pixels in front of it
     CHECK(hidden_around(drawn(discs.finish()), 25, 50) == 1.0);
 
-    Drawing flush; // less than a pixel
+    Drawing flush; // less than a pixel in front of it
     const MaterialIndex same = flush.add_material(luminous(blue));
     flush.add(Disc{{0, 0, 0}, {0, 0, 1}, 5.0F}, same);
     flush.add(Disc{{0, 0, 0.03F}, {0, 0, 1}, 1.0F}, same);
     CHECK(hidden(drawn(flush.finish())) == 0.0);
 
-    Drawing bowl; // an open cylinder from obliquely above: its near rim before its far side
+    Drawing bowl; // an open cylinder obliquely from above: its near rim is in front of its far side
     bowl.camera.from = {0, 6, 8};
     bowl.camera.at = {0, 0, 0};
     bowl.add(OpenCylinder{{0, -0.5F, 0}, {0, 1, 0}, 1.0F}, bowl.add_material(luminous(blue)));
@@ -136,7 +136,7 @@ TEST_CASE("a shape before another has a line, and so has a shape before itself")
     CHECK(hidden_around(film, 50, 55) == 1.0);
 }
 
-TEST_CASE("lines have the same bits whatever draws them") {
+TEST_CASE("lines have the same bits for all tiles and threads and instruction sets") {
     Drawing drawing;
     drawing.camera.projection = Projection::perspective;
     drawing.camera.from = {2, 2, 5};
@@ -163,7 +163,7 @@ TEST_CASE("lines have the same bits whatever draws them") {
         }
 }
 
-TEST_CASE("an outline that is none is refused") {
+TEST_CASE("invalid outlines are refused") {
     Drawing drawing;
     drawing.add_shape(Sphere{{0, 0, 0}, 1}, luminous(blue));
     const Scene scene = drawing.finish();

@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-/// Scenes whose spheres are packed are seen as if they were not, to the bit.
+/// Scenes with packed spheres give the same answers and images as scenes with plain ones, to the
+/// bit.
 using namespace raylane;
 using namespace raylane::core;
 using namespace raylane::simd;
@@ -22,15 +23,15 @@ using raylane::tests::sanitized;
 
 namespace {
 
-/// How a scene of spheres is to be.
+/// Options of a scene of spheres.
 struct Wish {
     int radii;
     bool solid = false;
     int count = 3000;
 };
 
-/// Spheres around two points, of few radii or many, some transmissive, with some others in
-/// between; seen from close by.
+/// Scenes of spheres around two points, of few radii or many, some transmissive, with some
+/// cylinders among them. The camera is close.
 struct Pair {
     Scene plain, packed;
 
@@ -46,7 +47,7 @@ struct Pair {
         Light lamp;
         lamp.position = {30, 40, 50};
         builder.add_light(lamp);
-        // One in ten is around the origin, where blocks have rows that stand elsewhere.
+        // One in ten is around the origin, where blocks have rows that are stored whole.
         double middle = 40.0;
         const auto place = [&] { return static_cast<float>(middle + random.uniform(-10.0, 10.0)); };
         for (int i = 0; i < wish.count; ++i) {
@@ -66,7 +67,7 @@ struct Pair {
         return std::move(builder).build();
     }
 
-    /// A union of balls less a half-space.
+    /// Returns a union of balls minus a half-space.
     static Solid cut_balls(Random& random) {
         Solid balls, whole, half_space;
         balls.made = Made::by_union;
@@ -174,17 +175,15 @@ void check_pictures(const Pair& scenes, Engine engine, Isa isa, Precision precis
 
 TEST_CASE("packed spheres answer rays with the bits of plain ones") {
     for (const int radii : {3, 60, 258}) {
-        const Pair scenes({.radii = radii}); // the last are more than there are numbers for
+        const Pair scenes({.radii = radii}); // 258 radii do not fit in the palette
         const Rays rays(scenes.plain);
         for (const Isa isa : all_isas)
             if (is_available(isa)) check_rays(scenes, rays, isa, Precision::exact);
     }
 }
 
-TEST_CASE(
-    "packed spheres answer calls of few rays, which go in flight, with the bits of plain ones",
-    "[native]") {
-    // More than a core's cache, so that what is ahead is fetched.
+TEST_CASE("packed spheres answer interleaved single rays with the bits of plain ones", "[native]") {
+    // Larger than a core's cache, so that prefetching runs.
     const Pair scenes({.radii = 3, .count = sanitized ? 3000 : 150'000});
     const Rays rays(scenes.plain);
     constexpr std::size_t few = 500;
@@ -204,7 +203,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("packed spheres have the crossings, lengths and insides of plain ones") {
+TEST_CASE("packed spheres have the crossings and lengths and insides of plain ones") {
     const Pair scenes({.radii = 20});
     const Rays rays(scenes.plain);
     const RayStream<float> some = rays.view(0, std::min<std::size_t>(rays.leaves.size(), 2000));
@@ -243,7 +242,7 @@ TEST_CASE("packed spheres answer rays with the bits of plain ones by every preci
             if (is_available(isa)) check_rays(scenes, rays, isa, precision);
 }
 
-TEST_CASE("packed spheres are drawn with the bits of plain ones", "[native]") {
+TEST_CASE("packed spheres are rendered with the bits of plain ones", "[native]") {
     const Pair scenes({.radii = 20});
     for (const Isa isa : all_isas)
         for (const Precision precision : all_precisions)
@@ -251,7 +250,7 @@ TEST_CASE("packed spheres are drawn with the bits of plain ones", "[native]") {
     check_pictures(scenes, Engine::reference, best_isa(), Precision::exact);
 }
 
-TEST_CASE("solids of packed spheres are those of plain ones", "[native]") {
+TEST_CASE("solids of packed spheres equal those of plain ones", "[native]") {
     const Pair scenes({.radii = 5, .solid = true});
     const Rays rays(scenes.plain);
     for (const Isa isa : all_isas) {

@@ -7,7 +7,7 @@
 
 namespace raylane::tests {
 
-/// The picture of a scene by its own settings, row by row.
+/// Returns the image of a scene with its settings, row by row.
 inline std::vector<core::Color> picture(const core::Scene& scene, simd::Engine engine,
                                         simd::Isa isa = simd::best_isa()) {
     simd::RenderOptions options;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-/// Pictures of a quality: samples where there is something to see.
+/// Images of a requested quality, with more samples where there is more to see.
 using namespace raylane;
 using namespace little_scene;
 using ray_sets::Random;
@@ -15,7 +15,7 @@ using ray_sets::rounded;
 
 namespace {
 
-/// Balls and sticks on a checked floor, some of them mirrors, some of glass.
+/// Returns balls and sticks on a checkered floor, some of them mirrors, some of glass.
 Scene workshop(std::pair<int, int> size = {96, 64}) {
     Builder builder;
     builder.settings.width = size.first;
@@ -63,7 +63,7 @@ Film converged(const Scene& scene, int grid = 32) {
     return simd::render(scene, settings, {}).film;
 }
 
-/// Decibels, of what the film shows of it.
+/// Returns the difference of the sRGB values that two films show, in decibels.
 double psnr(const Film& a, const Film& b) {
     const auto shown = [](float linear) {
         const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
@@ -80,7 +80,7 @@ double psnr(const Film& a, const Film& b) {
 
 } // namespace
 
-TEST_CASE("a picture has the quality that is asked for", "[long]") {
+TEST_CASE("an image has the requested quality", "[long]") {
     // In smaller pictures the survey has too few pixels.
     const Scene scene = workshop({288, 192});
     const Film truth = converged(scene, 20);
@@ -95,7 +95,7 @@ TEST_CASE("a picture has the quality that is asked for", "[long]") {
     }
 }
 
-TEST_CASE("a picture has its quality by wider filters, too", "[long]") {
+TEST_CASE("an image has the requested quality with wider filters", "[long]") {
     for (const PixelFilter filter : {PixelFilter::gaussian, PixelFilter::blackman_harris}) {
         Builder builder;
         builder.settings.width = builder.settings.height = 64;
@@ -112,7 +112,7 @@ TEST_CASE("a picture has its quality by wider filters, too", "[long]") {
     }
 }
 
-TEST_CASE("a picture of smooth shapes has few samples", "[native]") {
+TEST_CASE("an image of smooth shapes needs few samples", "[native]") {
     Builder builder;
     builder.settings.width = builder.settings.height = 256;
     builder.camera.from = {0, 0, 6};
@@ -127,7 +127,8 @@ TEST_CASE("a picture of smooth shapes has few samples", "[native]") {
     CHECK(psnr(rendering.film, converged(scene)) > 41.5);
 }
 
-TEST_CASE("a picture of a quality depends on neither threads, tiles nor instructions", "[long]") {
+TEST_CASE("an image of a quality does not depend on threads or tiles or instruction sets",
+          "[long]") {
     const Scene scene = workshop();
     simd::RenderOptions options;
     options.threads = 1;
@@ -147,7 +148,7 @@ TEST_CASE("a picture of a quality depends on neither threads, tiles nor instruct
     }
 }
 
-TEST_CASE("the reference draws a quality likewise", "[long]") {
+TEST_CASE("the reference renders a quality like the vector engine", "[long]") {
     const Scene scene = workshop();
     simd::RenderOptions options;
     options.engine = simd::Engine::reference;
@@ -158,7 +159,7 @@ TEST_CASE("the reference draws a quality likewise", "[long]") {
           Approx(static_cast<double>(vector.counters.primary)).epsilon(0.001));
 }
 
-TEST_CASE("where surfaces coincide, both engines take the same samples") {
+TEST_CASE("both engines take the same samples where surfaces coincide") {
     Builder builder;
     builder.settings.width = 48;
     builder.settings.height = 36;
@@ -169,7 +170,7 @@ TEST_CASE("where surfaces coincide, both engines take the same samples") {
         material.diffuse = 0.7F;
         return material;
     };
-    // A face that two boxes and a disc share, and two balls that are one.
+    // A face that two boxes and a disc share, and two balls that coincide.
     builder.add_shape(Box{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, in({0.2F, 0.2F, 1}));
     builder.add_shape(Box{{-0.5F, -1.5F, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 1}}, in({1, 0.2F, 0.2F}));
     builder.add_shape(Disc{{0, 0, 1}, {0, 0, 1}, 0.75F}, in({0.2F, 1, 0.2F}));

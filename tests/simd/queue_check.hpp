@@ -2,11 +2,11 @@
 
 #include "simd/kernel/traverse/traversal_queue.hpp"
 
-/// For units that are built for one instruction set, as lanes_check.hpp.
+/// For units that are built for one instruction set, like lanes_check.hpp.
 namespace raylane::simd {
 
-/// A ray that enters all boxes of a full tree: counts what it visits too rarely or too often, and
-/// what the queue writes beyond its room.
+/// Traces a ray that enters all boxes of a full tree. Counts levels that are visited too rarely or
+/// too often, and writes beyond the queue's capacity.
 template <class Arch>
 struct QueueCheck {
     static int failures() {
@@ -52,7 +52,7 @@ struct QueueCheck {
     }
 };
 
-/// QueueCheck of an instruction set, by a unit of its own.
+/// Runs QueueCheck; defined in the kernel unit of each instruction set.
 template <Isa isa>
 int queue_failures();
 

@@ -10,8 +10,8 @@ using namespace raylane;
 using namespace raylane::core;
 using namespace raylane::simd;
 
-/// The work for a ray depends on what is near it: not on where the camera is, on the size of
-/// everything, or on how far away it starts.
+/// The work for a ray depends on the shapes near it, not on the camera's place, the scale of the
+/// scene, or the distance from which the ray starts.
 
 namespace {
 
@@ -36,7 +36,7 @@ struct Work {
     int hits = 0;
 };
 
-/// `aim` says where rays come from and where to, in doubles.
+/// Returns the work for `count` rays. `aim` returns each of them, in doubles.
 template <class Aim>
 Work work_for(const Scene& scene, std::size_t count, const Aim& aim) {
     const SceneData data(scene);
@@ -60,7 +60,7 @@ Work work_for(const Scene& scene, std::size_t count, const Aim& aim) {
     return work;
 }
 
-/// Rays from about `distance` sizes away into the cloud.
+/// Returns the work for rays from about `distance` sizes away into the cloud.
 Work work_for(const Scene& scene, double size, double distance) {
     ray_sets::Random random(729);
     return work_for(scene, ray_count, [&]() -> Ray<double> {
@@ -80,7 +80,7 @@ void check_same(const Work& a, const Work& b) {
 
 } // namespace
 
-TEST_CASE("The work for a ray does not depend on the camera or on the size of everything") {
+TEST_CASE("the work for a ray does not depend on the camera or on the scale of the scene") {
     const Work work = work_for(cloud(1.0, 5.0), 1.0, 3.0);
     CHECK(work.hits > 100);
     check_same(work, work_for(cloud(1.0, 5e6), 1.0, 3.0));
@@ -91,7 +91,7 @@ TEST_CASE("The work for a ray does not depend on the camera or on the size of ev
     }
 }
 
-TEST_CASE("Rays from far away have little more to do than others") {
+TEST_CASE("rays from far away have little more work than others") {
     const Scene scene = cloud(1.0, 5.0);
     const Work near = work_for(scene, 1.0, 3.0);
     for (const double distance : {100.0, 1e4, 1e6, 1e8}) {
@@ -102,7 +102,7 @@ TEST_CASE("Rays from far away have little more to do than others") {
     }
 }
 
-TEST_CASE("what is met first ends the search, though a ray touches all that follows") {
+TEST_CASE("the first hit ends the search although the ray touches all shapes behind it") {
     SceneBuilder builder;
     builder.wants_light = false;
     const MaterialIndex material = builder.add_material({});
@@ -115,7 +115,7 @@ TEST_CASE("what is met first ends the search, though a ray touches all that foll
     CHECK(work.counters.shapes < 1000);
 }
 
-/// Not a bit above it, nor below.
+/// Rays are exactly in the plane.
 TEST_CASE("rays in the plane of a floor leave nothing to the reference") {
     SceneBuilder builder;
     builder.wants_light = false;

@@ -15,8 +15,8 @@ using namespace raylane::core;
 using namespace raylane::simd;
 using ray_sets::Random;
 
-/// Hits that the engine finds of rays that bounds in float cannot decide on, against the certified
-/// scalar search.
+/// Compares the engine's hits with the certified scalar search, for rays that float bounds cannot
+/// decide.
 
 namespace {
 
@@ -26,7 +26,7 @@ int rounds() {
     return tests::rounds(70, 20, 200);
 }
 
-/// Rays with room for them.
+/// Rays and their memory.
 struct Stream {
     Paths paths{};
 
@@ -40,7 +40,7 @@ struct Stream {
     Arena arena_;
 };
 
-/// Finds what a stream's rays hit.
+/// Finds the hits of a stream's rays.
 struct Finding {
     LookThrough finder;
     EngineCounters counters;
@@ -55,8 +55,8 @@ struct Finding {
     Arena arena_;
 };
 
-/// Shapes of all kinds, so many of each, and hard rays at them: half of them go on from where they
-/// hit one.
+/// Shapes of all kinds, `of_each` of each, and hard rays at them. About half of the rays that hit
+/// go on from there.
 class Round {
   public:
     Round(int of_each, Random& random)
@@ -148,7 +148,7 @@ void check_truth(const Round& round, const LookThrough& finder) {
     }
 }
 
-/// Lane `a` of one and lane `b` of the other.
+/// Compares lane `a` of one with lane `b` of the other.
 void check_same_bits(const LookThrough& one, std::size_t a, const LookThrough& other,
                      std::size_t b) {
     const auto same = [](double x, double y) {
@@ -165,7 +165,7 @@ void check_same_bits(const LookThrough& one, std::size_t a, const LookThrough& o
         FAIL("other bits");
 }
 
-/// The ray of one lane by itself.
+/// Checks the ray of one lane by itself.
 void check_alone(Round& round, const Kernels& kernels, const LookThrough& together,
                  std::size_t lane) {
     const Stream alone(1);
@@ -206,10 +206,10 @@ void check_rounds(int of_each, int count) {
 
 } // namespace
 
-TEST_CASE("hard rays at few shapes are decided as the reference decides them") {
+TEST_CASE("hard rays at few shapes have the reference's hits") {
     check_rounds(1, rounds());
 }
 
-TEST_CASE("hard rays at many shapes are decided as the reference decides them") {
+TEST_CASE("hard rays at many shapes have the reference's hits") {
     check_rounds(20, (rounds() + 1) / 2);
 }

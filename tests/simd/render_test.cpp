@@ -39,12 +39,12 @@ TEST_CASE("every pixel is in one tile") {
         }
 }
 
-TEST_CASE("what a tile throws comes out of the loop") {
+TEST_CASE("an exception in a tile propagates out of the loop") {
     const auto fail = [](const Region&) { throw std::runtime_error("tile"); };
     CHECK_THROWS_AS(simd::for_each_tile({{0, 0, 100, 100}, 16}, 2, fail), std::runtime_error);
 }
 
-TEST_CASE("a source says which tiles are visited, and is told when there is no use in more") {
+TEST_CASE("a source chooses the tiles and is cancelled after an exception") {
     struct Source : simd::TileSource {
         std::atomic<std::size_t> taken = 0;
         std::atomic<bool> is_cancelled = false;
@@ -73,7 +73,7 @@ TEST_CASE("a source says which tiles are visited, and is told when there is no u
     CHECK(broken.is_cancelled);
 }
 
-TEST_CASE("a picture does not depend on the number of threads") {
+TEST_CASE("an image does not depend on the number of threads") {
     const Scene scene = mirrored_ball();
     simd::RenderOptions one, many;
     one.threads = 1;
@@ -89,7 +89,7 @@ TEST_CASE("a picture does not depend on the number of threads") {
     CHECK(a.counters.primary == 70 * 50);
 }
 
-TEST_CASE("settings are checked before they are rendered") {
+TEST_CASE("invalid settings are refused before rendering") {
     const Scene scene = mirrored_ball();
     Settings settings = scene.settings();
     settings.grid = 0;

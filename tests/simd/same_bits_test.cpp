@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// Answers to a stream of rays are the same, to the bit, by every instruction set.
+/// A stream of rays has the same answers, to the bit, on every instruction set.
 using namespace raylane;
 using namespace raylane::core;
 using namespace raylane::simd;
@@ -64,8 +64,8 @@ long differing(const std::vector<float>& a, const std::vector<float>& b) {
     return count;
 }
 
-/// Of each kind some shapes, a third of them twice, some seen from one side alone; and of each
-/// shape rays of all sets.
+/// Adds shapes of one kind, a third of them twice, some visible from one side only, and rays of all
+/// sets for each shape.
 template <class Shape>
 void add_kind(SceneBuilder& builder, bool lattice, Random& random, Rays& rays) {
     const int count = tests::rounds(60, 6);

@@ -5,13 +5,13 @@
 #include "simd/scene_view.hpp"
 #include "tests/simd/scaled_filters.hpp"
 
-// The filters' own headers, in a namespace beside the true one.
+// Includes the filters' headers in another namespace.
 namespace raylane::scaled_simd {
 using namespace raylane::simd;
 }
 #define simd scaled_simd
 
-// All that filter.hpp says of half_ulp is its declaration, which this makes one of a variable.
+// In filter.hpp, half_ulp occurs only in its declaration, which this turns into that of a variable.
 #define half_ulp                                                                                   \
     true_half_ulp = 0x1p-24F;                                                                      \
     static float half_ulp

@@ -2,8 +2,8 @@
 
 #include "tests/simd/filter_check.hpp"
 
-/// The filters, with what they allow for rounding as a variable: so a test can ask how much of it a
-/// ray needs.
+/// The filters with a variable allowance for rounding, so that a test can find how much of it a ray
+/// needs.
 namespace raylane::simd {
 
 struct ScaledFilters {

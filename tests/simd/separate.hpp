@@ -5,8 +5,8 @@
 
 namespace raylane::tests {
 
-/// A double that no operation is fused for: core's templates do with it what the kernels do in
-/// lanes of doubles, to the bit.
+/// A double without fused operations. With it, core's templates give the same bits as the kernels
+/// in lanes of doubles.
 struct Separate {
     double value = 0.0;
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <string>
 
-/// A sphere of radius 1 in one of 1 + 4e-5, near the origin and far away: pictures without a single
-/// wrong pixel. Renderers that lift their rays off a surface by an epsilon leak light between the
-/// two (mitsuba3 #219 and #1871).
+/// A sphere of radius 1 in one of 1 + 4e-5, near the origin and far away: images have no wrong
+/// pixel. Renderers that move their rays off a surface by an epsilon leak light between the two
+/// (mitsuba3 #219 and #1871).
 using namespace raylane;
 using namespace little_scene;
 
@@ -35,7 +35,7 @@ Film picture(const Scene& scene, simd::Engine engine, simd::Isa isa = simd::best
     return simd::render(scene, scene.settings(), options).film;
 }
 
-/// Calls visit(film) with the picture that each instruction set makes, and the reference's.
+/// Calls visit(film) with the image of each instruction set, and with the reference's.
 template <class Visit>
 void for_each_picture(const Scene& scene, const Visit& visit) {
     for (const simd::Isa isa : simd::all_isas) {
@@ -53,7 +53,7 @@ long count_not(const Film& film, const Color& color) {
 
 } // namespace
 
-TEST_CASE("a sphere is seen through a skin of glass, and nothing else of it", "[long]") {
+TEST_CASE("a sphere is seen through a skin of glass without a wrong pixel", "[long]") {
     for (const Vec3f& center : centers) {
         CAPTURE(center.x);
         Builder builder = looking_at(center, {1, 2, 3});
@@ -77,7 +77,7 @@ TEST_CASE("a sphere is seen through a skin of glass, and nothing else of it", "[
     }
 }
 
-TEST_CASE("no light leaves by the gap between two spheres", "[long]") {
+TEST_CASE("no light leaves through the gap between two spheres", "[long]") {
     for (const Vec3f& center : centers) {
         CAPTURE(center.x);
         Builder builder = looking_at(center, {0.5F, 0.25F, 0});
@@ -91,8 +91,8 @@ TEST_CASE("no light leaves by the gap between two spheres", "[long]") {
 }
 
 // Every path goes out through the glass, is reflected, comes in, crosses the sphere and goes out
-// again: to a depth of 3 n + 1 it has seen n + 1 mirrors.
-TEST_CASE("light between a mirror and the glass right before it is never lost", "[long]") {
+// again. To a depth of 3 n + 1, it meets n + 1 mirrors.
+TEST_CASE("no light is lost between a mirror and the glass right in front of it", "[long]") {
     for (const Vec3f& center : centers) {
         CAPTURE(center.x);
         Builder builder = looking_at(center, {0.5F, 0.25F, 0});
@@ -109,7 +109,7 @@ TEST_CASE("light between a mirror and the glass right before it is never lost", 
     }
 }
 
-TEST_CASE("a mirror ball in a skin of glass that bends light is the reference's", "[long]") {
+TEST_CASE("a mirror ball in a skin of refracting glass equals the reference's", "[long]") {
     for (const Vec3f& center : centers) {
         CAPTURE(center.x);
         Builder builder = looking_at(center, {1, 2, 3});

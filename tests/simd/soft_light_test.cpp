@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-/// Lights with a size and a lens, drawn by both engines.
+/// Lights with a size, and a lens, rendered by both engines.
 using namespace raylane;
 using namespace little_scene;
 using ray_sets::Random;
@@ -24,7 +24,7 @@ Material white() {
     return material;
 }
 
-/// One pixel of a white floor, around the origin.
+/// Returns a view of one pixel of a white floor, around the origin.
 Builder floor_seen_from(const Vec3f& from) {
     Builder builder;
     builder.settings.width = builder.settings.height = 1;
@@ -61,7 +61,8 @@ Light ball_of_light(const Vec3f& middle, float radius) {
     return light;
 }
 
-/// Balls on a checked floor under lights of all kinds, one of the balls a mirror, one of glass.
+/// Returns balls on a checkered floor under lights of all kinds. One ball is a mirror, one is
+/// glass.
 Scene studio(float quality, float lens = 0.0F) {
     Builder builder;
     builder.settings.width = 80;
@@ -126,7 +127,7 @@ double error_of(const Film& a, const Film& b) {
 
 } // namespace
 
-TEST_CASE("a ball takes of the sky what it fills of the hemisphere", "[long]") {
+TEST_CASE("a ball hides its share of the sky's hemisphere", "[long]") {
     for (const Vec3f& middle : {Vec3f(0, 3, 0), Vec3f(2, 2, 1), Vec3f(-4, 1.2F, 0)}) {
         const auto scene = [&](float reach) {
             Builder builder = floor_seen_from({2, 2, -4});
@@ -142,7 +143,7 @@ TEST_CASE("a ball takes of the sky what it fills of the hemisphere", "[long]") {
         check_both(scene(100.0F), [&](const Film& film) {
             CHECK(static_cast<double>(film.pixels()[0].x) == Approx(1.0 - hidden).margin(4e-3));
         });
-        // Beyond its reach it takes nothing.
+        // Beyond the sky's reach, the ball hides nothing.
         check_both(scene(static_cast<float>(std::sqrt(squared) - 1.01)),
                    [&](const Film& film) { CHECK(film.pixels()[0].x == Approx(1.0F)); });
     }
@@ -159,7 +160,7 @@ TEST_CASE("the sky's colours change evenly from the nadir to the zenith") {
     });
 }
 
-TEST_CASE("a ball of light has the penumbra that it should", "[long]") {
+TEST_CASE("a spherical light has the expected penumbra", "[long]") {
     constexpr double height = 4.0, radius = 1.5;
     for (const double edge : {-0.5, -0.3, -0.1, 0.0, 0.15, 0.3, 0.5}) {
         // A wall that ends at x = edge, at height 1: it hides directions of x > edge * y.
@@ -184,7 +185,7 @@ TEST_CASE("a ball of light has the penumbra that it should", "[long]") {
     }
 }
 
-TEST_CASE("a lens blurs an edge by how far it is from what is sharp", "[long]") {
+TEST_CASE("a lens blurs an edge by its distance from the plane of focus", "[long]") {
     for (const double distance : {3.0, 5.0, 8.0})
         for (const double beside : {-0.15, -0.05, 0.0, 0.1}) {
             Builder builder;
@@ -214,7 +215,7 @@ TEST_CASE("a lens blurs an edge by how far it is from what is sharp", "[long]") 
         }
 }
 
-TEST_CASE("soft light depends on neither threads, tiles nor instructions", "[long]") {
+TEST_CASE("soft light does not depend on threads or tiles or instruction sets", "[long]") {
     for (const float quality : {0.0F, 32.0F})
         for (const float lens : {0.0F, 0.1F}) {
             const Scene scene = studio(quality, lens);
@@ -234,7 +235,7 @@ TEST_CASE("soft light depends on neither threads, tiles nor instructions", "[lon
             options = {};
             options.engine = simd::Engine::reference;
             const simd::Rendering reference = rendered(scene, options);
-            // An ulp decides here and there which point of the sky is hidden.
+            // In some pixels, an ulp decides which point of the sky is hidden.
             CHECK(error_of(reference.film, expected.film) < 2e-3);
             CHECK(static_cast<double>(reference.counters.shadow) ==
                   Approx(static_cast<double>(expected.counters.shadow)).epsilon(0.01));
@@ -260,7 +261,7 @@ TEST_CASE("both engines see the same sky from cylinders along a coordinate") {
     }
 }
 
-TEST_CASE("hard light comes from the middle of a lamp, and from all of a sky") {
+TEST_CASE("hard light comes from the middle of a lamp and from all of a sky") {
     Light disc = ball_of_light({0, 4, 0}, 1.0F);
     disc.kind = LightKind::disc;
     disc.direction = {0, -1, 0};
@@ -286,7 +287,7 @@ TEST_CASE("hard light comes from the middle of a lamp, and from all of a sky") {
     }
 }
 
-TEST_CASE("both engines draw hard light") {
+TEST_CASE("both engines render nearly the same hard light") {
     const Scene scene = studio(0.0F);
     Settings settings = scene.settings();
     settings.light_samples = Settings::hard_light;
@@ -306,15 +307,15 @@ TEST_CASE("soft light's error falls faster than that of random samples", "[long]
     const Film truth = drawn(4096);
     const double of_4 = error_of(drawn(4), truth), of_256 = error_of(drawn(256), truth);
     CAPTURE(of_4, of_256);
-    CHECK(of_256 < of_4 / 16.0); // of random ones, an eighth
+    CHECK(of_256 < of_4 / 16.0); // an eighth for random samples
 }
 
-TEST_CASE("soft light and a lens have the quality that is asked for", "[long]") {
+TEST_CASE("soft light and a lens have the requested quality", "[long]") {
     const auto shown = [](float linear) {
         const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
         return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
     };
-    // The higher the quality, the more samples the picture that is taken for true must have.
+    // A higher quality must be compared with an image of more samples.
     const bool is_full = tests::is_full();
     for (const float lens : {0.0F, 0.1F}) {
         const Scene scene = studio(0.0F, lens);

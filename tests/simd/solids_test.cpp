@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-/// Pictures of solids that are made of others: both engines, and all instruction sets, have one.
+/// Images of solids of solids: both engines and all instruction sets render the same.
 using namespace raylane;
 using raylane::tests::picture;
 using namespace raylane::core;
@@ -33,7 +33,7 @@ Material of_red() {
     return red;
 }
 
-/// What lets all light through that it does not reflect.
+/// Returns a material that transmits all light that it does not reflect.
 Material clear() {
     Material glass;
     glass.ambient = glass.diffuse = 0;
@@ -42,7 +42,7 @@ Material clear() {
     return glass;
 }
 
-/// Rounded, bored and cut blocks of clay and glass on a floor, flush and not.
+/// Returns rounded, bored and cut blocks of clay and glass on a floor. Some cuts are flush.
 Scene blocks(std::vector<double> wavelengths = {}) {
     SceneBuilder builder;
     builder.settings.width = 72;
@@ -91,8 +91,7 @@ Scene blocks(std::vector<double> wavelengths = {}) {
 
 } // namespace
 
-TEST_CASE("solids of others are the same picture by both engines and all instruction sets",
-          "[native]") {
+TEST_CASE("both engines and all instruction sets render the same solids of solids", "[native]") {
     const Scene scene = blocks();
     const std::vector<Color> vector = picture(scene, simd::Engine::vector);
     const std::vector<Color> reference = picture(scene, simd::Engine::reference);
@@ -105,7 +104,7 @@ TEST_CASE("solids of others are the same picture by both engines and all instruc
         if (simd::is_available(isa)) CHECK(picture(scene, simd::Engine::vector, isa) == vector);
 }
 
-TEST_CASE("a spectrum changes what glass refracts alone", "[native]") {
+TEST_CASE("a spectrum changes only refracted light", "[native]") {
     const std::vector<Color> white = picture(blocks(), simd::Engine::vector);
     const std::vector<Color> one = picture(blocks({line_d}), simd::Engine::vector);
     const Scene of_many = blocks({430, 500, 560, 620});
@@ -125,8 +124,8 @@ TEST_CASE("a spectrum changes what glass refracts alone", "[native]") {
     CHECK(colored > 20);
 }
 
-TEST_CASE("what a solid's shadow is cast by is where the solid is") {
-    // A ball whose upper half is taken away, and one that is whole: the light is above.
+TEST_CASE("only the remaining part of a cut solid casts a shadow") {
+    // A ball without its upper half, and a whole ball, lit obliquely from above.
     for (const bool cut : {false, true}) {
         SceneBuilder builder;
         builder.settings.width = builder.settings.height = 33;
@@ -148,13 +147,14 @@ TEST_CASE("what a solid's shadow is cast by is where the solid is") {
         long dark =
             std::count_if(seen.begin(), seen.end(), [](const Color& c) { return c.x == 0.0F; });
         CHECK(picture(scene, simd::Engine::reference) == seen);
-        // By an ellipse of half axes 1 and sqrt(2) that begins under the ball, or half of it less.
+        // The shadow is an ellipse of half axes 1 and sqrt(2) that begins under the ball, or half
+        // of it.
         CHECK(dark > (cut ? 10 : 40));
         CHECK(dark < (cut ? 45 : 90));
     }
 }
 
-TEST_CASE("inside of a union no wall is seen, nor casts a shadow") {
+TEST_CASE("walls inside of a union are not seen and cast no shadow") {
     SceneBuilder builder;
     builder.settings.width = builder.settings.height = 40;
     builder.camera.from = {0, 0, 0};
@@ -175,8 +175,8 @@ TEST_CASE("inside of a union no wall is seen, nor casts a shadow") {
 
 namespace {
 
-/// A crowd of balls and sticks, cut in some way, with a ball of another kind in the hole; seen from
-/// afar, from the hole, or from inside of a ball.
+/// Returns a crowd of balls and sticks, cut in one of several ways, with a ball of another material
+/// in the hole. The camera is far away, in the hole, or inside of a ball.
 Scene cut_crowd(int way, int place) {
     const Vec3f places[] = {{5, 4, 7}, {0.7F, 0.9F, 1.1F}, {-0.7F, -0.8F, -0.75F}};
     SceneBuilder builder;
@@ -240,10 +240,10 @@ Scene cut_crowd(int way, int place) {
 
 } // namespace
 
-TEST_CASE("a crowd that is cut is the same picture by both engines", "[native]") {
+TEST_CASE("both engines render the same cut crowd", "[native]") {
     const int way = GENERATE(range(0, 12));
     const int place = GENERATE(range(0, 3));
-    // Each way and each place, or all pairs of them.
+    // Tests each way and each place, or in full runs all pairs of them.
     if (place != way % 3 && !tests::is_full()) return;
     const Scene scene = cut_crowd(way, place);
     const std::vector<Color> seen = picture(scene, simd::Engine::vector);
@@ -253,7 +253,7 @@ TEST_CASE("a crowd that is cut is the same picture by both engines", "[native]")
         if (simd::is_available(isa)) CHECK(picture(scene, simd::Engine::vector, isa) == seen);
 }
 
-TEST_CASE("rays that see more cuts than they keep in mind lose none") {
+TEST_CASE("rays that see more cuts than they can store lose none") {
     SceneBuilder builder;
     builder.settings.width = builder.settings.height = 16;
     builder.camera = {.projection = Projection::orthographic,

@@ -11,13 +11,13 @@ namespace raylane::tests {
 enum RayKind : std::uint8_t { reflected_ray, refracted_ray, shadow_ray };
 
 struct Tally {
-    long rays[2][3] = {}; ///< by the side that they go to, 1 being the inside, and RayKind
-    long self_hits = 0;   ///< on the shape left, where something else is next
-    long missed = 0;      ///< neighbours
-    long other = 0;       ///< anything else that is wrong
+    long rays[2][3] = {}; ///< index 1 for rays to the inside, then RayKind
+    long self_hits = 0;   ///< hits on the shape left, where another shape is next
+    long missed = 0;      ///< neighbours that were missed
+    long other = 0;       ///< all other faults
     long by_oracle = 0, by_construction = 0;
-    long doubtful = 0; ///< left open by the float bounds or the finish
-    long followed = 0; ///< only the reference could go on with them
+    long doubtful = 0; ///< left open by float bounds or `finish`
+    long followed = 0; ///< rays that only the reference could trace
     long into_the_open = 0, doubtful_in_the_open = 0;
     std::string first_faults;
 

@@ -16,8 +16,8 @@ using namespace raylane::core;
 using namespace raylane::simd;
 using namespace raylane::tests;
 
-/// Rays that leave a surface, by the vector engine's own path: they never meet what they leave
-/// again, unless it curves back, and never miss what is next, however close.
+/// Rays that leave a surface in the vector engine. They do not meet that surface again unless it
+/// curves back, and never miss the next surface, however close.
 
 namespace {
 
@@ -26,7 +26,7 @@ int rounds() {
 }
 
 constexpr std::size_t rays_per_nest = 512;
-constexpr int oracle_share = 16; // one in so many rays is asked of the oracle
+constexpr int oracle_share = 16; // the oracle checks one in so many rays
 
 ShapeId add_to(SceneBuilder& builder, const AnyShape& any) {
     return std::visit([&](const auto& shape) { return builder.add(shape, 0); }, any);
@@ -41,7 +41,7 @@ Scene scene_of(const std::vector<AnyShape>& shapes) {
     return std::move(builder).build();
 }
 
-/// Spawned rays from a shape, with what is true of them.
+/// Spawns rays from a shape and checks them.
 class Spawning {
   public:
     Spawning(const Nest& nest, const tests::Place& place, const Kernels& kernels, Random& random,
@@ -84,7 +84,7 @@ class Spawning {
     }
 
   private:
-    /// Hits of rays on the shape, as the engine has them.
+    /// Finds the engine's hits of rays on the shape.
     void hit(LookThrough& finder) {
         paths_.count = rays_per_nest;
         for (std::size_t i = 0; i < paths_.count; ++i) {
@@ -115,7 +115,7 @@ class Spawning {
         return slot;
     }
 
-    /// As core::ReferenceTracer::surface_at.
+    /// The surface at a hit, as core::ReferenceTracer::surface_at has it.
     struct Surface {
         Ray<double> ray;
         Vec3d point, flat, normal;
@@ -189,8 +189,7 @@ class Spawning {
         }
     }
 
-    /// Compares what the engine has found with the certified search, the oracle and the
-    /// construction.
+    /// Compares the engine's answer with the certified search, the oracle and the construction.
     void compare(const Next& found, const Ray<double>& ray, const OriginSurfaces<double>& origins,
                  bool inward) {
         Searcher<double> searcher(*scene_, Search::every_shape);
@@ -241,7 +240,7 @@ class Spawning {
         tally_.first_faults += text.str();
     }
 
-    /// In the gaps, next to them, or far away.
+    /// Returns a position in the gaps, next to them, or far away.
     Vec3f light_position() {
         const Surface near = surface_at(
             order_[static_cast<std::size_t>(random_.integer(0, static_cast<int>(hit_count_) - 1))]);
@@ -250,8 +249,8 @@ class Spawning {
         return rounded(near.point + near.flat * distance);
     }
 
-    /// With nothing else there, the engine needs no help to know that rays which go outward meet
-    /// nothing.
+    /// Checks that in a scene of this shape alone, the engine knows without help that outward rays
+    /// meet nothing.
     void leave_alone(LookThrough& finder) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < spawned_.count; ++i) {
@@ -338,7 +337,7 @@ class Spawning {
 
     void agree_on_shadow(bool arrives, const Next& next, double distance, const Ray<double>& ray,
                          const char* whose) {
-        // The oracle does not tell where the shape left is met again.
+        // The oracle has no t for a second crossing with the shape that the ray leaves.
         if (std::isnan(next.t) || std::abs(next.t - distance) <= 0x1p-26 * distance) return;
         if (arrives == !(next.t < distance)) return;
         ++(arrives ? tally_.missed : tally_.self_hits);
@@ -370,7 +369,7 @@ class Spawning {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("spawned rays meet what is next, and not what they leave", "[long]",
+TEMPLATE_TEST_CASE("spawned rays meet the next surface and not the one that they leave", "[long]",
                    RAYLANE_ALL_SHAPES) {
     constexpr Kind kind = core::kind_of<TestType>;
     std::vector<Isa> isas;

@@ -8,7 +8,7 @@
 
 namespace raylane::tests {
 
-/// The ids of a nest's shapes; what comes after them is far away.
+/// The ids of a nest's shapes. Shapes with higher ids are far away.
 enum : ShapeId { shape_id, outer_id, inner_id };
 
 /// Next crossing of a ray.
@@ -18,21 +18,21 @@ struct Next {
     bool entering = false;
 };
 
-/// Truth about rays that leave a nest's shape.
+/// The true next crossings of rays that leave a nest's shape.
 class SpawnTruth {
   public:
-    /// `shapes`: of the scene, by id.
+    /// `shapes` are the scene's, by id.
     SpawnTruth(const Nest& nest, const Place& place, const std::vector<AnyShape>& shapes)
         : nest_(nest), place_(place), shapes_(shapes) {}
 
-    /// Greatest distance of the start from the surface.
+    /// Returns the largest distance of the start from the surface.
     double slack(const Ray<double>& ray) const {
         const Vec3d o = ray.origin;
         return 0x1p-48 * (std::abs(o.x) + std::abs(o.y) + std::abs(o.z) +
                           place_.size * static_cast<double>(place_.factor));
     }
 
-    /// Next crossing of a ray from the true surface. Its t is not known.
+    /// Returns the next crossing of a ray from the exact surface, without its t.
     std::optional<Next> by_construction(const Ray<double>& ray, bool inward) const {
         constexpr double t = std::numeric_limits<double>::quiet_NaN();
         if (shapes_.size() > 3) return std::nullopt; // a sphere may be in between, if far away
@@ -52,8 +52,8 @@ class SpawnTruth {
         return std::nullopt;
     }
 
-    /// Nothing where the start and the next crossing with the shape left are too close to tell
-    /// which is which.
+    /// Returns nothing if the start and the next crossing with the shape left are too close to tell
+    /// apart.
     std::optional<Next> by_oracle(const Ray<double>& ray, bool inward) const {
         Next next;
         for (const ShapeId id : {outer_id, inner_id})
@@ -71,7 +71,8 @@ class SpawnTruth {
                 start = t;
         }
         if (std::isinf(onward)) {
-            // The start is off the surface, and the ray passes all of it; or it is out of bounds.
+            // The start is off the surface so that the ray misses all of it, or it is out of
+            // bounds.
             if (is_a<Solid>(nest_.shape) || std::isinf(start)) return std::nullopt;
             return next;
         }

@@ -14,7 +14,8 @@ using namespace raylane;
 
 namespace {
 
-/// As many tasks as threads, each of which waits for the others: true if they ran at once.
+/// Runs as many tasks as threads, each of which waits for the others. Returns whether they ran at
+/// once.
 bool meets(int threads) {
     std::atomic<int> here = 0;
     simd::on_threads(threads, [&] {
@@ -35,13 +36,12 @@ double resident_kilobytes() {
 
 } // namespace
 
-TEST_CASE("calls of several threads, one after the other, have as many as each asks for",
-          "[threads]") {
+TEST_CASE("successive calls have as many threads as each requests", "[threads]") {
     for (const int threads : {1, 3, 2, 3, 5, 1, 2})
         CHECK(meets(threads));
 }
 
-TEST_CASE("calls of several threads at once, and inside of others, have their own", "[threads]") {
+TEST_CASE("concurrent and nested calls do not share their threads", "[threads]") {
     std::atomic<int> done = 0;
     const auto call = [&] {
         for (int round = 0; round < 20; ++round)
@@ -60,8 +60,7 @@ TEST_CASE("calls of several threads at once, and inside of others, have their ow
     CHECK(done == 3 * 20 * 4 * 3);
 }
 
-TEST_CASE("an exception comes out of a call with threads, and the next one is as ever",
-          "[threads]") {
+TEST_CASE("an exception propagates out of a call with threads and later calls work", "[threads]") {
     for (int i = 0; i < 3; ++i)
         CHECK_THROWS_AS(simd::on_threads(2,
                                          [] {
@@ -73,8 +72,8 @@ TEST_CASE("an exception comes out of a call with threads, and the next one is as
     CHECK(meets(2));
 }
 
-TEST_CASE("thousands of calls with threads hold no more memory than some", "[threads]") {
-    if (tests::sanitized) return; // it keeps what is given back
+TEST_CASE("thousands of calls with threads take no more memory than hundreds", "[threads]") {
+    if (tests::sanitized) return; // a sanitizer keeps released memory
     const auto call = [](int times) {
         for (int i = 0; i < times; ++i) {
             std::atomic<int> done = 0;

@@ -6,8 +6,8 @@
 
 #include <string>
 
-/// Surfaces that rays meet at the same t, to the bit. Which of them is seen is said by a rule (what
-/// is entered before what is left, then the lower id), not by the order in which they are met.
+/// Surfaces that rays meet at the same t, to the bit. A rule decides which of them is seen
+/// (entering before leaving, then the lower id), not the order in which they are found.
 using namespace raylane;
 using namespace little_scene;
 
@@ -15,8 +15,8 @@ namespace {
 
 constexpr int half_width = 4;
 
-/// Shapes of many colours on the plane of this z, facing up or down. All numbers are small whole
-/// ones and halves of them, so that floats hold every t.
+/// Adds shapes of many colours on the plane of this z, facing up or down. All numbers are small
+/// integers or halves of them, so that floats hold every t.
 void add_shapes(Builder& builder, int count, float z, ray_sets::Random& random) {
     for (int i = 0; i < count; ++i) {
         const Material material = luminous({static_cast<float>(i) / 128.0F, 0, 0});
@@ -73,14 +73,14 @@ void check_same(const Scene& scene) {
 
 } // namespace
 
-TEST_CASE("of surfaces at one t the same is seen by all precisions and processors") {
+TEST_CASE("all precisions and instruction sets see the same one of several surfaces at one t") {
     ray_sets::Random random(8);
-    for (const int count : {20, 120}) { // as a list, and by way of the hierarchy
+    for (const int count : {20, 120}) { // brute force, then the hierarchy
         Builder seen = looking_down();
         add_shapes(seen, count, 0.0F, random);
         check_same(seen.finish());
 
-        // Each ray by itself: behind a mirror they are no coherence.
+        // Rays off a mirror are traced one by one, as they are not coherent.
         Builder reflected = looking_down();
         reflected.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, mirror());
         add_shapes(reflected, count, 16.0F, random);

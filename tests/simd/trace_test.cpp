@@ -6,11 +6,11 @@
 using namespace raylane;
 using namespace raylane::tests;
 
-/// Rays through the hierarchy against all shapes one by one, and against the scalar search.
+/// Compares rays through the hierarchy with brute force and with the scalar search.
 
 namespace {
 
-/// Candidates of rays, found each way: shape by shape, in flight, and by lists.
+/// Candidates of rays, found by brute force, as interleaved single rays, and by lists.
 struct EachWay {
     Answers by_all, by_tree, by_lists;
 };
@@ -62,8 +62,7 @@ void check(const Kernels& kernels, bool overlapping) {
             if (state == blocked && !(hit.any() && hit.t < t_most)) FAIL("nothing blocks it");
             if (state == unblocked && hit.any() && hit.t < t_most) FAIL("not open");
         }
-        // What only may be there, the bounds of nodes can rule out: above all along the faces of
-        // boxes.
+        // Bounds of nodes can rule out uncertain candidates, above all along the faces of boxes.
         if (i % 4 == 1) continue;
         for (const Answers* tree : {&by_tree, &by_lists})
             different += by_all.agree(*tree, i) && by_all.state[i] == tree->state[i] ? 0 : 1;
@@ -73,8 +72,9 @@ void check(const Kernels& kernels, bool overlapping) {
     CHECK(different <= static_cast<int>(rays.count) / 100);
 }
 
-/// Rays that leave what they would hit first, and some the shapes next to it by number, do not find
-/// that: by the hierarchy, which looks for it before it packs pairs, as shape by shape.
+/// Checks rays that leave the shape that they would hit first, and in part those with the ids next
+/// to it. They must not find these shapes by brute force or by the hierarchy, which looks for them
+/// before it packs pairs.
 void check_departures(const Kernels& kernels, bool overlapping) {
     CAPTURE(std::string(kernels.name), overlapping);
     Rays rays(sanitized ? 301 : 3001, overlapping ? 9.0 : 12.0);
@@ -109,7 +109,7 @@ void check_departures(const Kernels& kernels, bool overlapping) {
 
 } // namespace
 
-TEST_CASE("crossings whose squares are too large for float are met however rays go") {
+TEST_CASE("all traversals find crossings whose squares are too large for float") {
     SceneBuilder builder;
     builder.wants_light = false;
     builder.add_material({});
@@ -140,7 +140,7 @@ TEST_CASE("crossings whose squares are too large for float are met however rays 
     }
 }
 
-TEST_CASE("the hierarchy loses nothing of what rays meet") {
+TEST_CASE("the hierarchy loses no hit") {
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
         check(kernels_of(isa), false);
@@ -148,7 +148,7 @@ TEST_CASE("the hierarchy loses nothing of what rays meet") {
     }
 }
 
-TEST_CASE("rays do not find what they leave however they go") {
+TEST_CASE("no traversal finds the shape that a ray leaves") {
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
         check_departures(kernels_of(isa), false);
@@ -156,7 +156,7 @@ TEST_CASE("rays do not find what they leave however they go") {
     }
 }
 
-TEST_CASE("random rays make lists where these are long and the hierarchy is in the cache") {
+TEST_CASE("random rays use lists if these are long or the hierarchy fits in the cache") {
     const Kernels& kernels = kernels_of(best_isa());
     Rays rays(4096, 12.0);
     const Traced traced(make_scene(false), rays.padded);
@@ -175,7 +175,7 @@ TEST_CASE("random rays make lists where these are long and the hierarchy is in t
                                                                         rounded, found.candidates(),
                                                                         traced.workspace, counters);
                     CAPTURE(small, large, count, precision == Precision::exact);
-                    // The precisions that exact is compared with have one way.
+                    // Only `exact` has more than one traversal.
                     const bool makes_lists =
                         precision == Precision::exact && (small || (!large && count == 4096));
                     CHECK(counters.in_lists == (makes_lists ? count : 0));

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-/// Rays that tests ask the tracing kernels about, and the answers.
+/// Rays for the tracing kernels, and the kernels' answers.
 namespace raylane::tests {
 
 using namespace core;
@@ -28,8 +28,8 @@ void add(SceneBuilder& builder, Random& random, int count) {
         builder.add(ray_sets::Target<Shape>::make(random, false), 0);
 }
 
-/// Some of each bounded kind; or, if `overlapping`, spheres around one point, so that rays have all
-/// of the tree before them. Planes are in no tree.
+/// Returns a scene of shapes of each bounded kind, or, if `overlapping`, of spheres around one
+/// point, so that rays have the whole tree in front of them. Planes are in no tree.
 inline Scene make_scene(bool overlapping, int planes = 0) {
     Random random(5);
     SceneBuilder builder;
@@ -52,7 +52,7 @@ inline Scene make_scene(bool overlapping, int planes = 0) {
     return std::move(builder).build();
 }
 
-/// Rays from anywhere to anywhere, some along planes and axes.
+/// Rays from random origins in random directions, some along planes and axes.
 struct Rays {
     std::size_t count, padded;
     std::vector<double> of[6];
@@ -69,7 +69,7 @@ struct Rays {
             values.resize(padded);
         for (std::size_t i = 0; i < n; ++i) {
             Vec3d origin = random.cube(size), direction = random.direction();
-            if (i % 4 == 1) { // along planes and axes, or all but
+            if (i % 4 == 1) { // along planes and axes, or almost
                 constexpr double little[] = {0.0, -0.0, 1e-40, -1e-40, 1e-12, -1e-33};
                 for (int axis = random.integer(0, 2), k = 0; k < random.integer(1, 2); ++k)
                     direction[(axis + k) % 3] = little[random.integer(0, 5)];
@@ -103,7 +103,7 @@ struct Rays {
             of[3 + axis][i] = direction[axis];
     }
 
-    /// The ray starts on the shapes of these ids.
+    /// Starts the ray on the shapes of these ids.
     void leave(std::size_t i, ShapeId first, ShapeId last) {
         origin_first[i] = first;
         origin_last[i] = last;
@@ -117,7 +117,7 @@ struct Rays {
             of[axis][i] = origin[axis];
     }
 
-    /// As if seen beside the last 16, in one plane.
+    /// Puts the ray's origin in one plane, where each 16 rays fill a square beside the last 16.
     void stay_near(std::size_t i) {
         const double row = static_cast<double>(i / 64), along = static_cast<double>(i % 64 / 16);
         of[0][i] = 0.2 * (4.0 * along + static_cast<double>(i % 4));
@@ -130,7 +130,7 @@ struct Rays {
     }
 };
 
-/// Of each ray, as the kernels have it.
+/// The kernels' answer for each ray.
 struct Answers {
     static constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -143,7 +143,8 @@ struct Answers {
           state(padded, unblocked) {}
     Candidates candidates() { return {first.data(), second.data(), slot.data()}; }
 
-    /// True if both have found the same for a ray, but for what is beyond what is certain.
+    /// Returns whether both have the same answer for a ray, except beyond the distance that is
+    /// certain.
     bool agree(const Answers& other, std::size_t i) const {
         const float beyond = first[i] * culling_slack;
         return first[i] == other.first[i] && (slot[i] == other.slot[i] || second[i] == first[i]) &&
@@ -151,7 +152,7 @@ struct Answers {
     }
 };
 
-/// A scene as the kernels see it, with room for so many rays.
+/// A scene in the kernels' terms, with memory for `capacity` rays.
 struct Traced {
     Scene scene;
     SceneData data{scene};

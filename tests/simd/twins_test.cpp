@@ -2,8 +2,8 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 
-/// One surface that a scene holds several times is one surface: what starts on it does not meet its
-/// twins, whether they can be seen or not.
+/// A surface that a scene holds several times is one surface: rays that start on it do not meet its
+/// copies, visible or not.
 using namespace raylane;
 using namespace little_scene;
 
@@ -37,7 +37,7 @@ std::vector<Color> picture_of(const Scene& scene, simd::Engine engine) {
     return simd::render(scene, scene.settings(), options).film.pixels();
 }
 
-/// A scene without and with the twins of one shape.
+/// Compares a scene of one shape with a scene that has copies of the shape as well.
 template <class Shape>
 void check(const Shape& shape, const Material& own, const std::vector<Material>& twins) {
     Builder alone = lit_from_above(), together = lit_from_above();
@@ -78,7 +78,7 @@ TEST_CASE("a shape that a scene holds up to four times casts no shadow on itself
     }
 }
 
-TEST_CASE("of surfaces that are nearer together than numbers, the nearer one is seen") {
+TEST_CASE("the nearer of two surfaces is seen if doubles cannot separate them") {
     Builder builder;
     builder.settings.width = builder.settings.height = 8;
     builder.camera.projection = Projection::orthographic;
@@ -86,7 +86,7 @@ TEST_CASE("of surfaces that are nearer together than numbers, the nearer one is 
     builder.camera.from = {1, 10, 0};
     builder.camera.at = {1, 0, 0};
     builder.camera.up = {0, 0, 1};
-    // Where x is positive, the second one lies higher by 1e-15 x.
+    // At positive x, the second one lies higher by 1e-15 x.
     builder.add_shape(Plane{{0, 0, 0}, {1e-15F, 1, 0}}, luminous({1, 0, 0}));
     builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, luminous({0, 1, 0}));
     const Scene scene = builder.finish();

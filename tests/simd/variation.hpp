@@ -5,8 +5,8 @@
 
 #include <utility>
 
-/// Ways to change any shape by its floats. Where these do not say how, a shape's own file does, by
-/// overloads.
+/// Changes any shape by its floats. Files of shapes overload these functions where this does not
+/// suffice.
 namespace raylane::hard_cases {
 
 using ray_sets::Random;
@@ -15,7 +15,7 @@ inline core::Vec3d in_double(const core::Vec3f& v) {
     return core::convert<double>(v);
 }
 
-/// The same shape, `scale` times as large.
+/// Returns the shape, `scale` times as large.
 template <class Shape>
 Shape scaled(const Shape& shape, double scale) {
     core::Numbers<Shape> floats = core::numbers_of(shape);
@@ -24,13 +24,14 @@ Shape scaled(const Shape& shape, double scale) {
     return core::shape_of<Shape>(floats);
 }
 
-/// Long, flat, slender or blunt, that is of proportions that the usual targets do not have.
+/// Returns a long, flat, slender or blunt shape: of proportions that the usual targets do not have.
+/// By default, returns the shape itself.
 template <class Shape>
 Shape extreme(const Shape& shape, Random&) {
     return shape;
 }
 
-/// The same in another frame: two coordinates swapped.
+/// Changes the frame: swaps two coordinates.
 template <class Shape>
 void swap_axes(Shape& shape, int a, int b) {
     core::Numbers<Shape> floats = core::numbers_of(shape);

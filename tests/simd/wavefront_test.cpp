@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-/// The wavefront loop where its queues are put to the test.
+/// Tests the queues of the wavefront loop at their limits.
 using namespace raylane;
 using namespace little_scene;
 
@@ -21,7 +21,7 @@ simd::RenderOptions by(simd::Engine engine) {
     return options;
 }
 
-/// Pixels that differ by more than rounding.
+/// Returns the number of channels of pixels that differ by more than rounding.
 int differing(const Scene& scene) {
     const Film expected = simd::render(scene, scene.settings(), by(simd::Engine::reference)).film;
     const Film film = simd::render(scene, scene.settings(), by(simd::Engine::vector)).film;
@@ -34,7 +34,7 @@ int differing(const Scene& scene) {
     return count;
 }
 
-/// Panes of glass one behind the other, between mirrors: every pane doubles the paths.
+/// Returns panes of glass one behind the other, before a mirror. Every pane doubles the paths.
 Scene panes(int depth) {
     Builder builder;
     builder.settings.width = builder.settings.height = 40;
@@ -132,7 +132,7 @@ TEST_CASE("a camera inside of everything sees it") {
     CHECK(differing(builder.finish()) == 0);
 }
 
-TEST_CASE("rays along the axes and all but along them lose nothing") {
+TEST_CASE("rays along the axes and almost along them lose no hit") {
     Builder builder;
     builder.settings.width = builder.settings.height = 33; // its middle ray is exactly along z
     builder.settings.grid = 1;
@@ -179,7 +179,7 @@ TEST_CASE("scenes may be very large or very small") {
     }
 }
 
-TEST_CASE("the vector engine is what renders, unless told otherwise", "[native]") {
+TEST_CASE("the vector engine renders by default", "[native]") {
     const Scene scene = panes(9);
     Settings settings = scene.settings();
     if (tests::sanitized) settings.width = settings.height = 16;
@@ -190,7 +190,7 @@ TEST_CASE("the vector engine is what renders, unless told otherwise", "[native]"
     CHECK(deferred(by(simd::Engine::reference)) == 0);
 }
 
-TEST_CASE("a region that is abandoned is left as it is") {
+TEST_CASE("a region that is abandoned does not change") {
     const Scene scene = panes(3);
     const simd::SceneData data(scene);
     for (const float quality : {0.0F, 30.0F}) {
