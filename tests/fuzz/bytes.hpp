@@ -9,7 +9,7 @@
 #include <limits>
 #include <string_view>
 
-/// What fuzzers make of their bytes.
+/// Values that fuzzers make of their bytes.
 namespace raylane::fuzz {
 
 /// Ends the program with a finding.
@@ -18,14 +18,14 @@ namespace raylane::fuzz {
     __builtin_trap();
 }
 
-/// Values, made of bytes one after the other; of zeros behind the last of them.
+/// Makes values of bytes, one after the other. After the last byte, bytes are 0.
 class Bytes {
   public:
     Bytes(const std::uint8_t* data, std::size_t size) : data_(data), end_(data + size) {}
 
     bool any() const { return data_ != end_; }
     int byte() { return any() ? *data_++ : 0; }
-    /// 0, ..., count - 1; at most 256.
+    /// Returns 0, ..., count - 1. `count` is at most 256.
     int below(int count) { return byte() % count; }
     bool flag() { return (byte() & 1) != 0; }
 
@@ -39,8 +39,8 @@ class Bytes {
         return value;
     }
 
-    /// A finite number: mostly a small whole one, or a half or a quarter, so that surfaces touch;
-    /// or one beside these, or any that a float, or a double, may be.
+    /// Returns a finite number: mostly a small integer, or a half or a quarter, so that surfaces
+    /// touch; or a number beside these, or any float or double.
     template <class Real>
     Real number() {
         const int first = byte();
@@ -78,7 +78,7 @@ class Bytes {
         return {x, y, number<Real>()};
     }
 
-    /// The same, or now and then what is no number.
+    /// Returns number(), or now and then an infinity, NaN or an extreme number.
     float any_float() {
         const int special = byte();
         if (special < 250) return number<float>();
@@ -93,7 +93,7 @@ class Bytes {
     }
 
   private:
-    /// That a scene may have, and a ray in double.
+    /// Returns whether a scene, and a ray in double, may have this number.
     template <class Real>
     static bool is_usual(Real value) {
         const Real size = std::abs(value);

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-/// Any calls of the interface for C, in any order, with what it may be given: handles or NULL,
-/// arrays or NULL, any values. A status that the header names, with a text where it is no success;
-/// and where there is a NULL that may not be, RAYLANE_INVALID_VALUE.
+/// Makes any calls of the interface for C, in any order and with any arguments: handles or NULL,
+/// arrays or NULL, any values. A call must return a status that the header names, with a text if it
+/// fails. A NULL that is not allowed must give RAYLANE_INVALID_VALUE.
 using raylane::fuzz::Bytes, raylane::fuzz::found;
 
 namespace {
@@ -36,7 +36,7 @@ struct Handles {
     }
 };
 
-/// What a call has answered.
+/// Checks the result of a call.
 void check(raylane_status status, bool has_null = false) {
     if (status < RAYLANE_OK || status > RAYLANE_CANCELLED) found("no such status");
     if (status == RAYLANE_OUT_OF_MEMORY) found("out of memory");
@@ -159,7 +159,7 @@ void set_surroundings(raylane_builder* builder, Bytes& bytes) {
     }
 }
 
-/// What takes no long time, or is refused.
+/// Returns settings that render quickly or are refused.
 raylane_settings any_settings(Bytes& bytes) {
     raylane_settings settings = raylane_default_settings();
     constexpr int sizes[] = {1, 2, 7, 8, 12, 0, -1, INT_MAX, INT_MIN};
@@ -213,7 +213,7 @@ void render(const raylane_scene* scene, Bytes& bytes) {
         if ((component == untouched) == (status == RAYLANE_OK)) found("another picture");
 }
 
-/// Arrays of exactly as many values, of which some may be left out.
+/// Makes arrays of exactly `count` values, or NULL for some that may be left out.
 template <class Value>
 class Arrays {
   public:
@@ -303,7 +303,7 @@ void make_scene(Handles& handles, Bytes& bytes) {
             text[static_cast<std::size_t>(bytes.byte()) % text.size()] =
                 static_cast<char>(bytes.byte());
         const bool has_none = bytes.below(16) == 15;
-        const std::vector<char> exactly(text.begin(), text.end()); // no 0 behind it
+        const std::vector<char> exactly(text.begin(), text.end()); // without a 0 at the end
         check(raylane_parse(has_none ? nullptr : exactly.data(), exactly.size(),
                             bytes.flag() ? "a.json" : "scene", to),
               leaves_out || has_none);

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <string>
 
-/// The library's calls, for any shapes and rays: exact arithmetic says what is right. Of what has
-/// no oracle - rays that name what they leave, spans of any length - one answer is held to another.
+/// Calls the library with any shapes and rays. Exact arithmetic decides which answers are right.
+/// Without an oracle (for rays that name the shape that they leave, or spans of any length), one
+/// answer is compared with another.
 using namespace raylane;
 using namespace raylane::fuzz;
 using core::Vec3d;
@@ -45,7 +46,7 @@ void ask_in_double(Bytes& bytes) {
     if (faults.all() != 0) found(faults.first);
 }
 
-/// Rays with all that a caller may say of them.
+/// Rays with all optional inputs of a caller.
 struct Asked {
     Rays rays;
     std::vector<ShapeId> shape;
@@ -60,7 +61,7 @@ struct Asked {
     }
 };
 
-/// Rows of rays, each as far from the one before; of any numbers, also of what is none.
+/// Returns rows of rays at equal steps, of any numbers, including infinities and NaN.
 Asked any_rays(Bytes& bytes, const std::vector<tests::AnyShape>& shapes) {
     Asked asked;
     Rays& rays = asked.rays;
@@ -123,7 +124,7 @@ void check_by_oracle(const std::vector<tests::AnyShape>& shapes, const Asked& as
     }
 }
 
-/// All together, each alone; in all ways there are to ask.
+/// Traces all rays together and each alone, with all of the library's calls.
 void ask_spans(Bytes& bytes) {
     constexpr Precision precisions[] = {Precision::exact, Precision::exact,
                                         Precision::exact, Precision::robust,
@@ -179,7 +180,7 @@ void ask_spans(Bytes& bytes) {
     if (asked.shape.empty() && sides == tests::Sides::both) check_by_oracle(shapes, asked, hits);
 }
 
-/// The parts of a line that is in any of these solids, roughly.
+/// Returns the approximate length of a line inside of any of these solids.
 double length_inside(const CrossingRows& rows, std::size_t row, double t_max) {
     std::vector<std::pair<double, double>> intervals;
     std::vector<std::pair<ShapeId, double>> open;
@@ -206,7 +207,7 @@ double length_inside(const CrossingRows& rows, std::size_t row, double t_max) {
     return length;
 }
 
-/// What points are in, and how much of lines is in solids.
+/// Checks which solids contain points, and the lengths of lines inside of solids.
 void ask_insides(Bytes& bytes) {
     std::vector<AnyShapeInDouble> shapes = shapes_of<AnyShapeInDouble>(bytes);
     std::erase_if(shapes, [](const AnyShapeInDouble& any) {
@@ -251,7 +252,7 @@ void ask_insides(Bytes& bytes) {
         if (lengths.first[i] != lengths.first[i + 1]) length = lengths.length[lengths.first[i]];
         const double t = length_inside(rows, i, 0.0), unit = core::length(along);
         const double far = rows.first[i] != rows.first[i + 1] ? rows.t[rows.first[i + 1] - 1] : 0.0;
-        // Of t, which is rounded; what overflows is not compared.
+        // t is rounded. Lengths that overflow are not compared.
         if (std::isfinite(far * unit) && unit > 1e-100)
             hold(std::abs(length - t * unit) <= 1e-13 * far * unit + 1e-300, "lengths", i);
     }

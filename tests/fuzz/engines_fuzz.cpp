@@ -3,8 +3,9 @@
 
 #include <string>
 
-/// Small pictures of any scene. Where colours are the shapes' own, both engines draw the same; and
-/// whatever a scene has in it, each with any instruction set has the bits that it has with another.
+/// Renders small images of any scene. If shapes only show their colours, both engines must give the
+/// same image. For any scene, the vector engine must give the same bits with other instruction
+/// sets.
 using namespace raylane;
 using namespace raylane::fuzz;
 
@@ -16,7 +17,7 @@ core::Material any_material(Bytes& bytes, bool plain) {
     material.pattern.colors[0] =
         core::Color(static_cast<float>(look % 7), static_cast<float>(look % 5), 1.0F);
     material.visible = static_cast<core::Visible>(bytes.below(8) % 5 % 3);
-    if (plain) { // what is behind see-through surfaces is seen from a point that was rounded
+    if (plain) { // rays that go on behind transparent surfaces start at a rounded point
         material.ambient = 1.0F;
         material.diffuse = 0.0F;
         return material;
@@ -43,7 +44,7 @@ void add_lights(Bytes& bytes, core::SceneBuilder& builder) {
         light.edge_v = bytes.vector<float>();
         try {
             builder.add_light(light);
-        } catch (const core::InvalidValue&) { // one less
+        } catch (const core::InvalidValue&) { // one light less
         }
     }
 }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
-/// Pictures, for any bytes: as anybody's, and as a part that merge is given. A picture, or one
-/// complaint that names the file; anything else is a finding.
+/// Reads any bytes as an image, and as a part of an image for merge. The result must be an image,
+/// or one error that names the file. Anything else is a finding.
 using namespace raylane;
 
 namespace {
@@ -22,7 +22,7 @@ void read(std::string_view bytes, const Read& read_as) {
     }
 }
 
-/// Of few bytes a large picture may be made, rightly, which takes its time.
+/// A few bytes may rightly make a large image, which takes long.
 bool is_large(const scenes::Image& image) {
     return image.width > 4096 || image.height > 4096;
 }

@@ -9,8 +9,9 @@
 #include <string>
 #include <string_view>
 
-/// One reader, for any bytes: a scene or all frames, or one complaint that names the file. Anything
-/// else - another exception, what a sanitizer finds, memory, time - is a finding.
+/// Reads any bytes with one reader. The result must be a scene, or all frames, or one error that
+/// names the file. Anything else (another exception, a sanitizer's finding, memory, time) is a
+/// finding.
 using namespace raylane;
 using scenes::Format;
 
@@ -18,13 +19,13 @@ namespace {
 
 constexpr Format fuzzed = Format::RAYLANE_FUZZ_FORMAT;
 
-/// What a few bytes ask for much with, rightly, is not what is looked for here.
+/// Returns whether a few bytes rightly make a large scene, which is not of interest here.
 bool asks_for_much(std::string_view text) {
     return text.find("sphereflake") != std::string_view::npos ||
            text.find("lattice") != std::string_view::npos;
 }
 
-/// What kernels are given may be nothing that they cannot take.
+/// Renders the scene, as a reader must not give kernels data that they cannot handle.
 void draw(const core::Scene& scene) {
     core::Settings settings = scene.settings();
     settings.width = settings.height = 4;
@@ -44,7 +45,7 @@ void read(std::string_view text, Format format) {
     const std::string name = std::string("a.") + endings[static_cast<int>(format)];
     scenes::LoadOptions options;
     options.on_remark = [](const std::string&) {};
-    if (scenes::is_structure(format)) { // drawn in one way or another
+    if (scenes::is_structure(format)) { // in one of several styles
         constexpr int styles = 6;
         options.drawing.style = static_cast<scenes::Style>(text.size() % styles);
         options.drawing.ellipsoids = text.find("U_11") != std::string_view::npos ||
@@ -73,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (asks_for_much(text)) return 0;
     try {
         if constexpr (fuzzed == Format::built) {
-            std::string sealed(text); // or all that is found is the checksum
+            std::string sealed(text); // otherwise only checksums are found to be wrong
             scenes::seal(sealed);
             read(sealed, Format::built);
         } else {
@@ -81,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
     } catch (const scenes::BadInput& bad) {
         const std::string_view message = bad.what();
-        // These include other files.
+        // These formats include other files.
         constexpr bool may_be_elsewhere = fuzzed == Format::pov || fuzzed == Format::tachyon;
         const bool names_file = message.starts_with("a.") || may_be_elsewhere;
         if (!names_file || message.empty() || message.size() > 100'000) __builtin_trap();

@@ -1,10 +1,11 @@
 #!/bin/sh
-# The fuzzers, two at a time, with sanitizers: each reader by its format, "picture" for images, "calls",
-# "solids" and "engines" for the library's answers, "c" for its interface for C. Fails, with the input,
-# if one of them finds anything. Inputs that were of use are kept in build/fuzz/corpus, for the next time.
+# Runs the fuzzers with sanitizers, two at a time: each reader by its format, "picture" for images,
+# "calls", "solids" and "engines" for the library's answers, "c" for its interface for C. Fails and
+# keeps the input if a fuzzer finds anything. Useful inputs stay in build/fuzz/corpus for the next
+# run.
 #
 #   tests/fuzz/run.sh [SECONDS [FUZZER...]]    default: ten minutes each, all of them
-#   BUILD=build/asan tests/fuzz/run.sh 30      those of another build, which has RAYLANE_FUZZERS
+#   BUILD=build/asan tests/fuzz/run.sh 30      fuzzers of another build, which has RAYLANE_FUZZERS
 set -eu
 cd "$(dirname "$0")/../.."
 seconds=${1:-600}
@@ -21,7 +22,7 @@ for format in $formats; do targets="$targets raylane-fuzz-$format"; done
 # shellcheck disable=SC2086 # a list of words
 cmake --build "$build" --target $targets
 
-seeds() { # format, folder: what it is to begin with
+seeds() { # format, folder: copies the first inputs
     case $1 in
     json) cp scenes/*.json "$2" ;;
     pov) cp tests/scenes/pov/*.pov "$2" ;;

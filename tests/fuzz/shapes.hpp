@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-/// Shapes and rays of any bytes, which often touch each other.
+/// Shapes and rays from any bytes. They often touch each other.
 namespace raylane::fuzz {
 
 using tests::AnyShape, tests::AnyShapeInDouble;
 
-/// Of any numbers, made valid where a sign or an order is all that is wrong.
+/// Returns a shape of any numbers. Wrong signs and orders are corrected.
 template <class Shape>
 Shape shape_of(Bytes& bytes) {
     using Number = core::NumberOf<Shape>;
@@ -47,7 +47,7 @@ Any any_shape(Bytes& bytes) {
                                  });
 }
 
-/// The same with its first numbers, or any, changed.
+/// Returns the shape with three of its numbers changed.
 template <class Any>
 Any changed(Any any, Bytes& bytes, int times = 1) {
     const int first = bytes.below(4);
@@ -75,8 +75,8 @@ inline bool is_valid(const auto& any) {
     }
 }
 
-/// Some shapes, of which many have something in common with one before; or rows of them, which need
-/// a hierarchy.
+/// Returns some shapes. Many have something in common with an earlier one. Others form rows, which
+/// need a hierarchy.
 template <class Any>
 std::vector<Any> shapes_of(Bytes& bytes) {
     std::vector<Any> shapes;
@@ -104,7 +104,7 @@ std::vector<Any> shapes_of(Bytes& bytes) {
     return shapes;
 }
 
-/// Any point that a shape has numbers of: its centre, its corner.
+/// Returns a point from a shape's numbers, such as its centre or its corner.
 template <class Any>
 core::Vec3d point_of(const Any& any, int which) {
     return std::visit(
@@ -121,7 +121,7 @@ core::Vec3d point_of(const Any& any, int which) {
         any);
 }
 
-/// From anywhere, or from a shape, to anywhere, or to a shape.
+/// Returns a ray from anywhere or from a shape, to anywhere or to a shape.
 template <class Real, class Any>
 core::Ray<Real> ray_of(Bytes& bytes, const std::vector<Any>& shapes) {
     const int way = bytes.below(8);
@@ -137,7 +137,7 @@ core::Ray<Real> ray_of(Bytes& bytes, const std::vector<Any>& shapes) {
     return {origin, direction};
 }
 
-/// Of the numbers that rays in double have, and scenes.
+/// Returns whether a ray in double, and a scene, may have such numbers.
 inline bool is_usual(const core::Ray<double>& ray) {
     const double longest =
         std::max({std::abs(ray.direction.x), std::abs(ray.direction.y), std::abs(ray.direction.z)});

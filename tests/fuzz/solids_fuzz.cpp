@@ -3,14 +3,14 @@
 
 #include <utility>
 
-/// Solids of solids of any bytes: exact arithmetic says what is right.
+/// Solids of solids from any bytes. Exact arithmetic decides which answers are right.
 using namespace raylane;
 using namespace raylane::fuzz;
 using oracle::Expression, oracle::Op;
 
 namespace {
 
-/// Shapes that parts may be.
+/// Returns a shape that may be a part.
 AnyShapeInDouble any_part(Bytes& bytes) {
     switch (bytes.below(8)) {
     case 0:
@@ -24,7 +24,7 @@ AnyShapeInDouble any_part(Bytes& bytes) {
     case 4:
         return fuzz::shape_of<core::EllipsoidOf<double>>(bytes);
     case 5: {
-        // One along the axes, of which mostly a face is another's.
+        // A box along the axes. Most of these share a face's plane with another box.
         const core::Vec3d corner = bytes.vector<double>(), size = bytes.vector<double>();
         return core::BoxOf<double>{corner, {size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}};
     }
@@ -35,7 +35,8 @@ AnyShapeInDouble any_part(Bytes& bytes) {
     }
 }
 
-/// Parts with something in common are made by going on from those before.
+/// Returns an expression. Many of its parts are changed from earlier ones, so that they have
+/// something in common.
 Expression expression_of(Bytes& bytes, int depth, std::vector<AnyShapeInDouble>& before) {
     const int way = depth == 0 ? 4 + bytes.below(3) : bytes.below(8);
     constexpr Op ops[] = {Op::unite, Op::intersect, Op::subtract, Op::clip};
