@@ -2,10 +2,10 @@
 # prove.sh SOURCE_DIR SCRIPT: proves the goals of a Gappa script about the code that it mirrors.
 #
 # In a script's comments,
-#   #: FILE      says of which file the code that follows is;
-#   #| CODE      must be in there, white space aside. Where it says @name@, the file has a number:
-#                it stands for @name@ in the script.
-#   #= CLAIM     begins a goal and its hints. All goals share what is before the first of them.
+#   #: FILE      names the file of the code that follows;
+#   #| CODE      must be in that file, white space aside. At @name@ the file has a number, which
+#                replaces @name@ in the script.
+#   #= CLAIM     begins a goal and its hints. All goals share the text before the first of them.
 set -eu
 sources=$1 script=$2
 if ! command -v gappa >/dev/null; then
@@ -34,7 +34,7 @@ function open_source(name,    line, all) {
     file = name
     code = bare(all)
 }
-# Where `pieces` and the numbers between them follow each other, takes those numbers.
+# Takes the numbers between `pieces`, wherever these follow each other.
 function find(pattern,    pieces, count, i, rest, found, taken, values) {
     count = split(pattern, pieces, "@")
     rest = code
