@@ -1,9 +1,9 @@
-"""A real notebook in a headless browser: a scene is shown as a picture, and sliders turn it. By .ci/run.
+"""Checks a real notebook in a headless browser: a scene is shown as an image, and sliders turn it. By .ci/run.
 
     PYTHONPATH=build/release/python python3 tests/python/notebook_check.py [PICTURE]
 
-Wants Debian's jupyter-notebook, jupyter-nbextension-jupyter-js-widgets, python3-ipykernel, chromium-driver and
-python3-selenium. PICTURE: what the browser shows at the end.
+Needs Debian's jupyter-notebook, jupyter-nbextension-jupyter-js-widgets, python3-ipykernel, chromium-driver and
+python3-selenium. PICTURE: a screenshot of the browser at the end.
 """
 
 import base64
@@ -103,7 +103,7 @@ def main(picture=None):
         notebook(pathlib.Path(folder) / "a.ipynb")
         port = free_port()
         url = f"http://127.0.0.1:{port}"
-        # The kernel's own folder is another one than this, from which a relative PYTHONPATH may be.
+        # A relative PYTHONPATH starts from this folder, but the kernel runs in another one.
         module = str(pathlib.Path(raylane.__file__).resolve().parents[1])
         environment = {**os.environ, "PYTHONPATH": module, "HOME": folder, "JUPYTER_RUNTIME_DIR": folder + "/runtime", "IPYTHONDIR": folder + "/ipython"}
         command = ["/usr/bin/jupyter-notebook", "--no-browser", "--allow-root", f"--port={port}", "--NotebookApp.token=", "--NotebookApp.password=", f"--notebook-dir={folder}"]

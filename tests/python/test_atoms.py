@@ -1,4 +1,4 @@
-"""Atoms of other packages, drawn as files of them are."""
+"""Atoms of other packages are rendered like the same atoms in files."""
 
 import importlib
 import sys
@@ -9,7 +9,7 @@ import raylane
 
 
 def colors_and_places(scene):
-    """What is seen of a scene, to compare: its bounds, its shapes' colours and its camera."""
+    """Returns the visible properties of a scene, to compare: its bounds, its shapes' colours and its camera."""
     colors = [scene.material(int(m)).color for m in scene.material_of(np.arange(scene.shape_count))]
     return scene.bounds, colors, scene.camera
 
@@ -84,7 +84,7 @@ def test_ase(monkeypatch):
     symbols, places = salt.get_chemical_symbols(), salt.get_positions()
     assert raylane.from_ase(salt).shape_count == raylane.from_atoms(symbols, places).shape_count + CELL
     slab = ase.Atoms(*WATER, cell=[[6, 0, 0], [0, 6, 0], [0, 0, 0]])
-    assert raylane.from_ase(slab).shape_count == scene.shape_count  # of two vectors no cell is drawn
+    assert raylane.from_ase(slab).shape_count == scene.shape_count  # a cell of two vectors is not drawn
     assert [s.shape_count for s in raylane.frames([atoms, atoms])] == [scene.shape_count] * 2
 
     importlib.import_module("raylane.ase_viewer")
@@ -96,7 +96,7 @@ def test_ase(monkeypatch):
     ase.visualize.external.viewers.pop("raylane")
     for name in ("raylane.ase_viewer", "raylane"):
         monkeypatch.delitem(sys.modules, name)
-    importlib.import_module("raylane")  # as one who imports it after ASE
+    importlib.import_module("raylane")  # as if it were imported after ASE
     assert "raylane" in ase.visualize.external.viewers
 
 

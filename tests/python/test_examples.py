@@ -1,4 +1,4 @@
-"""Examples do what they say: each holds itself to what is known of its subject."""
+"""Examples run, and each checks its results against known ones."""
 
 import os
 import pathlib
@@ -16,7 +16,7 @@ def test_example(example, tmp_path):
     arguments = [] if example.stem == "view_factors" else ["a.png"]
     done = subprocess.run([sys.executable, example, *arguments], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0 and done.stdout, done.stderr
-    folder = os.environ.get("RAYLANE_TEST_PICTURES")  # to be looked at
+    folder = os.environ.get("RAYLANE_TEST_PICTURES")  # to look at the images
     for picture in tmp_path.glob("*.png"):
         assert picture.stat().st_size > 3000
         if folder:

@@ -1,4 +1,4 @@
-"""Pictures."""
+"""Images."""
 
 import os
 import shutil
@@ -48,7 +48,7 @@ def test_options(birthday):
 
 
 def png_pixels(data):
-    """Of a PNG of 8 bits, not interlaced, as this test needs it."""
+    """Returns the pixels of a PNG of 8 bits that is not interlaced."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, chunks = 8, {}
     while at < len(data):
@@ -99,7 +99,7 @@ def test_files(birthday, tmp_path):
 
 
 def test_what_cannot_be_drawn_says_where(ball, tmp_path):
-    """Settings go by their keywords, whoever refuses them."""
+    """Errors name settings by their keywords, whichever function refuses them."""
     for options, text in (
         ({"height": 0}, "height: must be from 1 to 65535, got 0"),
         ({"height": "0"}, "height: must be a whole number, got '0'"),
@@ -196,7 +196,7 @@ def test_ctrl_c_stops_a_call(scenes, work):
 
 
 def test_show(birthday, tmp_path, monkeypatch):
-    """Without a notebook, a file goes to what opens files."""
+    """Without a notebook, show() opens a file with the system's viewer."""
     opened = []
     monkeypatch.setattr(shutil, "which", lambda name: "/bin/" + name)
     monkeypatch.setattr(subprocess, "run", lambda command, **_: opened.append(command))
@@ -223,7 +223,7 @@ def test_matplotlib(birthday):
 
 
 def test_orbit(birthday):
-    """A camera goes around; the widget draws as sliders move."""
+    """The camera orbits, and the widget renders as sliders move."""
     from raylane._orbit import turned
 
     camera = raylane.Camera(position=(0.0, 0.0, 4.0))

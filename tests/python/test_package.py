@@ -40,7 +40,7 @@ def test_types(tmp_path):
 
 
 def test_stub(tmp_path):
-    """What the stub says of the compiled module is what that has."""
+    """The stub matches the compiled module."""
     pytest.importorskip("mypy")
     allowed = tmp_path / "allowed"
     classes = "Builder|Scene|Solid|Tracer"
@@ -49,7 +49,7 @@ def test_stub(tmp_path):
 
 
 def test_wheel(tmp_path):
-    """A wheel of a build that is there: installed in a folder of its own, it draws."""
+    """A wheel of an existing build renders after it is installed in a separate folder."""
     pytest.importorskip("pip")
     pytest.importorskip("wheel")
     if not os.environ.get("RAYLANE_BUILD"):

@@ -56,7 +56,7 @@ def test_what_is_set_is_there():
     fog, camera, background, settings = builder.fog, builder.camera, builder.background, builder.settings
     scene = builder.build()
     assert list(ids) == [0]
-    glass.index = scene.material(0).index  # that of the formula
+    glass.index = scene.material(0).index  # the formula's
     assert scene.materials == materials
     assert scene.lights == lights
     assert (scene.fog, scene.camera, scene.background, scene.settings) == (fog, camera, background, settings)
@@ -65,7 +65,7 @@ def test_what_is_set_is_there():
 
 
 def test_arrays_of_all_kinds(random):
-    """Whatever shapes, strides and types of arrays: the same scene as one by one."""
+    """Arrays of any shape, stride and type give the same scene as shapes that are added one by one."""
     n = 20
     axes = random.normal(size=(n, 3, 3))
     points, vectors, radii = random.normal(size=(n, 3)), random.normal(size=(n, 3)), random.uniform(0.1, 1, n)
@@ -110,7 +110,7 @@ def test_arrays_of_all_kinds(random):
 
 
 def test_doubles_count_as_they_are():
-    """A sphere of doubles is not that of the floats next to them."""
+    """A sphere in double is not rounded to floats."""
     for radius, found in ((np.float64(1.0 + 1e-12), True), (np.float64(1.0 - 1e-12), False)):
         builder = SceneBuilder()
         builder.add_material()
@@ -190,7 +190,7 @@ def test_what_is_not_valid_says_where():
         (lambda: builder.add_cylinders([0, 0, 0], [0, 0, 1], 1, material=material, caps="no"), "caps"),
         (lambda: builder.add_cones([0, 0, 0], [0, 0, 1], 1, material=material, caps=[]), "caps"),
         (lambda: builder.add_material(color=raylane.Pattern(kind=None)), "color/kind"),
-        (lambda: Solid.sphere((0, 0, 0), 1).of(2**32 - 1), "material"),  # which stands for none
+        (lambda: Solid.sphere((0, 0, 0), 1).of(2**32 - 1), "material"),  # which means no material
         (lambda: Solid.sphere((0, 0, 0), 1, material=2**32 - 1), "material"),
     ):
         with pytest.raises(ValueError) as error:
@@ -211,7 +211,7 @@ def test_what_is_not_valid_says_where():
 
 
 def test_masked_values_are_refused():
-    """They are no values, and NumPy's C interface hands them over as if they were."""
+    """Masked entries have no values, but NumPy's C interface passes them on as if they had."""
     from numpy import ma
 
     def masked(shape, dtype=np.float64):
@@ -233,7 +233,7 @@ def test_masked_values_are_refused():
     refused("radii", builder.add_spheres, np.ones((2, 3)), [1, ma.masked], material=red)
     refused("position", builder.add_light, position=masked(3))
     refused("point", raylane.Solid.half_space, masked(3), (0, 1, 0), material=red)
-    # With nothing masked, they are arrays like any other, as netCDF4 gives them.
+    # Masked arrays without masked entries, which netCDF4 returns, are accepted like other arrays.
     builder.add_spheres(ma.array(np.arange(6.0).reshape(2, 3), mask=False), ma.ones(2), material=red)
     builder.add_light(position=(0, 0, 9))
     scene = builder.build()
@@ -291,7 +291,7 @@ def test_what_is_set_and_not_valid_says_where_and_the_builder_keeps_what_it_has(
     builder.wavelengths = np.array([500, 600])
     scene = builder.build()
     assert (scene.shape_count, scene.settings.width, len(scene.lights)) == (2, 40, 1)
-    # What only the whole shows takes it.
+    # An error that only the whole scene shows empties the builder.
     builder.add_spheres([0, 0, 0], 1, material=builder.add_material())
     builder.add_light(position=(0, 0, 1))
     with pytest.raises(InvalidValue, match="lights/0/position"):
@@ -349,7 +349,7 @@ def test_scenes_too_large_for_a_camera():
         with pytest.raises(InvalidValue, match="reaches too far for a camera that sees all of it") as error:
             scene.camera_on_all()
         assert error.value.field == "scene"
-        # One that is given is not warned of.
+        # A given camera causes no warning.
         camera = raylane.Camera(position=(0, 0, 9e29), field_of_view=60)
         builder.add_spheres([0, 0, 0], radius, material=builder.add_material())
         builder.camera = camera
@@ -424,9 +424,9 @@ def test_saved_and_pickled(scenes, tmp_path, name):
 
 
 def test_light_goes_with_the_camera(tmp_path):
-    """Whether a scene of atoms has been saved, or pickled, or is looked at as it was read."""
+    """This holds in a scene of atoms, whether it was read, saved or pickled."""
     scene = raylane.from_atoms(["O", "H", "H"], [[0, 0, 0.1], [0, 0.77, -0.46], [0, -0.77, -0.46]])
-    path = tmp_path / "a.JSON"  # in any case
+    path = tmp_path / "a.JSON"  # in upper or lower case
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         scene.save(path)
@@ -514,7 +514,7 @@ def test_one_row_is_for_all():
 
 
 def test_one_builder_of_several_threads():
-    """Not what it is for, but it is no crash."""
+    """A builder is not meant for several threads, but must not crash."""
     builder = SceneBuilder()
     material = builder.add_material()
     places = np.random.default_rng(1).normal(size=(20_000, 3))

@@ -1,4 +1,4 @@
-"""Rays: what they are asked as does not change what is answered."""
+"""Rays: the form of the input does not change the answers."""
 
 import copy
 import pickle
@@ -68,7 +68,7 @@ def test_any_order_of_memory(crowd, dtype, order, threads):
 
 
 def test_more_rays_than_are_asked_at_once(crowd):
-    """Rows of several parts are put together, and hits of several parts lie where they belong."""
+    """Rows of several parts are joined, and hits of several parts are at their places."""
     n = (1 << 18) + 1000
     origins, directions = rays(n)
     tracer = Tracer(crowd)
@@ -220,7 +220,7 @@ def test_what_cannot_be_asked_says_why(ball):
 
 
 def test_limits_at_hits_in_either_order_of_bytes(crowd):
-    """Floats that are swapped are floats: a hit's own t, rounded, is a limit that it is within."""
+    """Floats with swapped bytes are floats: each hit is within a limit at its own rounded t."""
     tracer = Tracer(crowd)
     origins, directions = rays(2000)
     hits = tracer.intersect(origins, directions)
@@ -231,7 +231,8 @@ def test_limits_at_hits_in_either_order_of_bytes(crowd):
     again = tracer.intersect(swapped[0], swapped[1], t_max=swapped[2])
     assert np.array_equal(again.shape, shape) and np.array_equal(again.t, t)
     assert tracer.occluded(swapped[0], swapped[1], t_max=swapped[2]).all()
-    # By one array of doubles they are doubles, and so is a limit: rounded, it is before half of them.
+    # With one array of doubles, all numbers count as doubles. A limit that was rounded is then
+    # before about half of the hits.
     assert 0.2 < tracer.intersect(o.astype(">f8"), d, t_max=t).hit.mean() < 0.8
 
 
@@ -257,7 +258,7 @@ def test_hits_may_be_copied(ball):
 
 
 def test_whatever_the_rounding_of_the_process(ball):
-    """A library that was built with -ffast-math may have turned numbers near zero off, for all."""
+    """For example, a library that was built with -ffast-math may have disabled denormal numbers for the process."""
     import ctypes
     import ctypes.util
 
@@ -283,7 +284,7 @@ def test_precisions(crowd):
 
 
 def test_the_interpreter_goes_on_meanwhile(crowd):
-    """Its lock is free while rays are asked; and several threads may ask one tracer."""
+    """Calls release the interpreter's lock, and several threads may use one tracer."""
     tracer = Tracer(crowd, 1)
     origins, directions = rays(100_000)
     expected = tracer.intersect(origins, directions).t
@@ -294,7 +295,7 @@ def test_the_interpreter_goes_on_meanwhile(crowd):
         has_run.set()
 
     interval = sys.getswitchinterval()
-    sys.setswitchinterval(1e6)  # a thread waits until another one lets go of the lock
+    sys.setswitchinterval(1e6)  # a thread waits until another one releases the lock
     try:
         other = threading.Thread(target=run)
         other.start()

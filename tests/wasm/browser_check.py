@@ -1,8 +1,8 @@
-"""The page in a headless browser: a scene is shown and goes around, with a native raylane's bytes. By tests/wasm.sh.
+"""Checks the page in a headless browser: a scene is shown and turns, with a native raylane's bytes. By tests/wasm.sh.
 
     python3 tests/wasm/browser_check.py PAGE RAYLANE [FOLDER]
 
-Wants Debian's chromium-driver and python3-selenium. FOLDER: where pictures of the page are left.
+Needs Debian's chromium-driver and python3-selenium. FOLDER: keeps screenshots of the page.
 """
 
 import base64
@@ -28,7 +28,7 @@ SCENES = pathlib.Path(__file__).parents[2] / "scenes"
 class Page:
     def __init__(self, driver, url):
         self.driver = driver
-        driver.get("about:blank")  # a place behind # alone would not be gone to
+        driver.get("about:blank")  # a change after # alone would not load the page
         driver.get(url)
         self.done()
 
@@ -59,13 +59,13 @@ class Page:
         return self.driver.execute_script("return shown")
 
     def frames(self, seconds):
-        """Frames per second, as the page says after so long."""
+        """Returns the frames per second that the page reports after some seconds."""
         time.sleep(seconds)
         return float(self.text("frames"))
 
 
 def native(raylane, scene, shown, folder):
-    """A native raylane's bytes of what the page shows."""
+    """Returns a native raylane's bytes of the image on the page."""
     text = (SCENES / f"{scene}.json").read_text()
     camera = shown["camera"]
     numbers = {key: camera[key] for key in ("from", "at", "up", "field_of_view")}
@@ -97,7 +97,7 @@ def look(driver, url, raylane, folder, pictures):
     wait("a change", lambda: page.state() != "done" or page.shown() != first, 10)
     dragged = check(page, raylane, "sphere", folder, "dragged")
     a, b = first["camera"], dragged["camera"]
-    # A width of the picture is half a turn; to the right, what is seen goes along.
+    # A drag over the image's height is half a turn. The scene follows the pointer.
     sizes = driver.execute_script("return [canvas.clientWidth, canvas.clientHeight]")
     expected = driver.execute_script(
         "return turned(scene.camera, -90 * 180 / arguments[0][1], 40 * 180 / arguments[0][1])", sizes

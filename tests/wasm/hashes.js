@@ -1,6 +1,6 @@
 // usage: node hashes.js FOLDER RAYLANE
-// Holds what is built for WebAssembly, in FOLDER, to the bits of a native raylane: all shipped scenes by
-// each set of instructions and by what the page has, rays, and numbers as files have them.
+// Compares the WebAssembly build in FOLDER with the bits of a native raylane: all shipped scenes,
+// on each instruction set and as the page renders them; rays; and decimal numbers.
 "use strict";
 const { execFileSync } = require("child_process");
 const { createHash } = require("crypto");
@@ -29,7 +29,8 @@ function native(command, ...rest) {
     execFileSync(raylane, [command, "--quiet", ...rest], { stdio: ["ignore", "ignore", "inherit"] });
 }
 
-// a * b + c rounded once to so many bits, of exponents from `least` on: by whole numbers.
+// Returns a * b + c rounded once to `bits` bits, with exponents from `least` on, by integer
+// arithmetic.
 function fused(a, b, c, bits, least) {
     const view = new DataView(new ArrayBuffer(8));
     const parts = (x) => { // x = m * 2 ** e
@@ -52,12 +53,13 @@ function fused(a, b, c, bits, least) {
         sum >>= BigInt(dropped);
         if (rest > half || (rest === half && (sum & 1n) === 1n)) sum += 1n;
     }
-    // Exactly, but for what is too large: in two steps, as one of them may be no number by itself.
+    // Exact unless too large. In two steps, as one factor could overflow or underflow by itself.
     const exponent = low + Math.max(dropped, 0), first = Math.trunc(exponent / 2);
     return sign * Number(sum) * 2 ** first * 2 ** (exponent - first);
 }
 
-// A native picture: rows of floats, from the top down, as a PFM has them from the bottom up; or bytes.
+// Returns a native image, from the top down: rows of floats, which a PFM has from the bottom up, or
+// bytes.
 function native_film(scene, options, width, height) {
     const file = path.join(temporary, "picture.pfm");
     native("render", scene, "--size", `${width}x${height}`, ...options, "-o", file);
@@ -71,7 +73,8 @@ function native_bytes(scene, options, width, height) {
     return fs.readFileSync(file).subarray(-3 * width * height);
 }
 
-// The same rays for everybody: random ones through where the camera looks to, some of them along axes.
+// Returns random rays through the camera's target, the same on each run. Some have a 0 in their
+// direction.
 function make_rays(camera, count) {
     let state = 1;
     const random = () => {
@@ -109,7 +112,7 @@ class Lanes {
         if (place === 0) throw new Error(this.module.UTF8ToString(this.module._lanes_error()));
         return place;
     }
-    // Calls work with the place of some bytes.
+    // Calls work() with the address of a copy of some bytes.
     with(bytes, work) {
         const place = this.module._malloc(bytes.length);
         this.module.HEAPU8.set(bytes, place);
@@ -145,7 +148,7 @@ function compare_scene(scene, lanes, engine) {
     for (const [isa, isa_name] of lanes.isas.entries())
         same(`${name}, ${isa_name}`, hash(lanes.draw(isa, width, height, grid)), expected);
 
-    // As the page draws: in bands, and into bytes.
+    // As the page renders: in bands, and to bytes.
     const known = engine.load(text, name);
     const draw = (picture, rows) => {
         const films = [], bytes = [];
@@ -170,7 +173,7 @@ function compare_scene(scene, lanes, engine) {
     console.log(`${name.padEnd(18)} ${expected}  rays ${hash(hits)} (${seen} shapes)  ${((performance.now() - began) / 1000).toFixed(1)} s`);
 }
 
-// Decimal numbers: JavaScript's own are the nearest, and its texts the shortest.
+// Compares decimal numbers with JavaScript's, which are the nearest numbers and the shortest texts.
 function compare_numbers(lanes) {
     const words = new DataView(new ArrayBuffer(8));
     let state = 7;
@@ -201,14 +204,14 @@ function compare_numbers(lanes) {
         const float = words.getFloat32(0);
         if (!Number.isFinite(float)) continue;
         same(`${float} as text`, read_float(texts(lanes.module._lanes_float_text(float))), float);
-        // Halfway to the next one: to even; and just beyond it: up.
+        // Halfway to the next float rounds to even, and just beyond halfway rounds up.
         const bits = words.getUint32(0) & 0x7FFFFFFF;
         words.setUint32(0, bits);
         const low = words.getFloat32(0);
         words.setUint32(0, bits + 1);
         const high = words.getFloat32(0);
         if (!Number.isFinite(high) || low < 1e-20 || low > 1e20) continue;
-        const middle = (low + high) / 2; // exact, and so are its digits, 24 bits behind 2^-67 of them
+        const middle = (low + high) / 2; // exact, and so are its digits: its last bit is at least 2^-91
         const exact = middle.toPrecision(100);
         const beyond = exact.includes("e") ? exact.replace("e", "1e") : `${exact}1`;
         same(`${exact} halfway`, read_float(exact), bits % 2 === 0 ? low : high);
@@ -219,7 +222,7 @@ function compare_numbers(lanes) {
         same(`"${text}"`, Object.is(read_float(text), number), true);
 }
 
-// Sums that are all but halfway between two numbers, denormal ones, and what is no number.
+// Compares sums almost halfway between two numbers, denormal numbers, infinities and NaN.
 function compare_fused(lanes) {
     const { _lanes_fma: fma, _lanes_fmaf: fmaf } = lanes.module;
     let state = 7;
@@ -234,7 +237,7 @@ function compare_fused(lanes) {
             const one = 2 ** (bits - 1);
             const a = round((one + whole(bits - 1)) / one * (random() < 0.5 ? -1 : 1));
             const b = i % 2 === 0 ? round((one + whole(bits - 1)) / one) : round(1 + (1 - Math.floor(random() * 3)) / one);
-            // Half of its last place is a * b, and a little more or less.
+            // a * b is half of the last place of c, or a little more or less.
             const c = i % 4 < 2 ? round((one + whole(bits - 1)) * 2) : round((one + whole(bits - 1)) / one * 2 ** (bits - Math.floor(random() * 4)));
             const factor = i % 4 === 3 ? 2 ** Math.max(least + bits - 2, -scale - bits) : 1;
             const [x, z] = [round(a * factor), round(c * factor)];

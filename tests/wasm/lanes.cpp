@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
-/// For hashes.js: pictures and rays by an instruction set of its choice, and numbers as files have
-/// them. What fails answers null, and lanes_error() says why.
+/// Interface for hashes.js: images and rays by a chosen instruction set, and decimal numbers. A
+/// function that fails returns null, and lanes_error() returns the reason.
 namespace {
 
 using namespace raylane;
@@ -56,7 +56,7 @@ EMSCRIPTEN_KEEPALIVE const char* lanes_error() {
     return error.c_str();
 }
 
-/// Names of the instruction sets, one a line.
+/// Returns the names of the instruction sets, one a line.
 EMSCRIPTEN_KEEPALIVE const char* lanes_isas() {
     bytes.clear();
     for (const simd::Isa isa : available())
@@ -79,7 +79,7 @@ EMSCRIPTEN_KEEPALIVE const char* lanes_load(const char* text, std::size_t length
     });
 }
 
-/// 3 floats for each pixel, from the top down.
+/// Returns 3 floats for each pixel, from the top down.
 EMSCRIPTEN_KEEPALIVE const float* lanes_draw(int isa, int width, int height, int grid) {
     return attempt([&] {
         core::Settings settings = scene->settings();
@@ -97,8 +97,8 @@ EMSCRIPTEN_KEEPALIVE const float* lanes_draw(int isa, int width, int height, int
     });
 }
 
-/// What `count` rays hit, 6 floats each, origins and directions: 22 bytes each, as `raylane trace`
-/// writes them.
+/// Returns the hits of `count` rays of 6 floats each (origin and direction): 22 bytes a ray, as
+/// `raylane trace` writes them.
 EMSCRIPTEN_KEEPALIVE const char* lanes_trace(int isa, const float* rays, std::size_t count) {
     return attempt([&] {
         std::vector<float> columns[6], t(count), normal[3];
@@ -136,7 +136,7 @@ EMSCRIPTEN_KEEPALIVE const char* lanes_trace(int isa, const float* rays, std::si
     });
 }
 
-/// A number of a file, as a float; NaN if it is none.
+/// Returns a number in a file's text as a float, or NaN if it is not a number.
 EMSCRIPTEN_KEEPALIVE float lanes_float(const char* text) {
     return scenes::to_float(text).value_or(std::nanf(""));
 }
@@ -145,7 +145,7 @@ EMSCRIPTEN_KEEPALIVE double lanes_double(const char* text) {
     std::from_chars(text, text + std::strlen(text), number);
     return number;
 }
-/// As the library writes them.
+/// Returns a number as the library writes it.
 EMSCRIPTEN_KEEPALIVE const char* lanes_float_text(float number) {
     bytes = scenes::to_text(number);
     return bytes.c_str();
