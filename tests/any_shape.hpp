@@ -6,14 +6,14 @@
 #include <type_traits>
 #include <vector>
 
-/// Questions that tests ask of shapes of whichever kind.
+/// Functions for shapes of any kind.
 namespace raylane::tests {
 
 inline core::Kind kind_of(const AnyShape& any) {
     return std::visit([]<class Shape>(const Shape&) { return core::kind_of<Shape>; }, any);
 }
 
-/// True if it is Solid, Flat or Curved.
+/// Returns whether the shape is Solid, Flat or Curved.
 template <class Sort>
 bool is_a(const AnyShape& any) {
     return std::visit(
@@ -41,7 +41,7 @@ using tests::AnyShape, tests::AnyShapeInDouble;
 template <class Any>
 concept Variant = std::same_as<Any, AnyShape> || std::same_as<Any, AnyShapeInDouble>;
 
-// Templates, so that no shape whose own file has none is converted.
+// Templates, so that a shape whose file lacks the function is not converted to a variant.
 template <Variant Any>
 std::vector<Hit> crossings(const Any& any, const core::Ray<double>& ray) {
     return std::visit([&](const auto& shape) { return crossings(shape, ray); }, any);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-/// What bounds of numbers, high + low within an error, are held to: exact arithmetic.
+/// Checks bounds of numbers (high + low within an error) with exact arithmetic.
 namespace raylane::tests {
 
 using core::Dyadic;
@@ -14,7 +14,7 @@ struct BoundedNumber {
     double high, low, error;
 
     Dyadic value() const { return Dyadic(high) + low; }
-    /// The least that it may be, or the greatest.
+    /// Returns the lower bound or (`greatest`) the upper bound.
     Dyadic end(bool greatest) const { return value() + (greatest ? error : -error); }
 };
 
@@ -26,7 +26,7 @@ inline bool is_within(const Dyadic& difference, const Dyadic& most) {
     return (most - difference).sign() >= 0 && (most + difference).sign() >= 0;
 }
 
-/// True if the result's bounds hold for operands that are as true as these say; what has none
+/// Returns whether the result's bounds hold for these exact operands. A result without bounds
 /// holds.
 inline bool bounds_hold(Operation operation, const Dyadic& a, const Dyadic& b,
                         const BoundedNumber& result) {
@@ -48,7 +48,7 @@ inline bool bounds_hold(Operation operation, const Dyadic& a, const Dyadic& b,
     return false;
 }
 
-/// An operand of any kind: of few digits or many, 0 with an error or none.
+/// Returns an operand of few digits or many, or 0, with an error or without.
 inline BoundedNumber any_bounded(ray_sets::Random& random, bool wide) {
     const double sign = random.integer(0, 1) == 0 ? 1.0 : -1.0;
     BoundedNumber number{};
@@ -68,7 +68,7 @@ inline BoundedNumber any_bounded(ray_sets::Random& random, bool wide) {
     return number;
 }
 
-/// Of which there is a root, however true it is.
+/// Changes a number so that it has a root anywhere within its bounds.
 inline BoundedNumber with_root(BoundedNumber a) {
     if (a.high < 0.0) a.high = -a.high, a.low = -a.low;
     return a.end(false).sign() < 0 ? BoundedNumber{a.high, a.low, 0.0} : a;

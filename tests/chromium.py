@@ -1,4 +1,4 @@
-"""Debian's Chromium, headless, for checks of pages: wants chromium-driver and python3-selenium."""
+"""Debian's headless Chromium, for checks of pages. Needs chromium-driver and python3-selenium."""
 
 import time
 
@@ -7,7 +7,7 @@ from selenium.webdriver.chrome.service import Service
 
 
 def browser(folder, *arguments):
-    """One whose state is left in a folder, and whose console is kept."""
+    """Returns a browser that keeps its state in a folder, and its console's messages."""
     options = webdriver.ChromeOptions()
     options.binary_location = "/usr/bin/chromium"
     for each in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", f"--user-data-dir={folder}/browser", *arguments):
@@ -17,7 +17,7 @@ def browser(folder, *arguments):
 
 
 def wait(what, found, seconds=90):
-    """Until found() answers something true, which is answered."""
+    """Waits until found() returns a true value, and returns that."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         value = found()

@@ -1,11 +1,12 @@
 #!/bin/sh
-# Holds the sources to every compiler that is here and from the floor on, as C++20 and as C++23: no errors
-# and no warnings. Nothing is made of them. Half an hour of one core for each, an hour with the tests.
+# Checks the sources with every installed compiler from the oldest supported version on, as C++20
+# and as C++23: no errors and no warnings. Makes no objects. Takes half an hour of one core for
+# each, an hour with the tests.
 #
-#   tests/compilers.sh                        all of them
-#   tests/compilers.sh clang++-19/23 ...      these, each with its standard
-#   FILES='scenes/*' tests/compilers.sh       of these sources alone
-#   TESTS=ON tests/compilers.sh               of tests, too
+#   tests/compilers.sh                        all compilers
+#   tests/compilers.sh clang++-19/23 ...      these compilers, each with its standard
+#   FILES='scenes/*' tests/compilers.sh       these sources only
+#   TESTS=ON tests/compilers.sh               tests, too
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -23,7 +24,7 @@ look() { # compiler, standard
     cmake --fresh --preset release -B "$folder" -DCMAKE_CXX_COMPILER="$1" -DCMAKE_CXX_STANDARD="$2" \
         -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DRAYLANE_UNITY=OFF -DRAYLANE_BENCHMARKS=OFF -DRAYLANE_TESTS="${TESTS-OFF}" \
         >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log"; return 1; }
-    # As it would be compiled, but for what comes of it.
+    # The compiler's command without its output.
     python3 - "$folder/compile_commands.json" "$PWD/${FILES-*}" <<'PY' |
 import fnmatch, json, re, sys
 for each in json.load(open(sys.argv[1])):

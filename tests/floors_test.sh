@@ -1,9 +1,9 @@
 #!/bin/sh
 # usage: floors_test.sh SOURCE_DIRECTORY
-# Holds #includes to the floors and arrows of ARCHITECTURE.md.
+# Checks that #includes follow the floors and arrows of ARCHITECTURE.md.
 cd "$1" || exit 1
 failed=0
-forbid() { # folder, those that it must not include from, as grep -E has them
+forbid() { # folder, folders that it must not include from, as an expression of grep -E
     if grep -rnE "^#include \"($2)/" "$1" --include='*.hpp' --include='*.cpp'; then
         echo "$1 must not include from $2"
         failed=1
@@ -26,7 +26,8 @@ for folder in json nff export image; do
     forbid "scenes/$folder" 'simd|scenes/(library|tool)'
 done
 
-# Whose last bits depend on the C library, and of one on the processor: core/numbers has them with the same.
+# Functions whose last bits depend on the C library, and with one library on the processor. Those in
+# core/numbers have the same bits everywhere.
 if grep -rnE 'std::(a?(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p)?|pow|cbrt|hypot|[lt]gamma|erfc?)\(' \
     core simd scenes --include='*.hpp' --include='*.cpp' --exclude-dir=examples --exclude='more_functions.cpp'; then
     echo "what core/numbers/elementary.hpp or more_functions.hpp has is not to be asked of the C library"

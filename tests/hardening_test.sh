@@ -1,7 +1,7 @@
 #!/bin/sh
-# Looks whether a binary has what hardening.cmake asks for: tests/hardening_test.sh FILE...
-# Position-independent, relocations read-only from the start, no stack that can be executed, no memory
-# that can be written and executed, stack protectors, and calls of checked functions.
+# Checks that binaries are hardened as hardening.cmake requests: tests/hardening_test.sh FILE...
+# They must be position-independent, with read-only relocations from the start, no executable stack,
+# no memory that can be both written and executed, stack protectors, and calls of checked functions.
 set -eu
 failed=0
 LC_ALL=C
@@ -21,10 +21,10 @@ for file in "$@"; do
     echo "$segments" | grep -E '^ *GNU_STACK' | grep -qv 'E' || lacks "$file" "has a stack that can be executed"
     ! echo "$segments" | grep -qE '^ *LOAD .* RWE ' || lacks "$file" "has memory to be written and executed"
     paths='TEXTREL|RPATH|RUNPATH'
-    case $file in *-mpi.so) paths=TEXTREL ;; esac # MPI may be anywhere, and says where
+    case $file in *-mpi.so) paths=TEXTREL ;; esac # MPI may be anywhere, so that its module has a path
     ! echo "$dynamic" | grep -qE "$paths" || lacks "$file" "has a path of its own, or relocations of code"
     echo "$symbols" | grep -q '__stack_chk_fail' || lacks "$file" "has no stack protectors"
-    case $file in *-window.so | *-mpi.so) continue ;; esac # have no buffers
+    case $file in *-window.so | *-mpi.so) continue ;; esac # these have no buffers
     echo "$symbols" | grep -qE ' __[a-z]+_chk(@|$)' || lacks "$file" "calls no checked functions"
 done
 exit $failed

@@ -1,4 +1,4 @@
-# For scripts to read: have PACKAGES... installs those of Debian's packages that are not here.
+# For scripts to source. have PACKAGES... installs the given Debian packages that are missing.
 
 have() {
     missing=

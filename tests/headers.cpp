@@ -1,1 +1,1 @@
-// Nothing: this program is there for its precompiled headers, which all test programs use.
+// An empty program: all test programs use its precompiled headers.

@@ -2,8 +2,9 @@
 # Tests that optional dependencies may be missing.
 #
 #   tests/optional_test.sh
-#       Configures with all hidden, and with each one of the tool hidden in turn, by RAYLANE_TEST_ROUNDS=full each one
-#       of tests and benchmarks, too. The summary must call its part off and name Debian's package.
+#       Configures with all hidden, and with each of the tool's dependencies hidden in turn. With
+#       RAYLANE_TEST_ROUNDS=full, each one of the tests and benchmarks is hidden in turn, too. The
+#       summary must report the part as off and name Debian's package.
 #   tests/optional_test.sh --build [OPTIONS]
 #       Builds the tool in build/without with all hidden. The tool must render, and refuse each missing part in one
 #       line. OPTIONS are cmake's: -DRAYLANE_KERNELS=BUILD takes another build's kernels.

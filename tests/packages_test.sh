@@ -1,6 +1,6 @@
 #!/bin/sh
-# Makes the packages of a build of the project, installs them in a root of their own, and uses what is
-# there: tests/packages_test.sh BUILD. Wants the pages of the library's headers.
+# Makes the packages of a build of the project, installs them in a separate root, and uses the
+# installed files: tests/packages_test.sh BUILD. Needs the pages of the library's headers.
 set -eu
 build=$(realpath "$1")
 cd "$(dirname "$0")/.."
@@ -9,21 +9,21 @@ as_root=
 [ "$(id -u)" -eq 0 ] || as_root=sudo
 prefix=$(sed -n 's/^CMAKE_INSTALL_PREFIX:PATH=//p' "$build/CMakeCache.txt")
 trap '$as_root rm -rf "$root"; cmake -S . -B "$build" -DCMAKE_INSTALL_PREFIX="$prefix" >/dev/null' EXIT
-quietly() { # command...: what it says is told if it fails
+quietly() { # command...: prints its output if it fails
     "$@" >"$root/log" 2>&1 || {
         cat "$root/log"
         exit 1
     }
 }
 
-# The library's folder is Debian's by this prefix alone; it compiles nothing anew.
+# Only with this prefix is the library's folder that of Debian. Nothing is compiled again.
 quietly cmake -S . -B "$build" -DCMAKE_INSTALL_PREFIX=/usr
 rm -rf "$build/packages"
 quietly sh -c "cd '$build' && cpack -G DEB"
 
 mkdir -p "$root/var/lib/dpkg/updates" "$root/var/lib/dpkg/info"
 touch "$root/var/lib/dpkg/status"
-# shellcheck disable=SC2086 # a word, or none
+# shellcheck disable=SC2086 # one word or none
 quietly $as_root dpkg --root="$root" --force-depends --log=/dev/null \
     --install "$build"/packages/*.deb
 [ "$(dpkg --root="$root" -l raylane libraylane-dev raylane-doc | grep -c '^ii')" -eq 3 ]

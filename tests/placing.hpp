@@ -28,15 +28,15 @@ struct InDoubleOf<std::tuple<Shapes...>>
 using AnyShape = detail::VariantOf<core::Shapes>::type;
 using AnyShapeInDouble = detail::InDoubleOf<core::Shapes>::type;
 
-/// A shape moved by `offset`, then enlarged about the origin. Exact where the results are floats:
-/// for powers of two, and offsets that the sums have room for.
+/// Moves a shape by `offset`, then enlarges it about the origin. The result is exact for factors
+/// that are powers of two and offsets whose sums fit in floats.
 class Placing {
   public:
     Placing(const Vec3f& offset, float factor) : offset_(offset), factor_(factor) {}
 
     template <class Shape>
     Shape operator()(const Shape& shape) const {
-        return placed(shape, *this); // as the shape's own file has it
+        return placed(shape, *this); // in the shape's file
     }
 
     Vec3f point(const Vec3f& p) const { return (p + offset_) * factor_; }

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-/// Numbers and vectors for tests, the same on each run.
+/// Random numbers and vectors for tests, the same on each run.
 namespace raylane::ray_sets {
 
 using core::Vec3d;
@@ -52,7 +52,7 @@ class Random {
     std::mt19937_64 engine_;
 };
 
-/// Not inline: g++ 12 takes the way to float and back for none where it makes vectors of it.
+/// Not inline, as g++ 12 drops the conversion to float and back where it vectorises it.
 [[gnu::noinline]] inline Vec3f rounded(const Vec3d& v) {
     return core::convert<float>(v);
 }
@@ -60,12 +60,12 @@ inline float rounded(double v) {
     return static_cast<float>(v);
 }
 
-/// Any unit vector at right angles to v.
+/// Returns a random unit vector at right angles to v.
 inline Vec3d across(const Vec3d& v, Random& random) {
     return core::normalized(core::cross(v, random.direction()));
 }
 
-/// Within the plane, or all but: tilted by 1e-7 to 1e-1.
+/// Returns a vector within the plane, or tilted out of it by 1e-7 to 1e-1.
 inline Vec3d nearly_across(const Vec3d& normal, Random& random) {
     const Vec3d n = core::normalized(normal);
     const double tilt = random.integer(0, 2) == 0 ? 0.0 : random.log_uniform(1e-7, 1e-1);

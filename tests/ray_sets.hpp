@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string_view>
 
-/// Shapes and rays that methods fail on, beside random ones. All are floats: what is aimed at a
+/// Random rays, and rays on which methods fail. All numbers are floats. So a ray that is aimed at a
 /// limb, a rim or an apex misses it by the rounding of the aim, except in the set `lattice`, whose
 /// small integers meet it exactly.
 namespace raylane::ray_sets {
@@ -19,12 +19,12 @@ inline constexpr Set all_sets[] = {Set::random,   Set::inside, Set::on_surface, 
 inline constexpr std::string_view set_names[] = {"random",   "inside", "on_surface", "grazing",
                                                  "parallel", "zeros",  "far",        "lattice"};
 
-/// Any but the lattice, which is for shapes of its own.
+/// Returns any set but `lattice`, which needs shapes of small integers.
 inline Set any_set(Random& random) {
     return all_sets[random.integer(0, static_cast<int>(std::size(all_sets)) - 2)];
 }
 
-/// One ray of a set, for this shape. Its direction has any length.
+/// Returns one ray of a set, for this shape. Its direction has any length.
 template <class Shape>
 core::Ray<float> make_ray(const Shape& shape, Set set, Random& r) {
     using T = Target<Shape>;

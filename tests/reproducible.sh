@@ -1,11 +1,11 @@
 #!/bin/sh
-# Builds the project in two folders, and looks whether the same bytes come of it: libraries, the tool, its
-# manual, the list of what they are made of, and packages. An hour of one core.
+# Builds the project in two folders and checks that both give the same bytes: libraries, the tool,
+# its manual, its SBOM, and packages. Takes an hour of one core.
 #
-#   tests/reproducible.sh                  all of it
-#   KERNELS=BUILD tests/reproducible.sh    but the kernels, which are those of that build
-#   tests/reproducible.sh kernels          these alone
-#   tests/reproducible.sh quick            a few objects, with debugging information, which tells of paths
+#   tests/reproducible.sh                  everything
+#   KERNELS=BUILD tests/reproducible.sh    everything but the kernels, which are those of that build
+#   tests/reproducible.sh kernels          the kernels only
+#   tests/reproducible.sh quick            a few objects, with debugging information, which has paths
 set -eu
 cd "$(dirname "$0")/.."
 project=$PWD
@@ -13,32 +13,32 @@ room=$(mktemp -d)
 trap 'rm -rf "$room"' EXIT
 first=$room/first
 second="$room/a longer path/second"
-quietly() { # command...: what it says is told if it fails
+quietly() { # command...: prints its output if it fails
     "$@" >"$room/log" 2>&1 || {
         cat "$room/log"
         exit 1
     }
 }
-lay() { # folder: the source, as it is here, at another time
+lay() { # folder: copies the source as it is here, with new times
     mkdir -p "$1"
     git ls-files --cached --others --exclude-standard | while read -r file; do
         [ ! -e "$file" ] || echo "$file"
     done | tar -cf - -T - | tar -xmf - -C "$1"
     [ ! -d build/pages ] || { mkdir -p "$1/build" && cp -r build/pages "$1/build/"; }
 }
-# Of the commit, which a folder without git does not know.
+# The time of the commit, which a folder without git does not know.
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
 export SOURCE_DATE_EPOCH
 lay "$first"
-sleep 2 # files of one second, in archives of two, have the same time; load changes nothing
+sleep 2 # archives round times to two seconds; load changes nothing
 lay "$second"
-# A cache would hand the first folder's objects to the second.
+# A cache would give the first folder's objects to the second.
 options="-GNinja -DRAYLANE_CCACHE=OFF -DRAYLANE_TESTS=OFF -DRAYLANE_BENCHMARKS=OFF -DCMAKE_INSTALL_PREFIX=/usr"
 [ -z "${KERNELS-}" ] || options="$options -DRAYLANE_KERNELS=$(realpath "$KERNELS")"
 
 if [ "${1-}" = quick ]; then
     options="$options -DCMAKE_BUILD_TYPE=RelWithDebInfo -DRAYLANE_UNITY=OFF"
-    # Of each floor that is the library's.
+    # Objects of each floor of the library.
     set -- core/CMakeFiles/raylane_core.dir/numbers/dyadic.cpp.o \
         core/CMakeFiles/raylane_core.dir/scene/glass.cpp.o \
         scenes/CMakeFiles/raylane_scenes.dir/format.cpp.o \

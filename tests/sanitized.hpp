@@ -8,7 +8,7 @@ namespace raylane::tests {
 #define RAYLANE_HAS_FEATURE(feature) 0
 #endif
 
-/// True if a sanitizer watches this program: it takes memory and time of its own.
+/// True if a sanitizer watches this program, which takes more memory and time then.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) ||                               \
     RAYLANE_HAS_FEATURE(address_sanitizer) || RAYLANE_HAS_FEATURE(thread_sanitizer)
 inline constexpr bool sanitized = true;

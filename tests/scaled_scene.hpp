@@ -8,8 +8,8 @@
 
 namespace raylane::tests {
 
-/// Everything in it that is a length is `factor`, a power of two, times as long. A back plane's
-/// pattern has no scale, so its material becomes a plain one, whatever the factor.
+/// A copy of a scene whose lengths are all multiplied by `factor`, a power of two. A back plane's
+/// pattern has no scale, so its material becomes a plain one for any factor.
 class ScaledScene {
   public:
     ScaledScene(const core::Scene& scene, float factor)

@@ -3,11 +3,11 @@
 #include "core/shapes/types.hpp"
 #include "tests/random.hpp"
 
-/// Random shapes, and where to aim at them.
+/// Random shapes, and points to aim at.
 namespace raylane::ray_sets {
 
-/// A shape with a way to point at it: points on it, tangents there, and the directions special to
-/// it.
+/// Makes a shape and ways to aim at it: points on it, tangents there, and the shape's special
+/// directions.
 template <class Shape>
 struct Target;
 

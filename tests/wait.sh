@@ -1,5 +1,5 @@
 # shellcheck shell=sh
-# For scripts to read: how they wait for an event.
+# For scripts to source: a way to wait for an event.
 
 # Waits until a command succeeds, which is tried ten times a second. Returns 1 after ten minutes: that ends a
 # test that hangs, and decides nothing else.

@@ -1,8 +1,8 @@
 #!/bin/sh
 # usage: tests/wasm.sh [RAYLANE]
-# The library as WebAssembly and the page that has it, by what Debian has: built; held in node to the bits
-# of a native raylane (default: build/release/bin/raylane); and looked at in a headless Chromium.
-# PICTURES=FOLDER leaves there what that shows.
+# Builds the library as WebAssembly, and its page, with Debian's packages. Compares it in node with
+# the bits of a native raylane (default: build/release/bin/raylane), and checks the page in a
+# headless Chromium. PICTURES=FOLDER keeps screenshots of the page.
 set -eu
 cd "$(dirname "$0")/.."
 raylane=${1:-build/release/bin/raylane}

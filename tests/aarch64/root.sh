@@ -1,7 +1,7 @@
 #!/bin/sh
-# Lays out build/aarch64-root: the C library and what raylane is built with, as this machine's Debian has them
-# for arm64. The machine's own packages stay as they are: apt is given a state of its own, with nothing in it,
-# and packages are only unpacked.
+# Makes build/aarch64-root: the C library and raylane's dependencies for arm64, from this machine's
+# Debian. The machine's packages do not change: apt gets a separate, empty state, and packages are
+# only unpacked.
 set -eu
 cd "$(dirname "$0")/../.."
 packages='libc6-dev libstdc++-12-dev libglm-dev libxsimd-dev libtbb-dev nlohmann-json3-dev libcli11-dev libstb-dev
@@ -28,7 +28,7 @@ for package in "$root.apt"/cache/archives/*.deb; do
     dpkg-deb -x "$package" "$root"
 done
 rm -rf "$root.apt"
-# Links from its top are from this machine's top otherwise.
+# Absolute links would otherwise lead to this machine's root.
 find "$root" -type l -lname '/*' | while read -r link; do
     ln -sfnr "$root$(readlink "$link")" "$link"
 done

@@ -1,16 +1,18 @@
 #!/bin/sh
-# raylane for AArch64, by Debian's cross compiler and qemu's emulation: it builds without warnings, its short tests
-# pass by NEON's lanes, and its pictures have the bits that build/release draws here.
+# Builds raylane for AArch64 with Debian's cross compiler and runs it in qemu's emulation. It must
+# build without warnings, its short tests must pass with NEON's lanes, and its images must have the
+# bits of build/release here.
 #
-#   tests/aarch64/run.sh          all programs of tests, and all scenes
-#   tests/aarch64/run.sh quick    simd's tests (of lanes, filters, finishers and the like), and one scene
-#   tests/aarch64/run.sh lanes    tests of registers alone, which want no kernels: some minutes
+#   tests/aarch64/run.sh          all test programs, and all scenes
+#   tests/aarch64/run.sh quick    simd's tests (of lanes, filters, finishers and so on), and one scene
+#   tests/aarch64/run.sh lanes    tests of registers only, which need no kernels: some minutes
 #
-# On Debian 12, whose libraries for arm64 it takes, and beside a build/release of here for the pictures.
+# Runs on Debian 12, whose libraries for arm64 it uses. The images need a build/release of this
+# machine.
 #
-# [native] tests compare builds or processors that there are not here, take minutes by emulation, or set limits of
-# memory, which the emulator does not hold them to. The tool's look at processes, memory and signals from outside, and
-# would see the emulator's.
+# [native] tests are left out: they compare builds or processors that are not available here, take
+# minutes in emulation, or set memory limits that the emulator ignores. So are the tool's tests:
+# they observe processes, memory and signals from outside, and would see the emulator's.
 set -eu
 cd "$(dirname "$0")/../.."
 form=${1-full}

@@ -1,10 +1,10 @@
-# Builds for AArch64 by Debian's cross compiler, with the libraries that tests/aarch64/root.sh lays out, and runs
-# tests by qemu's emulation.
+# Builds for AArch64 with Debian's cross compiler and the libraries of tests/aarch64/root.sh, and runs tests in qemu's
+# emulation.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
-set(CMAKE_CXX_FLAGS_INIT -Wno-psabi) # no notes about changes in GCC 10
+set(CMAKE_CXX_FLAGS_INIT -Wno-psabi) # notes about changes in GCC 10
 set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
 
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/../../build/aarch64-root ABSOLUTE)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# peers_test.sh RAYLANE-PEERS FOLDER: what it measures in a moment, and its exit codes.
+# peers_test.sh RAYLANE-PEERS FOLDER: tests short measurements and exit codes.
 set -eu
 peers=$1
 cd "$2"
@@ -16,7 +16,7 @@ for row in camera scanlines mirror shadow incoherent occlusion crossings build p
     grep -q "\"what\": \"$row\"" peers.json || fail "no $row in peers.json"
 done
 
-refuses() { # code, arguments: in one line
+refuses() { # code, arguments: must fail in one line
     code=$1
     shift
     "$peers" "$@" >/dev/null 2>message && fail "accepts $*"

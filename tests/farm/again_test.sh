@@ -1,7 +1,7 @@
 #!/bin/sh
-# scenes/farm/slurm.sh by stand-ins for Slurm's programs, which do at once what is submitted: where a
-# job has failed, all can be submitted again, with the same number of parts or another; what cannot be
-# drawn is not submitted.
+# Tests scenes/farm/slurm.sh with stand-ins for Slurm's programs, which run a job when it is
+# submitted. After a job has failed, all can be submitted again, with the same number of parts or
+# another. A scene that cannot be rendered is not submitted.
 #
 #   again_test.sh RAYLANE SCENE
 set -eu
@@ -19,7 +19,8 @@ fail() {
 }
 
 mkdir bin
-# Where a job of an array fails, none begins that waits for it. FAILS is the number of one that does.
+# If a job of an array fails, jobs that wait for the array do not begin. FAILS is the number of the
+# job that fails.
 cat >bin/sbatch <<'END'
 #!/bin/sh
 tasks= waits=
@@ -95,7 +96,7 @@ done
 
 echo "what could not be drawn is not submitted"
 export FAILS=0
-refused() { # what is said, RAYLANE, arguments...
+refused() { # expected message, RAYLANE, arguments...
     said=$1 program=$2
     shift 2
     if RAYLANE=$program "$script" "$@" >told 2>&1; then fail "slurm.sh $* has submitted something"; fi

@@ -1,8 +1,8 @@
 #!/bin/sh
-# Ranks on two hosts that share no memory draw what one process draws, also where the wire between
-# them takes 5 ms and loses a hundredth of the packets. The hosts are network namespaces.
+# Ranks on two hosts that share no memory must render the image of one process, even if the wire
+# between them takes 5 ms and loses a hundredth of the packets. The hosts are network namespaces.
 #
-#   hosts_test.sh RAYLANE SCENE    as root; 77 where that, or MPI, is not there
+#   hosts_test.sh RAYLANE SCENE    as root; exit code 77 without root or MPI
 set -eu
 
 . "$(dirname "$0")/../wait.sh"
@@ -24,7 +24,7 @@ end() {
 }
 trap end EXIT
 cd "$folder"
-# In place of ssh: the host's name, as MPI goes by that, and then a command.
+# Replaces ssh: sets the host's name, which identifies a host to MPI, and runs a command.
 cat >agent <<'END'
 #!/bin/sh
 host=raylane-two
@@ -45,7 +45,7 @@ is_ready_or_gone() {
 }
 
 for conditions in "0.1 0" "5 0.01"; do
-    : >wire.out # what the last one said is not this one's
+    : >wire.out # without the last relay's output
     # shellcheck disable=SC2086 # milliseconds and loss
     "$wire" $one 10.77.0.1/24 $two 10.77.0.2/24 $conditions >>wire.out &
     relay=$!

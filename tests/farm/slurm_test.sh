@@ -1,9 +1,9 @@
 #!/bin/sh
-# scenes/farm/slurm.sh on a Slurm of one node that is started for it: parts of a picture, put
-# together, are the whole; frames by jobs are those of one process; a job that Slurm ends goes on.
-# First by stand-ins for it (again_test.sh).
+# Tests scenes/farm/slurm.sh on a Slurm of one node that it starts. Parts of an image give the whole
+# image; frames by jobs are those of one process; a job that Slurm ends is resumed. Before that,
+# tests the script with stand-ins (again_test.sh).
 #
-#   slurm_test.sh RAYLANE SCENE    as root; 77 where Slurm (Debian: slurm-wlm, munge) is not there
+#   slurm_test.sh RAYLANE SCENE    as root; exit code 77 without Slurm (Debian: slurm-wlm, munge)
 set -eu
 
 . "$(dirname "$0")/../wait.sh"
@@ -111,7 +111,7 @@ echo "a job that is ended goes on"
 has_begun_or_ended() {
     [ -e many.png.parts/1-of-2.exr.part ] || [ -e many.png ]
 }
-for samples in 484 1936 7744 30976; do # more on a machine where it ends before there is a journal
+for samples in 484 1936 7744 30976; do # more on a machine where the job ends before its first checkpoint
     rm -rf many.png many.png.*
     big="--size 400x400 --spp $samples"
     # shellcheck disable=SC2086 # a list of options
@@ -126,7 +126,7 @@ says_how_to_go_on() {
     grep -qhs "the same command goes on" many.png.*.log
 }
 wait_until says_how_to_go_on || fail "the job does not end"
-# Slurm itself waits for two minutes with what has been put back.
+# Slurm itself starts a requeued job only after two minutes.
 begins_again() {
     scontrol show job "$task" | grep -q JobState=PENDING && scontrol update "JobId=$task" StartTime=now
 }

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A wire between two network namespaces that takes its time, and loses some of what it carries.
+"""A wire between two network namespaces that delays packets and loses some of them.
 
 wire.py NAMESPACE ADDRESS NAMESPACE ADDRESS MILLISECONDS LOSS
 
-Addresses are as 10.77.0.1/24; LOSS is a share of the packets. For kernels without netem, which would
-be simpler. As root; until it is killed."""
+Addresses are like 10.77.0.1/24; LOSS is a share of the packets. For kernels without netem, which would
+be simpler. Runs as root until it is killed."""
 
 import fcntl
 import heapq
@@ -20,7 +20,7 @@ IFF_TUN, IFF_NO_PI, TUNSETIFF = 0x1, 0x1000, 0x400454CA
 
 
 def end_in(namespace, address, name):
-    """A descriptor of packets that come out of a namespace, and go into it."""
+    """Returns a descriptor of packets that leave a namespace, and that enter it."""
     end = os.open("/dev/net/tun", os.O_RDWR | os.O_NONBLOCK)
     fcntl.ioctl(end, TUNSETIFF, struct.pack("16sH", name.encode(), IFF_TUN | IFF_NO_PI))
     subprocess.run(["ip", "link", "set", name, "netns", namespace], check=True)

@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include <vector>
 
-/// The same work again and again, as .ci/soak says. `--leak` and `--wrong` show that it can fail.
+/// Repeats the same work, as .ci/soak describes. `--leak` and `--wrong` show that it can fail.
 using namespace raylane;
 using Clock = std::chrono::steady_clock;
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int workers = 3;
 
-/// FNV-1a, of all that was answered.
+/// FNV-1a hash of all answers.
 class Hash {
   public:
     template <class Value>
@@ -151,7 +151,7 @@ class Work {
     std::vector<float> rays_[6];
 };
 
-/// MiB that are resident.
+/// Returns the resident memory in MiB.
 double resident() {
     std::ifstream file("/proc/self/statm");
     double all = 0.0, pages = 0.0;
@@ -159,7 +159,8 @@ double resident() {
     return pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-/// The most until the first minute, or tenth, is over; the least in the last tenth.
+/// The largest memory in the first minute, or tenth of the time if that is shorter, and the
+/// smallest in the last tenth.
 struct Memory {
     double first = 0.0, last = 1e9;
     void look(double seconds, double all) {
@@ -210,8 +211,8 @@ int soak(double minutes, const std::string& folder, bool leaks, bool is_wrong) {
 } // namespace
 
 int main(int argc, char** argv) {
-    // One heap rather than one for each thread: what each of several keeps of its largest moment
-    // adds up by chance, for half an hour, and would hide what grows for ever.
+    // One heap for all threads. Several heaps each keep their peak size, which adds up by chance
+    // for half an hour and would hide a leak.
     mallopt(M_ARENA_MAX, 1);
     const std::string option = argc > 2 ? argv[2] : "";
     return soak(argc > 1 ? std::atof(argv[1]) : 60.0, "scenes", option == "--leak",
