@@ -6,7 +6,7 @@ set -eu
 failed=0
 LC_ALL=C
 export LC_ALL
-lacks() { # file, what
+lacks() { # file, fault
     echo "$1: $2"
     failed=1
 }

@@ -4,12 +4,12 @@
 
 #include <optional>
 
-/// Truth about a ray and a shape, for the floats and doubles given: decided in numbers that are
-/// never rounded (rationals, and roots of quadratics over them), so that a tie is a tie. Digits
-/// alone cannot tell one. What a shape's crossings and normals are is in its file in tests/shapes/.
+/// The truth about a ray and a shape of given floats or doubles. It is decided in numbers that are
+/// never rounded (rationals, and roots of quadratics over them), so that a tie is a tie, which
+/// digits alone cannot tell. Each shape's file in tests/shapes/ has its crossings and normals.
 namespace raylane::oracle {
 
-/// The first crossing with t > 0, what is entered before what is left.
+/// Returns the first crossing with t > 0. At one t, entering comes before leaving.
 template <class Shape, class Real>
 std::optional<Hit> first_hit(const Shape& shape, const core::Ray<Real>& ray) {
     std::optional<Hit> first;

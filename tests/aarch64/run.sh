@@ -72,7 +72,7 @@ draw() { # picture, scene, command and options...
     # shellcheck disable=SC2086 # a list of options
     "$@" $options -o "$picture" "$scene"
 }
-same() { # what
+same() { # name of the comparison
     echo "$1:"
     build/release/bin/raylane compare "$pictures/here.pfm" "$pictures/there.pfm" || failed="$failed $1"
 }

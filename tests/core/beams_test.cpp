@@ -45,7 +45,7 @@ void set_up(Builder& builder, Random& random) {
 
 } // namespace
 
-TEST_CASE("a beam lists every shape that one of its rays hits", "[long]") {
+TEST_CASE("a beam with thin shapes lists every shape that its rays hit", "[long]") {
     Random random(tests::seed(5));
     for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
         int thin = 0, missing = 0;

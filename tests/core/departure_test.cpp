@@ -105,7 +105,7 @@ TEMPLATE_LIST_TEST_CASE("a ray that enters a solid leaves it at the oracle's poi
         }
         const Crossing<double>& exit = *found.begin();
 
-        double truth = 0.0; // the point may be a little outside, and the ray miss the solid
+        double truth = 0.0; // the point may be slightly outside, and the ray may miss the solid
         for (const oracle::Hit& hit : oracle::crossings(shape, ray))
             truth = std::max(truth, to_double(hit.t));
         const double allowed = tolerance(at, direction, truth);
@@ -161,8 +161,8 @@ TEMPLATE_LIST_TEST_CASE("a ray that leaves a flat surface does not meet it again
     CHECK(starts > shape_count / 4);
 }
 
-// A ray that leaves a bowl's inside meets the bowl again. On a hyperboloid, rays from its outside
-// do so, too.
+// A ray that leaves a bowl's inside may meet the bowl again. On a hyperboloid, rays from its
+// outside may do so, too.
 TEMPLATE_LIST_TEST_CASE(
     "a ray that leaves a curved surface meets the rest of it where the oracle does", "",
     tests::AllCurved) {

@@ -60,7 +60,7 @@ TEST_CASE("media are searched for only where a transmissive body may be") {
     CHECK(asker.at(Vec3d(0.0, 14.51, 0.0)) == empty_space);
     CHECK(asker.stacks.top(asker.at(Vec3d(0.0, -6.0, 0.0))) == 1); // under the plane
     CHECK_FALSE(asker.has_searched());
-    CHECK(asker.at(Vec3d(0.0, 12.0, 0.0)) == empty_space); // between two
+    CHECK(asker.at(Vec3d(0.0, 12.0, 0.0)) == empty_space); // between two bodies
     CHECK_FALSE(asker.has_searched());
     CHECK(asker.stacks.top(asker.at(Vec3d(-0.9, 10.0, 0.0))) == 1);
     CHECK(asker.stacks.top(asker.at(Vec3d(1.4, 10.0, 0.0))) == 2);

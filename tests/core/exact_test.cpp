@@ -49,7 +49,7 @@ Real chain(Random& random, const Operand& operand) {
 
 } // namespace
 
-TEST_CASE("sums, products and quotients of doubles are exact") {
+TEST_CASE("sums and products and quotients of doubles are exact") {
     for (const int spread : {3, 60, 900})
         for (int i = 0; i < 300; ++i) {
             const auto seed = static_cast<std::uint64_t>(1000 * spread + i);

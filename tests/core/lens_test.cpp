@@ -63,7 +63,7 @@ TEST_CASE("glasses have the index of refraction of their catalogues") {
         CHECK(index_at(named.glass, 486.13) > n);
         CHECK(n > index_at(named.glass, 656.27));
     }
-    // Abbe's number of crown and flint.
+    // Abbe numbers of crown and flint.
     const auto abbe = [](const Sellmeier& glass) {
         return (index_at(glass, line_d) - 1) /
                (index_at(glass, 486.1327) - index_at(glass, 656.2725));

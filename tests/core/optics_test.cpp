@@ -137,7 +137,8 @@ TEST_CASE("reflectance is right at normal incidence and at Brewster's angle") {
     CHECK(reflectance_at(Reflection::schlick, 0.0, 1.0, 1.5) == Approx(0.04));
     CHECK(reflectance_at(Reflection::dielectric, 0.0, 1.0, 1.5) == Approx(0.04));
     CHECK(reflectance_at(Reflection::dielectric, 0.5, 1.5, 1.5) == 0.0);
-    // tan = n: nothing of one polarisation, ((1 - n^2) / (1 + n^2))^2 of the other.
+    // At tan = n, none of one polarisation is reflected, and ((1 - n^2) / (1 + n^2))^2 of the
+    // other.
     const double n = 1.5, sine = n / std::sqrt(1.0 + n * n);
     const double perpendicular = (1.0 - n * n) / (1.0 + n * n);
     CHECK(reflectance_at(Reflection::dielectric, sine, 1.0, n) ==

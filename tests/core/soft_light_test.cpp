@@ -175,7 +175,7 @@ TEST_CASE("samples of a disc light lie on it and add up to its solid angle") {
     CHECK(under.by_cosine == Approx(1.0).epsilon(1e-2));
 }
 
-TEST_CASE("samples of a rectangle light are spread evenly by solid angle") {
+TEST_CASE("samples of a rectangle light are spread evenly over its solid angle") {
     Random random(3);
     for (int round = 0; round < 60; ++round) {
         const auto width = static_cast<float>(random.log_uniform(0.01, 5.0));

@@ -117,7 +117,7 @@ TEST_CASE("a part's bounds contain all of its surface that is the solid's") {
 TEST_CASE("bounds of hundreds of facets are small on average") {
     constexpr int count = 300;
     Solid solid{Made::by_intersection};
-    for (int i = 0; i < count; ++i) { // on a spiral of Fibonacci's
+    for (int i = 0; i < count; ++i) { // on a Fibonacci spiral
         const double z = 1.0 - (2.0 * i + 1.0) / count, r = std::sqrt(1.0 - z * z);
         const Vec3d normal(r * std::cos(2.399963 * i), r * std::sin(2.399963 * i), z);
         solid.parts.push_back(of_shape(PlaneOf<double>{normal, normal}));

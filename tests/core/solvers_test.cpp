@@ -90,7 +90,7 @@ TEMPLATE_TEST_CASE("the double reference decides as the oracle does", "", RAYLAN
              << " rays, " << tally.hits << " hits, " << tally.widened << " widened");
         CHECK(tally.wrong == 0);
         CHECK(tally.worst_ulps <= 1);
-        CHECK(tally.hits > tally.rays / 100); // or the set shows nothing
+        CHECK(tally.hits > tally.rays / 100); // otherwise the set tests nothing
     }
 }
 

@@ -351,7 +351,7 @@ TEST_CASE("a slanted normal sends no ray to the wrong side of the surface") {
     const Vec3d red(1, 0, 0);
     // With the slanted normal, the mirror would show the plane below it.
     CHECK(seen(mirror(), {{0, 5, 0}, {0, -1, 0}}, {{0, -5, 0}, {0, 1, 0}}, {-0.5, -1, 0}) == red);
-    // By the slanted normal the light would be bent up, to the right; by the flat one it is
+    // With the slanted normal, the light would be bent up, to the right. With the flat one, it is
     // reflected totally, to the left.
     CHECK(seen(glass(0.25F), {{-3, 0, 0}, {1, 0, 0}}, {{3, 0, 0}, {-1, 0, 0}}, {1, -0.125, 0}) ==
           red);

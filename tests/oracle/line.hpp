@@ -45,8 +45,8 @@ std::optional<Hit> plane_crossing(const Line& line, const Vector& normal, const 
                                   Face face = core::body);
 
 /// Returns the crossings of a convex solid, from those with its faces: the first by which the line
-/// enters and the last by which it leaves. Of equal ones, the lowest face counts. A line that lies
-/// in faces enters and leaves by the other faces.
+/// enters and the last by which it leaves. At one t, the lowest face counts. A line that lies in
+/// faces enters and leaves by the other faces.
 std::vector<Hit> first_and_last(const std::vector<Hit>& on_faces);
 
 } // namespace raylane::oracle

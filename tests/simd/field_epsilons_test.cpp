@@ -220,7 +220,7 @@ TEST_CASE("plotoptix #4: a layer of small plastic spheres has no dark rings", "[
                            0.01F});
     const Vec3f at{0.03F, 0, 0.03F}, from{3.03F, 4, 5.03F};
     const FieldBuilder empty = square(pixels, orthographic(from, at, 0.1F));
-    // The sun stands where the viewer does: all that is seen is lit.
+    // The sun is where the viewer is, so that everything visible is lit.
     const Vec3d to_light = normalized(convert<double>(Vec3f(from - at)));
     const auto scene_of = [&](float specular) {
         FieldBuilder builder = empty;

@@ -81,7 +81,7 @@ double psnr(const Film& a, const Film& b) {
 } // namespace
 
 TEST_CASE("an image has the requested quality", "[long]") {
-    // In smaller pictures the survey has too few pixels.
+    // In smaller images, the survey has too few pixels.
     const Scene scene = workshop({288, 192});
     const Film truth = converged(scene, 20);
     std::uint64_t last = 0;

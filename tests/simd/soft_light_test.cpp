@@ -201,7 +201,7 @@ TEST_CASE("a lens blurs an edge by its distance from the plane of focus", "[long
                                   {0, 1800, 0},
                                   {0, 0, -1e-4F}},
                               black());
-            // The rays meet its plane in a disc, of which a segment misses it.
+            // The rays meet the box's plane in a disc. A segment of the disc misses the box.
             const double radius = 0.25 * std::abs(1.0 - distance / 5.0);
             const double off = static_cast<double>(static_cast<float>(beside));
             const double h =

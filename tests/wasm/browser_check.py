@@ -146,7 +146,7 @@ def main(page, raylane, pictures=None):
             for workers in (1, 2):
                 measure(driver, url, workers)
             if pictures:
-                driver.set_window_size(500, 900)  # the least that it takes
+                driver.set_window_size(500, 900)  # the smallest width that the browser takes
                 driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 375, "height": 812, "deviceScaleFactor": 2, "mobile": True})
                 driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
                 Page(driver, f"{url}#scene=birthday")

@@ -148,7 +148,7 @@ function compare_scene(scene, lanes, engine) {
     for (const [isa, isa_name] of lanes.isas.entries())
         same(`${name}, ${isa_name}`, hash(lanes.draw(isa, width, height, grid)), expected);
 
-    // As the page renders: in bands, and to bytes.
+    // Renders as the page does: in bands, and to bytes.
     const known = engine.load(text, name);
     const draw = (picture, rows) => {
         const films = [], bytes = [];
