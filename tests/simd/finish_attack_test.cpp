@@ -241,7 +241,7 @@ std::string description(const Summit<Shape>& summit) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("no search finds a ray whose t has a larger error than its bound", "",
+TEMPLATE_TEST_CASE("no search finds a ray whose t is off by more than finish says", "",
                    RAYLANE_ALL_SHAPES) {
     const int climbs = std::max(1, rounds());
     const auto any = highest<TestType>(Aim::any, climbs, 37),
