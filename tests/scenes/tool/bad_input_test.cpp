@@ -17,10 +17,10 @@ struct Row {
     std::string name;
     std::string file;
     std::string content;
-    std::string message; // behind the file's name
+    std::string message; // follows the file's name
 };
 
-/// Both commands that read scenes say it in one line, and nothing is written.
+/// Checks that both commands that read scenes report the message in one line and write no file.
 void check(const Workshop& workshop, const std::string& file, const std::string& message) {
     const std::string line = "raylane: " + file + ": " + message + "\n";
     for (const auto& arguments :
@@ -67,7 +67,7 @@ Row in_nff(const std::string& name, const std::string& lines, const std::string&
 
 } // namespace
 
-TEST_CASE("what is no file that holds a scene is told in one line") {
+TEST_CASE("a path without a scene file gives an error of one line") {
     const Workshop workshop;
     check(workshop, "none.json", "no such file");
     check(workshop, "none/a.nff", "no such file");
@@ -97,14 +97,14 @@ TEST_CASE("what is no file that holds a scene is told in one line") {
         {"a binary NFF file", "a.nff", "\x89PNG\r\n\x1A\n",
          R"(line 1: must be one of v, b, l, f, s, c, p and pp, got "\x89PNG")"},
     });
-    // A file's name is no reason for a second line.
+    // Control characters in a file's name do not add a line.
     workshop.write("a\n\x1B[31m.json", "[]");
     const Outcome outcome = workshop.run({"info", "a\n\x1B[31m.json"});
     CHECK(outcome.code == 2);
     CHECK(outcome.err == "raylane: a\\x0A\\x1B[31m.json:1:1: must be an object, got an array\n");
 }
 
-TEST_CASE("what is no JSON, or not a scene's, is told in one line") {
+TEST_CASE("invalid JSON and JSON that is not a scene give an error of one line") {
     check({
         {"truncated", "a.json", "{\"camera\":\n  {\"from\": [0, 0",
          "must be ',' or ']', got the end of the file"},
@@ -134,7 +134,7 @@ TEST_CASE("what is no JSON, or not a scene's, is told in one line") {
     });
 }
 
-TEST_CASE("several mistakes in JSON are told in a line each") {
+TEST_CASE("several mistakes in JSON give a line each") {
     const Workshop workshop;
     workshop.write("a.json", "{\"fog\": 3,\n \"camera\": 4}");
     const Outcome outcome = workshop.run({"info", "a.json"});
@@ -144,7 +144,7 @@ TEST_CASE("several mistakes in JSON are told in a line each") {
                          "raylane: a.json:2:12: /camera: must be an object, got 4\n");
 }
 
-TEST_CASE("a shape that is none is told in one line") {
+TEST_CASE("an invalid shape gives an error of one line") {
     const std::string ball_at = R"("type": "sphere", "center": [0, 0, 0], )";
     check({
         in_object("radius 0", ball_at + R"("radius": 0)", "/radius: must be positive, got 0"),
@@ -180,7 +180,7 @@ TEST_CASE("a shape that is none is told in one line") {
     });
 }
 
-TEST_CASE("a camera, fog, light or setting that is none is told in one line") {
+TEST_CASE("an invalid camera or fog or light or setting gives an error of one line") {
     check({
         in_camera("along up", R"("from": [0, 0, 1], "at": [0, 0, 0], "up": [0, 0, 2])",
                   "/up: must not be along the line of sight, got [0, 0, 2]"),
@@ -212,7 +212,7 @@ TEST_CASE("a camera, fog, light or setting that is none is told in one line") {
     });
 }
 
-TEST_CASE("what is wrong with an NFF file is told in one line") {
+TEST_CASE("a mistake in an NFF file gives an error of one line") {
     check({
         in_nff("unknown entity", "k 1 2 3\n",
                R"(line 9: must be one of v, b, l, f, s, c, p and pp, got "k")"),
@@ -260,7 +260,7 @@ TEST_CASE("an NFF scene from a pipe is read once") {
           std::string::npos);
 }
 
-TEST_CASE("a line of 200 MB is told in seconds and within little memory") {
+TEST_CASE("a line of 200 MB gives an error in seconds and takes little memory") {
     constexpr std::uintmax_t size = 200'000'000;
     struct Long {
         std::string file, start;
@@ -283,7 +283,7 @@ TEST_CASE("a line of 200 MB is told in seconds and within little memory") {
         if (sanitized && row.file == "a.json" && row.filling == ' ') continue; // takes a minute
         const Workshop workshop;
         const std::filesystem::path path = workshop.write(row.file, row.start);
-        if (row.filling != '\0') { // else it takes no space
+        if (row.filling != '\0') { // a file of zeros takes no disk space
             std::ofstream stream(path, std::ios::binary | std::ios::app);
             const std::string piece(1 << 20, row.filling);
             for (std::uintmax_t done = row.start.size(); done < size; done += piece.size())
@@ -298,7 +298,7 @@ TEST_CASE("a line of 200 MB is told in seconds and within little memory") {
     }
 }
 
-TEST_CASE("a scene without objects is a picture of the background") {
+TEST_CASE("a scene without objects renders the background") {
     const Workshop workshop(R"({"image": {"width": 3, "height": 2, "transfer": "linear"},
         "camera": {"from": [0, 0, 9], "at": [0, 0, 0]}, "background": [0.25, 0.5, 1], "objects": []})");
     const Outcome outcome = workshop.render("out/picture.pfm");

@@ -1,7 +1,7 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
-/// Scenes that are built once, for many pictures.
+/// Tests of scenes that are built once for many images.
 using namespace raylane::tests;
 
 namespace {
@@ -14,7 +14,7 @@ void check_same_file(const Workshop& workshop, const std::string& a, const std::
 
 } // namespace
 
-TEST_CASE("a built scene is drawn as what it was built of") {
+TEST_CASE("a built scene renders the same image as its source") {
     const Workshop workshop;
     workshop.write("a.xyz", atoms);
     const std::vector<std::string> size = {"--size", "40x30", "-q"};
@@ -23,7 +23,7 @@ TEST_CASE("a built scene is drawn as what it was built of") {
               .code == 0);
     CHECK(workshop.run(joined({"render", "a.rl", "-o", "out/b.pfm"}, size)).code == 0);
     check_same_file(workshop, "out/a.pfm", "out/b.pfm");
-    // Its camera finds another place, and its fog another depth.
+    // With --view, the camera moves, and the fog with it.
     const std::vector<std::string> above = {"--view", "top"};
     CHECK(
         workshop
@@ -35,7 +35,7 @@ TEST_CASE("a built scene is drawn as what it was built of") {
     check_same_file(workshop, "out/a.pfm", "out/b.pfm");
 }
 
-TEST_CASE("build takes the name of its scene where no other is given, and says what it wrote") {
+TEST_CASE("build names its output after the scene by default and reports it") {
     const Workshop workshop;
     const Outcome outcome = workshop.run({"build", "scene.json", "-v"});
     CHECK(outcome.code == 0);
@@ -48,12 +48,12 @@ TEST_CASE("build takes the name of its scene where no other is given, and says w
     check_same_file(workshop, "scene.rl", "other.rl");
 }
 
-TEST_CASE("a built scene that becomes shorter while it is in use ends the command in one line") {
+TEST_CASE("a built scene that is truncated while it is in use ends the command with one line") {
     const Workshop workshop;
     REQUIRE(workshop.run({"build", "scene.json", "-o", "a.rl", "-q"}).code == 0);
     Process process = workshop.start(
         joined({"render", "a.rl", "-o", "out/picture.png", "--verbose", "--threads", "1"}, hours));
-    REQUIRE(process.wait_for_err("rays/s")); // it is rendering
+    REQUIRE(process.wait_for_err("rays/s")); // the rendering has begun
     std::filesystem::resize_file(workshop.path() / "a.rl", 0);
     const Outcome outcome = process.wait();
     CHECK(outcome.code == 3);
@@ -64,7 +64,7 @@ TEST_CASE("a built scene that becomes shorter while it is in use ends the comman
     CHECK(!std::filesystem::exists(workshop.output() / "picture.png"));
 }
 
-TEST_CASE("what cannot be built, or is no built scene, is refused in one line") {
+TEST_CASE("scenes that cannot be built and invalid built scenes give an error of one line") {
     const Workshop workshop;
     workshop.write("bad.rl", "not built");
     workshop.write("solid.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},

@@ -17,7 +17,7 @@ std::string said(const Workshop& workshop, const std::vector<std::string>& argum
     return outcome.out;
 }
 
-/// First groups of all matches.
+/// Returns the first groups of all matches.
 std::set<std::string> all_of(const std::string& text, const std::string& pattern) {
     const std::regex regex(pattern);
     std::set<std::string> found;
@@ -42,7 +42,7 @@ bool holds(const std::string& text, const std::string& part) {
 
 } // namespace
 
-TEST_CASE("manual pages and completions have all that the help has") {
+TEST_CASE("manual pages and completions have every command and option of the help") {
     const Workshop workshop;
     const std::set<std::string> commands = commands_in_help(workshop);
     CHECK(commands.size() >= 6);
@@ -57,7 +57,7 @@ TEST_CASE("manual pages and completions have all that the help has") {
         CHECK(holds(whole, "raylane\\-" + command + " (1)"));
         CHECK(holds(zsh, "\n        " + command + ") _"));
         CHECK(holds(fish, "__fish_use_subcommand -f -a " + command + " "));
-        if (command == "tachyon") { // whose options are another program's
+        if (command == "tachyon") { // has the options of another program
             CHECK(holds(page, "\n  \\-aasamples N"));
             continue;
         }
@@ -76,10 +76,10 @@ TEST_CASE("manual pages and completions have all that the help has") {
     CHECK(holds(fish, " -l engine -x -a 'vector reference'"));
     CHECK(holds(bash, "completion:*) words=\"bash zsh fish\""));
     CHECK(holds(bash, "manual:*) words=\"render info "));
-    CHECK(holds(zsh, "{-o+,--output=}'[")); // "-o FILE": no "-o=FILE"
+    CHECK(holds(zsh, "{-o+,--output=}'[")); // "-o FILE", not "-o=FILE"
 }
 
-TEST_CASE("no line of a manual page is a request that it should not be") {
+TEST_CASE("a manual page has no unintended requests or escapes") {
     const Workshop workshop;
     const std::set<std::string> requests = {"TH", "SH", "SS", "TP", "BR", "EX", "EE"};
     for (const std::string& command : commands_in_help(workshop)) {
@@ -101,7 +101,7 @@ TEST_CASE("manual writes the pages of all commands into a folder") {
           "raylane: --all: goes without COMMAND\n");
 }
 
-TEST_CASE("what is documented by no page, and shells that are none, are said") {
+TEST_CASE("a manual page or a completion that does not exist gives an error of one line") {
     const Workshop workshop;
     const Outcome page = workshop.run({"manual", "rendr"});
     CHECK(page.code == 2);

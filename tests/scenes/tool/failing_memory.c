@@ -1,6 +1,6 @@
-/* To be loaded before the C library's: from main on it counts what is asked of the heap, by any
- * thread and any library, and refuses the RAYLANE_FAIL_AT-th time, with RAYLANE_FAIL_ON all that
- * follow, too. Writes into RAYLANE_ALLOCATIONS how often it was asked. */
+/* Replaces the C library's allocation when it is preloaded. From main on, it counts the allocations
+ * of all threads and libraries. The RAYLANE_FAIL_AT-th one fails; with RAYLANE_FAIL_ON, so do all
+ * later ones. At the end it writes the count into the file RAYLANE_ALLOCATIONS. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -48,8 +48,8 @@ int posix_memalign(void** memory, size_t alignment, size_t bytes) {
     return *memory != NULL ? 0 : ENOMEM;
 }
 
-/* As glibc 2.36 itself dies where it has no memory for what went wrong (dlfcn/dlerror.c), which
- * oneTBB, looking for its allocator, meets. */
+/* Allocations inside of dlopen never fail: glibc 2.36 ends the process if it has no memory for an
+ * error message (dlfcn/dlerror.c). oneTBB gets there when it looks for its allocator. */
 void* dlopen(const char* file, int mode) {
     void* (*open)(const char*, int);
     *(void**)&open = dlsym(RTLD_NEXT, "dlopen");
@@ -67,7 +67,7 @@ static int counting_main(int argc, char** argv, char** environment) {
     fail_on = getenv("RAYLANE_FAIL_ON") != NULL;
     is_counting = 1;
     const int code = main_of_program(argc, argv, environment);
-    is_counting = 0; /* what is left is the C library's */
+    is_counting = 0; /* only the C library allocates from here on */
     const char* const file = getenv("RAYLANE_ALLOCATIONS");
     if (file != NULL) {
         FILE* const out = fopen(file, "w");
@@ -78,7 +78,7 @@ static int counting_main(int argc, char** argv, char** environment) {
     return code;
 }
 
-/* What the program's start calls. */
+/* The start of the program calls this. */
 int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(void),
                       void (*fini)(void), void (*rtld_fini)(void), void* stack_end) {
     int (*start)(int (*)(int, char**, char**), int, char**, void (*)(void), void (*)(void),

@@ -12,7 +12,7 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-/// Three atoms that move apart, frame by frame.
+/// Returns three atoms that move apart, frame by frame.
 std::string trajectory(int frames) {
     std::string text;
     for (int i = 0; i < frames; ++i) {
@@ -22,7 +22,7 @@ std::string trajectory(int frames) {
     return text;
 }
 
-/// A ball whose radius is a parameter, before a camera that finds its place by it.
+/// A ball whose radius is a parameter, with an automatic camera.
 const std::string growing = R"({
     "image": {"width": 16, "height": 12},
     "camera": "auto",
@@ -46,7 +46,7 @@ const Options small = {"--size", "16x12", "--spp", "1"};
 
 } // namespace
 
-TEST_CASE("frames are drawn that a range names, by their numbers") {
+TEST_CASE("the frames of a range are drawn with their numbers") {
     const Workshop workshop;
     workshop.write("move.xyz", trajectory(7));
     const auto drawn = [&](const std::string& frames) {
@@ -69,7 +69,7 @@ TEST_CASE("frames are drawn that a range names, by their numbers") {
     CHECK(drawn("::3") == Options{"f00", "f03", "f06"});
     CHECK(drawn("3:4") == Options{"f03"});
     CHECK(drawn("3") == Options{"f03"});
-    // The same bits as each by itself, if each has its own camera.
+    // With a camera for each frame, a frame has the bits of its separate image.
     const Options each = joined(small, {"--camera-from", "each"});
     CHECK(workshop.run(joined({"render", "move.xyz", "-o", "out/e%d.pfm", "--frames", "2:4"}, each))
               .code == 0);
@@ -79,7 +79,7 @@ TEST_CASE("frames are drawn that a range names, by their numbers") {
     CHECK(picture(workshop, "out/e3.pfm") == picture(workshop, "out/alone.pfm"));
 }
 
-TEST_CASE("a camera is the first frame's, all frames' or each frame's own") {
+TEST_CASE("a camera fits the first frame or all frames or each frame") {
     const Workshop workshop;
     workshop.write("move.xyz", trajectory(3));
     const auto draw = [&](const std::string& fit) {
@@ -97,7 +97,7 @@ TEST_CASE("a camera is the first frame's, all frames' or each frame's own") {
     CHECK(all[1] != first[1]);
 }
 
-TEST_CASE("values of a parameter are swept, and several together") {
+TEST_CASE("parameters can be swept alone and together") {
     const Workshop workshop(growing);
     const auto render = [&](const std::string& name, const Options& options) {
         const Outcome outcome = workshop.render(name, options);
@@ -110,15 +110,15 @@ TEST_CASE("values of a parameter are swept, and several together") {
     CHECK(picture(workshop, "s1.pfm") == picture(workshop, "one.pfm"));
     render("last.pfm", {"--set=r=2", "--set=x=0.5"});
     CHECK(picture(workshop, "s2.pfm") == picture(workshop, "last.pfm"));
-    // The first one's camera sees the ball grow.
+    // The camera of the first image shows that the ball grows.
     render("g%d.pfm", {"--set", "r=1:2:2"});
     CHECK(picture(workshop, "g0.pfm") != picture(workshop, "g1.pfm"));
-    // What other commands have of it.
+    // Other commands accept --set, too.
     const Outcome converted = workshop.run({"convert", "scene.json", "-", "--set", "r=3"});
     CHECK(nlohmann::json::parse(converted.out)["objects"][0]["radius"] == 3);
 }
 
-TEST_CASE("a sweep of one picture is a film of one") {
+TEST_CASE("a sweep of one value makes a numbered image") {
     const Workshop workshop(growing);
     for (const Options& sweep : {Options{"--set", "r=2:3:1"}, {"--set", "r=2", "--turn", "9/1"}}) {
         std::filesystem::remove(workshop.path() / "f0.png");
@@ -145,7 +145,7 @@ TEST_CASE("whole numbers stay whole in a sweep") {
     CHECK(std::filesystem::exists(workshop.path() / "w22.pfm"));
 }
 
-TEST_CASE("fog that a scene has is each picture's own, whatever the camera") {
+TEST_CASE("the fog of a scene belongs to each image of a sweep for any camera") {
     std::string foggy = growing;
     foggy.insert(1, R"("fog": {"type": "exponential", "density": "$d"},)");
     const Workshop workshop(foggy);
@@ -155,7 +155,7 @@ TEST_CASE("fog that a scene has is each picture's own, whatever the camera") {
     CHECK(picture(workshop, "f1.pfm") == picture(workshop, "one.pfm"));
 }
 
-TEST_CASE("a camera goes around, whether it finds its place or has it") {
+TEST_CASE("--turn moves automatic and fixed cameras around the scene") {
     const Workshop workshop;
     CHECK(workshop.render("t%03d.pfm", {"--turn", "360/4"}).code == 0);
     CHECK(!std::filesystem::exists(workshop.path() / "t004.pfm"));
@@ -168,7 +168,7 @@ TEST_CASE("a camera goes around, whether it finds its place or has it") {
               .find("as many pictures as there are otherwise, 3, got 2") != std::string::npos);
 }
 
-TEST_CASE("a turn is in as many pictures as a film turns out to have") {
+TEST_CASE("--turn must have as many images as there are frames") {
     const Workshop workshop;
     workshop.write("move.xyz", trajectory(5));
     const auto film = [&](const std::string& frames, const std::string& turn,
@@ -186,18 +186,18 @@ TEST_CASE("a turn is in as many pictures as a film turns out to have") {
         "raylane: --turn: must be in as many pictures as there are otherwise, ";
     CHECK(complaint(workshop, film("0:5", "90/9")) == must + "5, got 9\n");
     CHECK(drawn() == 0);
-    // It shows at the end that there are too few,
+    // Too few frames are noticed at the end,
     CHECK(complaint(workshop, film("0:9", "90/9")) == must + "5, got 9\n");
     CHECK(drawn() == 5);
     CHECK(complaint(workshop, film("0:", "360/120")) == must + "5, got 120\n");
     CHECK(drawn() == 5);
-    // before the first that is too much that there are too many,
+    // too many frames before the first one in excess,
     CHECK(complaint(workshop, film("0:", "360/3")) == must + "at least 4, got 3\n");
     CHECK(drawn() == 3);
     CHECK(complaint(workshop, film("::2", "360/1", {"--part", "2/2"})) ==
           must + "at least 2, got 1\n");
     CHECK(drawn() == 0);
-    // and before all where all have been looked at.
+    // and both before all if all frames are read first.
     for (const char* turn : {"360/3", "360/9"})
         CHECK(complaint(workshop, film(":", turn, {"--camera-from", "all"})) ==
               must + "5, got " + (turn + 4) + "\n");
@@ -208,7 +208,7 @@ TEST_CASE("a turn is in as many pictures as a film turns out to have") {
     }
 }
 
-TEST_CASE("pictures that are there are kept, unless they are to be drawn anew") {
+TEST_CASE("existing images are kept unless --overwrite is given") {
     const Workshop workshop(growing);
     const Options sweep = {"--set", "r=1:2:3"};
     CHECK(workshop.render("s%d.pfm", sweep).code == 0);
@@ -229,7 +229,7 @@ TEST_CASE("a film that was interrupted goes on where it was") {
     workshop.write("out/f0.pfm", "drawn");
     const Options film = {"render", "scene.json", "-o", "out/f%d.pfm", "--set", "r=1:2:3"};
     Process process = workshop.start(joined(film, minutes));
-    REQUIRE(workshop.wait_for_files(process, 2)); // amid the second
+    REQUIRE(workshop.wait_for_files(process, 2)); // during the second image
     REQUIRE(workshop.wait_for(workshop.output() / "f1.pfm.part"));
     process.send(SIGINT);
     CHECK(process.wait().code == 128 + SIGINT);
@@ -244,7 +244,7 @@ TEST_CASE("a film that was interrupted goes on where it was") {
     CHECK(std::filesystem::exists(workshop.output() / "f2.pfm"));
 }
 
-TEST_CASE("a view is of any scene, and so are lights that come with it") {
+TEST_CASE("--view works for any scene and moves the lights that follow the camera") {
     const Workshop workshop;
     const auto convert = [&](const Options& options) {
         const Outcome outcome = workshop.run(joined({"convert", "scene.json", "-"}, options));
@@ -252,7 +252,7 @@ TEST_CASE("a view is of any scene, and so are lights that come with it") {
         return nlohmann::json::parse(outcome.out);
     };
     const auto right = convert({"--view", "right", "--orthographic"});
-    CHECK(right["camera"]["type"] == "auto"); // by which it is found again
+    CHECK(right["camera"]["type"] == "auto"); // keeps the view
     CHECK(right["camera"]["orthographic"] == true);
     CHECK(right["camera"]["view"] == nlohmann::json({-1, 0, 0}));
     CHECK(right["lights"].size() == 1);
@@ -268,7 +268,7 @@ TEST_CASE("a view is of any scene, and so are lights that come with it") {
     CHECK(complaint(workshop, {"scene.json", "--up", "0,0,0"})
               .starts_with(
                   "raylane: --up: must be x, y, z, -x, -y or -z, or a direction such as 0,1,1"));
-    // A camera that has its place keeps it.
+    // --zoom does not move a fixed camera.
     const auto near = convert({"--zoom", "2"});
     CHECK(near["camera"]["from"][2] == 5);
     CHECK(near["camera"]["field_of_view"] < 25);
@@ -280,7 +280,7 @@ TEST_CASE("a view is of any scene, and so are lights that come with it") {
               .find("--view: must have something to find its place by") != std::string::npos);
 }
 
-TEST_CASE("scenes of other programs are seen from any side and gone around, but have no frames") {
+TEST_CASE("scenes of other programs accept --view and --turn but not --frames") {
     const Workshop workshop;
     workshop.write("ball.pov", R"(camera { location <0, 0, -5> look_at 0 angle 40 }
 light_source { <9, 9, -9> color rgb 1 }
@@ -326,7 +326,7 @@ END_SCENE
     }
 }
 
-TEST_CASE("mistakes about several pictures cost one line") {
+TEST_CASE("mistakes about several images give an error of one line") {
     const Workshop workshop(growing);
     workshop.write("move.xyz", trajectory(2));
     const auto says = [&](const Options& options, const std::string& what) {
@@ -367,7 +367,7 @@ TEST_CASE("mistakes about several pictures cost one line") {
           std::string::npos);
 }
 
-TEST_CASE("a frame that is malformed ends the film behind those before it") {
+TEST_CASE("a malformed frame ends the sequence after the frames before it") {
     const Workshop workshop;
     workshop.write("move.xyz", trajectory(2) + "3\n\nO 0 0 zero\nH 1 0 0\nH 0 1 0\n");
     const Outcome outcome =

@@ -24,7 +24,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 } // namespace
 
-TEST_CASE("info says what a scene holds and needs") {
+TEST_CASE("info lists the content and the needs of a scene") {
     const Workshop workshop;
     const Outcome text = workshop.run({"info", "scene.json"});
     CHECK(text.code == 0);
@@ -51,7 +51,7 @@ TEST_CASE("info says what a scene holds and needs") {
     CHECK(workshop.names() == std::vector<std::string>{"out", "scene.json"});
 }
 
-TEST_CASE("info says what doubles take") {
+TEST_CASE("info gives the memory of doubles") {
     const Workshop workshop;
     const auto info_with = [&](const std::string& radius) {
         workshop.write("ball.json", R"({
@@ -71,14 +71,13 @@ TEST_CASE("info says what doubles take") {
     CHECK(!needs(in_floats));
     CHECK(in_floats["double_bytes"] == 0);
     CHECK(needs(in_doubles));
-    CHECK(in_doubles["double_bytes"] ==
-          5 * 16 * 8); // a block of four numbers and a row beside them
+    CHECK(in_doubles["double_bytes"] == 5 * 16 * 8); // a block of four numbers, and one more row
     CHECK(in_doubles["scene_bytes"] == in_floats["scene_bytes"].get<int>() + 5 * 16 * 8);
     CHECK(workshop.run({"info", "ball.json"}).out.find("640 bytes of doubles") !=
           std::string::npos);
 }
 
-TEST_CASE("compare says by how much pictures differ, and whether") {
+TEST_CASE("compare reports whether and by how much images differ") {
     const Workshop workshop;
     for (const char* name : {"a.png", "b.png", "a.hdr", "b.hdr", "a.pfm", "b.pfm"})
         REQUIRE(workshop.render(name).code == 0);
@@ -89,7 +88,7 @@ TEST_CASE("compare says by how much pictures differ, and whether") {
         CHECK(same.err.empty());
         CHECK(contains(same.out, "differing  0 of 192 pixels"));
     }
-    // Eight bits of mantissa are not all.
+    // HDR has eight bits of mantissa alone.
     CHECK(workshop.run({"compare", "a.hdr", "a.pfm"}).code == 1);
     CHECK(workshop.run({"compare", "a.hdr", "a.pfm", "--tolerance", "0.01"}).code == 0);
 
@@ -125,7 +124,7 @@ TEST_CASE("compare says by how much pictures differ, and whether") {
               .dump() == "0.1");
 }
 
-TEST_CASE("pictures that cannot be compared are told in one line") {
+TEST_CASE("images that cannot be compared give an error of one line") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png").code == 0);
     REQUIRE(workshop.render("b.png", {"--size", "4x5"}).code == 0);

@@ -42,12 +42,12 @@ void check_end_on_terminal(const Workshop& workshop, Process& process, int signa
 
 } // namespace
 
-TEST_CASE("an interrupted rendering ends and leaves nothing") {
+TEST_CASE("an interrupted rendering ends and leaves no file") {
     for (const int signal : {SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1}) {
         const Workshop workshop;
         Process process = workshop.start(render_for_hours, on_terminal());
         REQUIRE(workshop.wait_for_files(process, 2));
-        REQUIRE(process.wait_for_err("rays/s")); // it is rendering
+        REQUIRE(process.wait_for_err("rays/s")); // the rendering has begun
         check_end_on_terminal(workshop, process, signal);
     }
     // A pipe gets its first progress line after a second.
@@ -57,7 +57,7 @@ TEST_CASE("an interrupted rendering ends and leaves nothing") {
     CHECK(end_of(workshop, process, SIGHUP).find("raylane") == std::string::npos);
 }
 
-TEST_CASE("an interrupted rendering leaves the picture that was there") {
+TEST_CASE("an interrupted rendering keeps the existing image") {
     const Workshop workshop;
     workshop.write("out/picture.png", "old");
     Process process = workshop.start(render_for_hours);
@@ -74,13 +74,13 @@ TEST_CASE("reading a scene can be interrupted") {
     const std::filesystem::path pipe = workshop.path() / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     {
-        // Nobody has opened the other end.
+        // No process has opened the other end.
         Process process = workshop.start(arguments);
         REQUIRE(workshop.wait_for_files(process, 1));
         check_end(workshop, process, SIGINT);
     }
     {
-        // Somebody has, but says no more.
+        // A process has, but writes no more.
         Process process = workshop.start(arguments);
         const int writer = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
         CHECK(::write(writer, "v\nfrom 0", 8) == 8);
@@ -116,7 +116,7 @@ TEST_CASE("the first signal ends a rendering whose tiles take hours") {
     }
 }
 
-TEST_CASE("waiting for a reader of the picture can be interrupted") {
+TEST_CASE("waiting for a reader of the image can be interrupted") {
     const Workshop workshop;
     REQUIRE(::mkfifo((workshop.path() / "pipe.png").c_str(), 0600) == 0);
     Process process =
@@ -125,7 +125,7 @@ TEST_CASE("waiting for a reader of the picture can be interrupted") {
     check_end(workshop, process, SIGINT);
 }
 
-TEST_CASE("a signal at any moment leaves the whole picture, or at most a journal") {
+TEST_CASE("a signal at any moment leaves the whole image or at most a journal") {
     const Workshop workshop;
     const std::vector<std::string> arguments = {"render", "scene.json", "-o", "out/picture.png"};
     const auto start = Clock::now();
@@ -147,7 +147,7 @@ TEST_CASE("a signal at any moment leaves the whole picture, or at most a journal
     }
 }
 
-TEST_CASE("signals that the caller has ignored stay so") {
+TEST_CASE("signals that the caller ignores stay ignored") {
     const Workshop workshop;
     Setup ignoring = on_terminal();
     ignoring.in_child = [prepare = ignoring.in_child] {

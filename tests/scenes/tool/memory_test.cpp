@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 
-/// The tool where memory runs out, at any of its allocations: see failing_memory.c.
+/// Tests of the tool if memory runs out at any of its allocations: see failing_memory.c.
 using namespace raylane::tests;
 
 namespace {
@@ -21,10 +21,10 @@ union { Ball(-0.5) Ball(0.5) }
 difference { box { -1, 1 } sphere { 0, 1.2 } translate 2*y pigment { checker color rgb 1 color rgb 0 } }
 )";
 
-/// A run of the tool with the heap that counts; `at`: refused then, 0 for never.
+/// Settings of failing_memory.c. Allocation number `at` fails; 0: none does.
 struct Heap {
     long at = 0;
-    bool for_good = false; ///< and from then on
+    bool for_good = false; ///< all later allocations fail, too
 };
 
 Outcome render(const Workshop& workshop, const std::string& scene, const std::string& threads,
@@ -41,7 +41,8 @@ Outcome render(const Workshop& workshop, const std::string& scene, const std::st
                         setup);
 }
 
-/// The system may be asked for what can be done without: then all is as it was.
+/// Returns true if the tool made the expected image or ended with one line of error and no file.
+/// Some allocations can be done without: then a refusal changes nothing.
 bool is_right(const Workshop& workshop, const Outcome& outcome, const std::string& expected) {
     const auto picture = workshop.output() / "picture.png";
     const bool is_there = std::filesystem::exists(picture);
@@ -72,7 +73,7 @@ void check_all(const std::string& name, const std::string& scene) {
             std::ifstream(workshop.path() / "allocations") >> count;
             REQUIRE(count > 500);
             long refused = 0;
-            // Of the last thousand, which draw and write, more.
+            // The last thousand, which render and write, are tested more densely.
             for (long at = 1; at <= count; at += at + 1000 < count ? stride() : 1 + stride() / 4) {
                 const Outcome outcome = render(workshop, name, threads, {at, for_good});
                 CAPTURE(name, threads, for_good, at, count, outcome.code, outcome.err);
@@ -85,7 +86,7 @@ void check_all(const std::string& name, const std::string& scene) {
 
 } // namespace
 
-TEST_CASE("memory that runs out is told in one line, whatever it was for") {
+TEST_CASE("memory that runs out at any allocation gives an error of one line") {
     SECTION("JSON") {
         check_all("s.json", ball);
     }

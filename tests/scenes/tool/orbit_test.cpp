@@ -23,7 +23,7 @@ void check(const Vec3f& found, const Vec3f& expected) {
 
 } // namespace
 
-TEST_CASE("a camera goes around what it looks at, and its lights with it") {
+TEST_CASE("a camera turns around its target together with its lights") {
     Orbit orbit(start());
     orbit.turn(90.0, 0.0);
     check(orbit.view().camera.from, {4, 0, 0});
@@ -48,14 +48,14 @@ TEST_CASE("a camera never goes over the poles") {
     check(orbit.view().camera.from, {0, 0, 4});
 }
 
-TEST_CASE("a hand that moves along the picture moves what it is on") {
+TEST_CASE("panning moves the target with the pointer") {
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
         View view = start();
         view.camera.projection = projection;
         view.camera.field_of_view = 90.0F;
         view.camera.height = 8.0F;
         Orbit orbit(view);
-        orbit.turn(90.0, 0.0); // looks along -x; right is -z
+        orbit.turn(90.0, 0.0); // looks along -x, and right is -z
         orbit.pan(0.25, 0.5);
         check(orbit.view().camera.at, {0, 4, -2});
         check(orbit.view().camera.from, {4, 4, -2});
@@ -63,7 +63,7 @@ TEST_CASE("a hand that moves along the picture moves what it is on") {
     }
 }
 
-TEST_CASE("what a camera looks at is seen so many times as large") {
+TEST_CASE("zoom enlarges the target by its factor") {
     Orbit orbit(start());
     orbit.zoom(2.0);
     check(orbit.view().camera.from, {0, 0, 2});
@@ -76,7 +76,7 @@ TEST_CASE("what a camera looks at is seen so many times as large") {
     check(flat.view().camera.from, {0, 0, 4});
 }
 
-TEST_CASE("fog that came with the camera stays with what it is seen on") {
+TEST_CASE("fog that follows the camera stays at the target") {
     View view = start();
     view.fog = {.kind = FogKind::linear, .start = 3.0F, .end = 9.0F};
     Orbit orbit(view);

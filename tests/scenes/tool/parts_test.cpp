@@ -33,7 +33,7 @@ std::string content(const Workshop& workshop, const std::string& name) {
     return content_of(workshop.path() / name);
 }
 
-/// Parts are EXR of floats, and so are EXR that merge makes of them.
+/// Returns options for an output with the floats that parts and merged EXR have.
 Options floats_in(const std::string& output) {
     return output.ends_with(".exr") ? Options{"--bits", "32"} : Options{};
 }
@@ -45,7 +45,7 @@ void draw_parts(const Workshop& workshop, int count, const Options& options = {}
 
 } // namespace
 
-TEST_CASE("parts of a picture, put together, are the same file as the whole") {
+TEST_CASE("merged parts of an image are the same file as the whole") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     for (const Options& options :
@@ -73,7 +73,7 @@ TEST_CASE("parts of a picture, put together, are the same file as the whole") {
     CHECK(content_of(workshop.path() / "merged.png") == content_of(workshop.path() / "whole.png"));
 }
 
-TEST_CASE("Merged EXR have the floats of their parts, or halves on request") {
+TEST_CASE("Merged EXR have the floats of their parts or halves on request") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     draw_parts(workshop, 2, {"--bits", "32"});
@@ -88,7 +88,7 @@ TEST_CASE("Merged EXR have the floats of their parts, or halves on request") {
     }
 }
 
-TEST_CASE("parts that make no whole are refused in one line") {
+TEST_CASE("parts that do not make a whole give an error of one line") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     const auto refusal = [&](const Options& command) {
@@ -136,7 +136,7 @@ TEST_CASE("parts that make no whole are refused in one line") {
     CHECK(workshop.is_output_empty());
 }
 
-TEST_CASE("parts of scenes with other settings, which no Comment has, are of other pictures") {
+TEST_CASE("parts of scenes with different settings are refused even if the Comments are equal") {
     if (!scenes::has_exr()) return;
     const auto with = [](const std::string& settings) {
         std::string scene = ball;
@@ -163,7 +163,7 @@ TEST_CASE("parts of scenes with other settings, which no Comment has, are of oth
     }
 }
 
-TEST_CASE("parts with layers and without are told") {
+TEST_CASE("parts with and without layers are not merged") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     draw_parts(workshop, 2);
@@ -175,7 +175,7 @@ TEST_CASE("parts with layers and without are told") {
     CHECK(workshop.is_output_empty());
 }
 
-TEST_CASE("parts that were drawn before they said their options become one picture") {
+TEST_CASE("parts without an Options attribute can be merged") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     draw_parts(workshop, 2);
@@ -190,12 +190,12 @@ TEST_CASE("parts that were drawn before they said their options become one pictu
     }
     CHECK(workshop.run(merged({1, 2}, "a.png")).err.empty());
     CHECK(workshop.run({"verify", "a.png", "scene.json", "--quiet"}).code == 0);
-    // Not with one that does.
+    // They cannot be merged with a part that has Options.
     REQUIRE(workshop.run(part(2, 2)).code == 0);
     CHECK(workshop.run(merged({1, 2}, "out/a.png")).err.ends_with(": its Options differ\n"));
 }
 
-TEST_CASE("one frame of several is drawn in parts as any other scene is") {
+TEST_CASE("one frame of several can be drawn in parts") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     workshop.write("move.xyz", "2\n\nC 0 0 0\nO 0 0 1\n2\n\nC 0 0 0\nO 0 1 1\n"
@@ -235,20 +235,20 @@ TEST_CASE("one frame of several is drawn in parts as any other scene is") {
         CHECK(workshop.run(merged({1, 3}, "out/a.png")).err ==
               "raylane: PARTS: must be all 3, but there is no part 2\n");
     }
-    // It has the number in its name, which is known once the file has been read.
+    // The name has the frame's number, which is known after the file is read.
     ran({"render", "move.xyz", "--quiet", "--frames", "-1", "-o", "f%02d.exr", "--part", "1/2",
          "--spp", "1"});
     CHECK(std::filesystem::exists(workshop.path() / "f02.exr"));
     CHECK(workshop.run({"render", "move.xyz", "--frames", "1", "-o", "out/a.png", "--part", "2/3"})
               .err == "raylane: --part: goes with an output that ends in .exr\n");
-    // Those of a range are drawn in turns.
+    // With a range, the frames are divided and not the image.
     ran({"render", "move.xyz", "--quiet", "--frames", ":", "-o", "out/t%d.png", "--part", "2/3",
          "--spp", "1"});
     CHECK(std::filesystem::exists(workshop.output() / "t1.png"));
     CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
 }
 
-TEST_CASE("parts with an alpha or layers become no picture without them") {
+TEST_CASE("parts with alpha or layers are not merged into a format without them") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     const auto refused = [&](const std::string& output, const std::string& message) {
@@ -272,7 +272,7 @@ TEST_CASE("parts with an alpha or layers become no picture without them") {
         refused("out/" + output, "--layers, which goes with an output that ends in .exr");
     CHECK(workshop.is_output_empty());
     becomes("a.exr");
-    // A scene may have an alpha of its own, which others show over black, as render does.
+    // If the scene itself has alpha, other formats show it over black, as render does.
     std::string with_alpha = ball;
     with_alpha.insert(with_alpha.find("\"width\""), "\"alpha\": true, ");
     workshop.write("scene.json", with_alpha);
@@ -284,7 +284,7 @@ TEST_CASE("parts with an alpha or layers become no picture without them") {
     }
 }
 
-TEST_CASE("parts are put together in any order, also of scenes by different names") {
+TEST_CASE("parts can be merged in any order and from scenes with different names") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     workshop.write("other.json", ball);
@@ -297,7 +297,7 @@ TEST_CASE("parts are put together in any order, also of scenes by different name
     CHECK(content(workshop, "b.png") == content(workshop, "whole.png"));
 }
 
-TEST_CASE("a part that says nothing of its rays, or what nobody knows, is refused") {
+TEST_CASE("a part with a missing or malformed Rays attribute is refused") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     draw_parts(workshop, 2);
@@ -320,7 +320,7 @@ TEST_CASE("a part that says nothing of its rays, or what nobody knows, is refuse
     CHECK(workshop.is_output_empty());
 }
 
-TEST_CASE("a picture names its selection so that verify understands it") {
+TEST_CASE("verify understands the selection that an image names") {
     const Workshop workshop;
     std::string atoms;
     double z = 0.0;
@@ -357,7 +357,7 @@ TEST_CASE("a picture names its selection so that verify understands it") {
         shown(selection);
 }
 
-TEST_CASE("a part is K/N, and has floats in an EXR") {
+TEST_CASE("a part is K/N and goes with floats in an EXR") {
     const Workshop workshop;
     for (const char* text : {"", "3", "0/3", "4/3", "1/0", "-1/3", "1/3/5", "a/b", "1/1e3"}) {
         const Outcome outcome = workshop.render("a.exr", {"--part", text});
@@ -371,7 +371,7 @@ TEST_CASE("a part is K/N, and has floats in an EXR") {
           "raylane: --part: goes with --bits 32\n");
 }
 
-TEST_CASE("the figures of a part are those of its own pixels") {
+TEST_CASE("the figures of a part count its pixels alone") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     for (const Options& options :
@@ -385,12 +385,12 @@ TEST_CASE("the figures of a part are those of its own pixels") {
             CHECK(stats["samples_per_pixel"] == 4);
             CHECK(outcome.err.find(" pixels, 4 samples each, ") != std::string::npos);
         }
-    // One that has no tile.
+    // A part without a tile.
     REQUIRE(workshop.run(part(5, 5, {"--stats", "s.json"})).code == 0);
     CHECK(nlohmann::json::parse(content(workshop, "s.json"))["samples_per_pixel"] == 0);
 }
 
-TEST_CASE("parts are put together, and verified, where their instruction set is not there") {
+TEST_CASE("parts can be merged and verified without their instruction set") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     std::string absent;
@@ -400,7 +400,7 @@ TEST_CASE("parts are put together, and verified, where their instruction set is 
         scenes::PictureOptions options;
         options.bits = 32;
         options.texts = picture.texts;
-        // They have been hashed with the instruction set that they were drawn by.
+        // The hash includes the instruction set that drew the part.
         std::erase_if(options.texts, [](const auto& text) { return text.first == "Options"; });
         for (auto& [key, text] : options.texts)
             if (const std::size_t at = text.find(" --isa "); key == "Comment") {
@@ -417,14 +417,14 @@ TEST_CASE("parts are put together, and verified, where their instruction set is 
     const Options verify = {"verify", "whole.exr", "scene.json", "--quiet"};
     CHECK(workshop.run(verify).err.empty());
     CHECK(workshop.run(verify).code == 0);
-    // All of it is drawn again as it was, which cannot be.
+    // --whole renders with the named instruction set, which is missing.
     const Outcome again = workshop.run(joined(verify, {"--whole"}));
     CHECK(again.code == 2);
     CHECK(again.err.starts_with("raylane: --isa: this program was built without " + absent +
                                 ", with "));
 }
 
-TEST_CASE("a part that was interrupted goes on, too") {
+TEST_CASE("an interrupted part resumes") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
     const std::filesystem::path journal = workshop.path() / "part-2.exr.part";

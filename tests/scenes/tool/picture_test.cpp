@@ -3,7 +3,7 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
-/// What of a picture is drawn, and how its file has it.
+/// Tests of options for the drawn part of an image and for its file.
 using namespace raylane;
 using namespace raylane::tests;
 
@@ -26,7 +26,7 @@ scenes::Image picture(const Workshop& workshop, const std::string& name, const O
 
 } // namespace
 
-TEST_CASE("a crop is that part of the picture") {
+TEST_CASE("a crop has the pixels of the whole image") {
     const Workshop workshop;
     for (const Options& sampling : {Options{"--spp", "4"}, {"--quality", "40"}}) {
         const Options options = joined(sampling, {"--size", "40x30", "--outline", "2"});
@@ -42,7 +42,7 @@ TEST_CASE("a crop is that part of the picture") {
     }
 }
 
-TEST_CASE("a picture says how it was made, and nothing of where and when") {
+TEST_CASE("an image records how it was made but not where or when") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png", {"--spp", "4", "--dpi", "300"}).code == 0);
     REQUIRE(workshop.render("b.png", {"--spp", "4", "--dpi", "300", "--threads", "1"}).code == 0);
@@ -55,7 +55,7 @@ TEST_CASE("a picture says how it was made, and nothing of where and when") {
     CHECK(content.find(workshop.path().string()) == std::string::npos);
 }
 
-TEST_CASE("lines are drawn as the scene or the command line says") {
+TEST_CASE("outlines are drawn by the scene's settings or the command line's") {
     std::string outlined = ball;
     outlined.insert(1, R"("outline": {"width": 2, "color": "#00ff00"}, )");
     const Workshop plain, with_outline(outlined);
@@ -69,7 +69,7 @@ TEST_CASE("lines are drawn as the scene or the command line says") {
     CHECK(bytes_of(with_outline, {"--outline", "0"}) == bytes_of(plain, {}));
 }
 
-TEST_CASE("an alpha leaves the background out") {
+TEST_CASE("--alpha leaves the background out") {
     std::string without = ball;
     without.replace(without.find("\"width\""), 0, "\"alpha\": true, ");
     const Workshop workshop, by_scene(without);
@@ -81,7 +81,7 @@ TEST_CASE("an alpha leaves the background out") {
     const scenes::Image own = picture(by_scene, "a.png", {});
     CHECK(own.rgb.is_same(asked.rgb));
     CHECK(own.alpha.is_same(asked.alpha));
-    // It says what was asked for.
+    // The Comment has the option if it was given.
     const auto comment = [](const scenes::Image& image) {
         const auto found = std::find_if(image.texts.begin(), image.texts.end(),
                                         [](const auto& text) { return text.first == "Comment"; });
@@ -93,7 +93,7 @@ TEST_CASE("an alpha leaves the background out") {
     CHECK(picture(workshop, "b.png", {}).alpha.size() == 0);
     CHECK(workshop.run({"compare", "a.png", "a.png"}).code == 0);
     CHECK(workshop.run({"compare", "a.png", "b.png"}).code == 1);
-    // Others have it over black.
+    // Other formats show the image over black.
     CHECK(picture(by_scene, "a.pfm", {}).rgb[2] == 0.0F);
     CHECK(error_of(workshop, "a.pfm", {"--alpha"}) == "raylane: --alpha: goes with PNG or EXR\n");
     if (!scenes::has_exr()) return;
@@ -102,7 +102,7 @@ TEST_CASE("an alpha leaves the background out") {
     CHECK(exr.alpha[6 * 16 + 8] == 1.0F);
 }
 
-TEST_CASE("what a picture cannot have is told in a line") {
+TEST_CASE("options that an image cannot have give an error of one line") {
     const Workshop workshop;
     const std::string crop = "raylane: --crop: must be X,Y,WIDTHxHEIGHT in pixels from the upper "
                              "left corner, such as 100,50,320x240, got \"";
@@ -131,7 +131,7 @@ TEST_CASE("what a picture cannot have is told in a line") {
           "raylane: --outline-color: goes with --outline\n");
 }
 
-TEST_CASE("layers go into an EXR") {
+TEST_CASE("layers are written to an EXR") {
     const Workshop workshop;
     if (!scenes::has_exr()) {
         CHECK(error_of(workshop, "a.exr", {}) ==

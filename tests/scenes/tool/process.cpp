@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::chrono::minutes patience{10};
 
-/// What is started: raylane, or what runs a program for another processor.
+/// The program that is started: raylane, or an emulator that runs it.
 #ifdef RAYLANE_EMULATOR
 constexpr const char* first_words[] = {RAYLANE_EMULATOR, RAYLANE_TOOL};
 constexpr const char* started = first_words[0];
@@ -35,7 +35,7 @@ int checked(int result, const char* what) {
     return result;
 }
 
-/// Two ends: what is written to the second is read from the first.
+/// Returns the two ends of a pipe: bytes written to the second are read from the first.
 using Ends = std::array<int, 2>;
 
 Ends pipe_ends() {
@@ -54,14 +54,16 @@ Ends terminal_ends() {
     return ends;
 }
 
-/// Between the fork and the start of the program no signal may reach the handlers of this one.
+/// Restores default handlers and the mask. No signal may reach this program's handlers between the
+/// fork and the start of the new program.
 void restore_signals(const sigset_t& mask) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
         ::signal(signal, SIG_DFL);
     ::sigprocmask(SIG_SETMASK, &mask, nullptr);
 }
 
-/// Appends what there is. False at the end; a terminal that nobody writes to any more gives EIO.
+/// Appends the available bytes. Returns false at the end, for which a terminal without writers
+/// gives EIO.
 bool read_some(int descriptor, std::string& text) {
     std::array<char, 4096> buffer;
     const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
@@ -79,7 +81,7 @@ Process::Process(const std::vector<std::string>& arguments, const Setup& setup) 
         argv.push_back(word.data());
     argv.push_back(nullptr);
 
-    // Opened here, because the child may become a user who does not get as far as there.
+    // Opened here, because the child may become a user without access to the folder.
     const int program = checked(::open(started, O_RDONLY | O_CLOEXEC), started);
     const Ends out = pipe_ends();
     const Ends err = setup.terminal ? terminal_ends() : pipe_ends();
@@ -121,7 +123,7 @@ void Process::send(int signal) const {
 
 bool Process::waits_in_open() const {
     const std::string folder = "/proc/" + std::to_string(child_);
-    long call = -1; // not a number while it runs
+    long call = -1; // the file has no number while the process runs
     std::ifstream(folder + "/syscall") >> call;
     if (call != SYS_openat) return false;
     std::string status;
@@ -134,7 +136,7 @@ bool Process::waits_in_open() const {
 int Process::unnamed_files_in(const std::filesystem::path& directory) const {
     const std::string start = std::filesystem::canonical(directory).string() + "/";
     int count = 0;
-    std::error_code gone; // it may close them at any time
+    std::error_code gone; // the process may close files at any time
     for (std::filesystem::directory_iterator file("/proc/" + std::to_string(child_) + "/fd", gone),
          end;
          !gone && file != end; file.increment(gone)) {
@@ -199,7 +201,7 @@ Setup Hold::in(Setup setup) const {
         if (prepare) prepare();
         ::setenv("LD_PRELOAD", RAYLANE_HELD_CALL, 1);
         ::setenv("RAYLANE_HOLD", text.c_str(), 1);
-        // The address sanitizer asks to be loaded first, which its allocator alone needs.
+        // The address sanitizer wants to be loaded first, but only its allocator needs that.
         const char* const options = std::getenv("ASAN_OPTIONS");
         const std::string more = options != nullptr ? std::string(options) + ':' : "";
         ::setenv("ASAN_OPTIONS", (more + "verify_asan_link_order=0").c_str(), 1);

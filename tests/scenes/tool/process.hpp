@@ -12,43 +12,43 @@
 
 namespace raylane::tests {
 
-/// Outcome of a program.
+/// Outcome of a run of a program.
 struct Outcome {
-    int code;         ///< its exit code, or 128 + the number of the signal that killed it
-    bool exited;      ///< true if by itself
-    std::string out;  ///< text that it wrote on standard output
-    std::string err;  ///< on standard error
+    int code;         ///< the exit code, or 128 + the number of the signal that killed it
+    bool exited;      ///< true if no signal killed it
+    std::string out;  ///< text on standard output
+    std::string err;  ///< text on standard error
     long peak_memory; ///< MiB
 };
 
 /// Setup in which a program is started.
 struct Setup {
-    std::filesystem::path directory = "."; ///< that it starts in
+    std::filesystem::path directory = "."; ///< working directory
     bool terminal = false;                 ///< true if standard error is a terminal
     std::string out;                       ///< a file to be standard output; "" for Outcome::out
-    std::function<void()> in_child;        ///< to be done before: limits, users, signals
+    std::function<void()> in_child;        ///< called before the start: limits, users, signals
 };
 
-/// The raylane tool, running.
+/// Owns a running process of the raylane tool.
 class Process {
   public:
     Process(const std::vector<std::string>& arguments, const Setup& setup);
-    /// Kills it if it still runs.
+    /// Kills the process if it still runs.
     ~Process();
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
 
     void send(int signal) const;
-    /// Waits until it has written a text on standard error. Returns false if it ends without, or
-    /// after ten minutes.
+    /// Waits until the process has written a text on standard error. Returns false if it ends
+    /// without the text, and after ten minutes.
     bool wait_for_err(std::string_view text);
-    /// Waits for a text that it writes from now on.
+    /// Waits for a text that the process writes from now on.
     bool wait_for_further_err(std::string_view text);
-    /// True if its main thread waits in open(2), as for the other end of a pipe with a name.
+    /// Returns true if the main thread waits in open(2), as for the other end of a named pipe.
     bool waits_in_open() const;
-    /// How many files without a name it has open in a directory.
+    /// Returns how many files without a name the process has open in a directory.
     int unnamed_files_in(const std::filesystem::path& directory) const;
-    /// Takes what it writes until it ends, and kills it where that takes minutes.
+    /// Reads the output until the process ends. Kills it after ten minutes.
     Outcome wait();
 
   private:
@@ -56,7 +56,7 @@ class Process {
                  std::size_t from = 0);
 
     pid_t child_ = -1;
-    int out_ = -1, err_ = -1; // where to read what it writes
+    int out_ = -1, err_ = -1; // the reading ends of its output
     std::string out_text_, err_text_;
 };
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Several ranks of one job draw and trace what one process does, to the byte; what ends one of them
-# loses no tile that was done.
+# Tests that several ranks of one job render and trace the same bytes as one process, and that the
+# end of one rank loses no finished tile.
 #
 #   ranks_test.sh RAYLANE SCENE HELD_CALL    77 without mpirun, python3 or raylane's MPI
 #
@@ -18,7 +18,7 @@ done
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-# As root, and with more ranks than processors, which is for tests.
+# Allows root, and more ranks than processors, which only tests need.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 numbers=3
 [ "${RAYLANE_TEST_ROUNDS-}" != full ] || numbers="2 3"
@@ -75,7 +75,7 @@ both_map() { # mapped, processes
     done
     [ $count -ge 2 ]
 }
-# Two ranks that draw this for hours have the same memory.
+# Checks that two ranks, which render for hours, map the same memory.
 shares() { # mapped, scene and options...
     mapped=$1
     shift
@@ -117,7 +117,7 @@ for options in "--frames 1" "--frames -1 --camera-from all --view top --zoom 2" 
     job 3 render film.xyz $options -o many.png --size 150x90 2>err || fail "$options"
     same one.png many.png
 done
-# Both have a hand in it: they have the one scene.
+# Both ranks render the frame: they share its scene.
 shares "memfd:raylane scene" film.xyz --frames 1
 if [ -e one.exr ]; then
     "$raylane" render film.xyz -q --frames 1 -o one.exr --bits 32 --size 150x90
@@ -145,7 +145,7 @@ job 2 render - --frames 0: -o 'many%d.pfm' --size 40x30 <film.xyz 2>err || fail 
 for frame in 0 1 2; do
     same one$frame.pfm many$frame.pfm
 done
-# Longer than what goes from rank to rank at once.
+# Longer than one message from rank to rank.
 python3 -c 'print(300000)
 print()
 for i in range(300000): print("C %.6f %.6f %.6f" % (i % 70, i // 70 % 70, i // 4900))' >many.xyz
@@ -193,7 +193,7 @@ with open("many-rays.npy", "wb") as file:
         file.write(block)
 PYTHON
 mkfifo pipe
-exec 3<>pipe # waits for nobody
+exec 3<>pipe # does not wait for another process
 job 2 trace "$scene" many-rays.npy -o pipe --threads 2 2>err 3>&- &
 has_bytes() { # pipe that is open as descriptor 3
     python3 -c 'import fcntl, struct, sys, termios
@@ -266,7 +266,7 @@ refused 2 "err: must be an array in NumPy's format" trace "$scene" err
 
 echo "what ends a rank loses no tile that was done"
 begin() { # options of mpirun and a program, options of the rendering
-    : >many.png.part # is written from the first tile on
+    : >many.png.part # an existing journal is written from the first tile on
     # shellcheck disable=SC2086 # lists of options
     timeout 300 mpirun --oversubscribe -n 2 $1 "$raylane" render "$scene" -o many.png $2 >out 2>err 5>&- &
 }

@@ -13,7 +13,7 @@ using namespace raylane::tests;
 
 namespace {
 
-/// A refusal by the system is one line, exit code 3.
+/// Checks that a refusal by the system gives one line and exit code 3.
 void check(const Outcome& outcome, const std::string& message) {
     CHECK(outcome.code == 3);
     CHECK(outcome.exited);
@@ -21,8 +21,8 @@ void check(const Outcome& outcome, const std::string& message) {
     CHECK(outcome.err == "raylane: " + message + "\n");
 }
 
-/// Renders what is no scene, and what would take hours: a refusal that comes in spite of either
-/// came before the work.
+/// Renders an invalid scene, a missing one, and one that takes hours. The same refusal for all
+/// shows that it comes before the scene is read.
 void check_at_once(const Workshop& workshop, const std::vector<std::string>& outputs,
                    const std::string& message, const Setup& setup = {}) {
     workshop.write("bad.json", "{");
@@ -39,7 +39,8 @@ Setup with_limit(int resource, rlim_t value) {
     return setup;
 }
 
-/// Root may write everywhere; anybody else will do.
+/// Returns a setup that becomes an unprivileged user if the process runs as root, who may write
+/// everywhere.
 Setup as_nobody() {
     Setup setup;
     setup.in_child = [] {
@@ -53,7 +54,7 @@ Setup as_nobody() {
 
 } // namespace
 
-TEST_CASE("what cannot be written is told before the scene is read") {
+TEST_CASE("an output that cannot be written is reported before the scene is read") {
     const Workshop workshop;
     std::filesystem::create_directory(workshop.path() / "picture.png");
     workshop.write("file", "");
@@ -71,7 +72,7 @@ TEST_CASE("what cannot be written is told before the scene is read") {
           "none/difference.png: cannot write: No such file or directory");
 }
 
-TEST_CASE("who may not write is told before the scene is read") {
+TEST_CASE("a missing permission to write is reported before the scene is read") {
     using std::filesystem::perms;
     const Workshop workshop;
     const auto protected_file = workshop.write("out/protected.png", "old");
@@ -92,7 +93,7 @@ TEST_CASE("who may not write is told before the scene is read") {
           "scene.json: cannot open: Permission denied");
 }
 
-TEST_CASE("a full disk is told in one line and leaves nothing") {
+TEST_CASE("a full disk gives an error of one line and leaves no file") {
     const Workshop workshop;
     for (const char* name : {"full.png", "full.hdr", "full.pfm"}) {
         std::filesystem::create_symlink("/dev/full", workshop.path() / name);
@@ -102,7 +103,7 @@ TEST_CASE("a full disk is told in one line and leaves nothing") {
           "/dev/full: cannot write: No space left on device");
     CHECK(std::filesystem::remove(workshop.output() / "picture.png"));
 
-    // A picture larger than what is allowed; a PFM's size is known before.
+    // An image larger than the limit. The size of a PFM is known in advance.
     for (const char* name : {"out/picture.png", "out/picture.hdr"})
         check(workshop.run({"render", "scene.json", "-o", name, "--size", "300x300"},
                            with_limit(RLIMIT_FSIZE, 500)),
@@ -113,7 +114,7 @@ TEST_CASE("a full disk is told in one line and leaves nothing") {
     CHECK(workshop.is_output_empty());
 }
 
-TEST_CASE("a disk without room is told before the rendering starts") {
+TEST_CASE("a disk without space is reported before the rendering starts") {
     const Workshop workshop;
     const bool mounted = ::unshare(CLONE_NEWNS) == 0 &&
                          ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
@@ -122,7 +123,7 @@ TEST_CASE("a disk without room is told before the rendering starts") {
         WARN("skipped: no file system can be mounted here");
         return;
     }
-    // Room for a name, but for no content; then for some of it.
+    // First there is space for a name but for no content, then for some of the content.
     workshop.write("out/all", std::string(64 << 10, 'x'));
     for (const char* name : {"out/picture.png", "out/picture.hdr", "out/picture.pfm"})
         check(workshop.run(joined({"render", "scene.json", "-o", name}, hours)),
@@ -136,7 +137,7 @@ TEST_CASE("a disk without room is told before the rendering starts") {
     CHECK(::umount(workshop.output().c_str()) == 0);
 }
 
-TEST_CASE("standard output that cannot be written is told in one line") {
+TEST_CASE("standard output that cannot be written gives an error of one line") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png").code == 0);
     const std::vector<std::vector<std::string>> commands = {{"info", "scene.json"},
@@ -161,7 +162,7 @@ TEST_CASE("standard output that cannot be written is told in one line") {
     CHECK(workshop.run({"render", "scene.json", "-o", "out/b.png"}, full).code == 0);
 }
 
-TEST_CASE("what would go to a closed stream goes into no picture") {
+TEST_CASE("text for a closed stream does not get into the image") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png").code == 0);
     const std::string expected = content_of(workshop.path() / "a.png");
@@ -185,7 +186,7 @@ TEST_CASE("what would go to a closed stream goes into no picture") {
           "standard input: cannot read: Bad file descriptor");
 }
 
-TEST_CASE("memory that is refused is told in one line and leaves nothing") {
+TEST_CASE("memory that is refused gives an error of one line and leaves no file") {
     if (sanitized) {
         WARN("skipped: a sanitizer takes more memory than any limit");
         return;
@@ -195,8 +196,8 @@ TEST_CASE("memory that is refused is told in one line and leaves nothing") {
     check(workshop.run(joined(render, {"--size", "16000x16000"}), with_limit(RLIMIT_AS, 512 << 20)),
           "not enough memory");
     CHECK(workshop.is_output_empty());
-    // Enough for the picture, but not for the stacks of so many threads; whichever of them is the
-    // first to notice.
+    // Enough memory for the image but not for the stacks of all threads. Any of the threads may be
+    // the first to notice.
     for (const rlim_t megabytes : {40, 100, 200}) {
         const Outcome outcome = workshop.run(
             joined(render, {"--size", "300x300", "--spp", "65536", "--threads", "200"}),

@@ -12,7 +12,7 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-/// The bytes of a picture that has to come.
+/// Renders an image and returns its bytes. The rendering must succeed.
 std::string bytes_of(const Workshop& workshop, const std::string& name, const Options& options) {
     const Outcome outcome = workshop.render(name, options);
     CHECK(outcome.code == 0);
@@ -33,7 +33,7 @@ std::vector<float> pixel(const scenes::Image& image, int x, int y) {
     return {image.rgb[first], image.rgb[first + 1], image.rgb[first + 2]};
 }
 
-/// Half a mirror before a blue world.
+/// A mirror that reflects half of a blue background.
 const std::string mirror = R"({
     "image": {"width": 5, "height": 5},
     "camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
@@ -45,7 +45,7 @@ const std::string mirror = R"({
 
 } // namespace
 
-TEST_CASE("a picture does not depend on the number of threads") {
+TEST_CASE("an image file does not depend on the number of threads") {
     const Workshop workshop;
     for (const char* name : {"picture.png", "picture.hdr", "picture.pfm"})
         for (const Options& engine : {Options{},
@@ -62,7 +62,7 @@ TEST_CASE("a picture does not depend on the number of threads") {
         }
 }
 
-TEST_CASE("the size, the samples and the transfer can be overridden") {
+TEST_CASE("the size and the samples and the transfer can be overridden") {
     const Workshop workshop;
     CHECK(picture(workshop, {}).width == 16);
     CHECK(picture(workshop, {}).height == 12);
@@ -108,7 +108,7 @@ TEST_CASE("the limits can be overridden") {
     CHECK(pixel(picture(workshop, {"--max-depth", "0"}), 0, 0)[2] == 0.5F);
 }
 
-TEST_CASE("a picture without a name has the scene's, here") {
+TEST_CASE("an image without a name has the scene's in the current folder") {
     const Workshop workshop;
     std::filesystem::create_directory(workshop.path() / "far");
     workshop.write("far/ball.v2.json", ball);
@@ -177,7 +177,7 @@ TEST_CASE("the figures of a rendering are JSON") {
     CHECK(figures["rays"]["total"] == figures["rays"]["primary"].get<int>() +
                                           figures["rays"]["reflected"].get<int>() +
                                           figures["rays"]["shadow"].get<int>());
-    // The reference has one way.
+    // The reference has one way to search.
     CHECK(figures["searches"]["shape_by_shape"] == 0);
     const nlohmann::ordered_json vector = stats({"--engine", "vector"});
     CHECK(vector["searches"]["shape_by_shape"].get<int>() +
@@ -188,7 +188,7 @@ TEST_CASE("the figures of a rendering are JSON") {
     CHECK(stats({"--threads", "4"})["rays"] == stats({"--threads", "1"})["rays"]);
     CHECK(stats({"--threads", "4"})["threads"] == 4);
 
-    // A scene's name may be anything.
+    // A scene's name may have any bytes.
     workshop.write("b\xFF\n.json", ball);
     CHECK(
         workshop.run({"render", "b\xFF\n.json", "-o", "out/p.png", "--stats", "out/s.json"}).code ==
@@ -197,7 +197,7 @@ TEST_CASE("the figures of a rendering are JSON") {
           "b\\xFF\\x0A.json");
 }
 
-TEST_CASE("fingerprints tell what drew a picture, not by how many") {
+TEST_CASE("fingerprints depend on scene and options and not on threads or tiles") {
     const Workshop workshop;
     const auto fingerprints = [&](const Options& options) {
         REQUIRE(workshop.render("a.png", joined(options, {"--stats", "s.json"})).code == 0);
@@ -228,7 +228,7 @@ TEST_CASE("fingerprints tell what drew a picture, not by how many") {
     }
 }
 
-TEST_CASE("one frame of several has figures as any other scene has") {
+TEST_CASE("one frame of several can have figures") {
     const Workshop workshop;
     workshop.write("move.xyz", "2\n\nC 0 0 0\nO 0 0 1\n3\n\nC 0 0 0\nO 0 1 1\nO 0 2 2\n");
     const Options frame = {"render", "move.xyz", "--frames", "-1", "-o",      "f%d.png", "--size",
@@ -252,7 +252,7 @@ TEST_CASE("one frame of several has figures as any other scene has") {
           "raylane: --stats: goes without --frames of several, --turn and several values\n");
 }
 
-TEST_CASE("a picture and its figures do not go into one stream") {
+TEST_CASE("an image and its figures cannot go into one stream") {
     const Workshop workshop;
     const auto refused = [&](const Options& options, const std::string& got,
                              const std::string& out = "") {
@@ -279,7 +279,7 @@ TEST_CASE("a picture and its figures do not go into one stream") {
     CHECK(workshop.run({"render", "scene.json", "-o", "-", "--stats", "s.json"}).code == 0);
 }
 
-TEST_CASE("a picture can be a pipe's or a device's") {
+TEST_CASE("an image can be written to a pipe or a device") {
     const Workshop workshop;
     std::filesystem::create_symlink("/dev/stdout", workshop.path() / "stdout.pfm");
     const Outcome outcome = workshop.run({"render", "scene.json", "-o", "stdout.pfm"});

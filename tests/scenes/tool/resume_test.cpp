@@ -20,14 +20,14 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-/// The command that renders a picture of many tiles.
+/// Returns the command that renders an image of many tiles.
 Options drawing(const Options& options = {}, const char* threads = "2") {
     return joined({"render", "scene.json", "-o", "out/picture.png", "--spp", "4", "--size",
                    sanitized ? "800x800" : "1000x1000", "--threads", threads},
                   options);
 }
 
-/// A picture of two tiles: the first is empty, the second shows glass.
+/// An image of two tiles: the first is empty, the second shows glass.
 const std::string two_tiles = R"({"image": {"width": 128, "height": 64},
     "camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "background": [0, 0, 0.5],
     "lights": [], "limits": {"max_depth": 12, "min_weight": 0},
@@ -45,7 +45,7 @@ std::string picture_of(const Workshop& workshop) {
     return content_of(workshop.output() / "picture.png");
 }
 
-/// Returns the picture without any interruption.
+/// Renders the image without any interruption, and returns its bytes.
 std::string whole(const Workshop& workshop, const Options& command = drawing()) {
     REQUIRE(workshop.run(joined(command, {"--no-resume"})).code == 0);
     std::string picture = picture_of(workshop);
@@ -61,13 +61,13 @@ bool has_journal(const Workshop& workshop) {
     return std::filesystem::exists(workshop.output() / "picture.png.part");
 }
 
-/// Makes each tile be in the journal as soon as it is drawn: an empty journal is written at once.
-/// The first of its writes is the head.
+/// Writes an empty journal. An existing journal gets each tile as soon as it is drawn. The first
+/// write to it is the head.
 void begin_journal(const Workshop& workshop) {
     workshop.write("out/picture.png.part", "");
 }
 
-/// Sends the signal to a process that is held, with a terminal as standard error, and lets it go.
+/// Sends the signal to a held process, with a terminal as standard error, and releases it.
 Outcome end_held(Process& process, Hold& hold, int signal) {
     REQUIRE(hold.wait());
     process.send(signal);
@@ -87,7 +87,7 @@ Outcome interrupt(const Workshop& workshop, int signal = SIGINT) {
     return outcome;
 }
 
-/// Leaves a journal of all of the picture, which could not take its name.
+/// Leaves a journal of the complete image, whose file could not get its name.
 void leave_whole_journal(const Workshop& workshop) {
     begin_journal(workshop);
     Hold hold("pwrite", 1);
@@ -102,7 +102,7 @@ void leave_whole_journal(const Workshop& workshop) {
 
 } // namespace
 
-TEST_CASE("the first SIGINT or SIGTERM finishes what is under way, and the picture goes on") {
+TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image can be resumed") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
     const std::string goes_on = " %; the same command goes on with out/picture.png.part";
@@ -139,7 +139,7 @@ TEST_CASE("the first SIGINT or SIGTERM finishes what is under way, and the pictu
     }
 }
 
-TEST_CASE("the second signal ends a rendering at once, and what it had is not lost") {
+TEST_CASE("the second signal ends a rendering at once and keeps the finished tiles") {
     const auto end_by_two = [](Process& process) {
         process.send(SIGTERM);
         static_cast<void>(process.wait_for_err("once more to end at once"));
@@ -154,9 +154,9 @@ TEST_CASE("the second signal ends a rendering at once, and what it had is not lo
         const Outcome outcome = end_by_two(process);
         CAPTURE(outcome.err);
         CHECK(outcome.exited);
-        // The first signal ends it alone if no tile has begun.
+        // The first signal is enough if no tile has begun.
         CHECK((outcome.code == 128 + SIGINT || outcome.code == 128 + SIGTERM));
-        CHECK(workshop.is_output_empty()); // not one tile
+        CHECK(workshop.is_output_empty()); // no tile was finished
     }
     SECTION("while a tile is written") {
         const Workshop workshop(two_tiles);
@@ -201,8 +201,7 @@ TEST_CASE("a rendering that is killed fifty times at any moment has the same bit
     CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
 }
 
-TEST_CASE(
-    "a journal of another scene or other options is said to be one, and its picture begun anew") {
+TEST_CASE("a journal of another scene or other options is reported and not resumed") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
     static_cast<void>(interrupt(workshop));
@@ -229,7 +228,7 @@ TEST_CASE(
     CHECK(picture_of(workshop) == expected);
 }
 
-TEST_CASE("a picture that goes on has its rays in a second by those of this run alone") {
+TEST_CASE("the rays per second of a resumed image are those of the last run alone") {
     const Workshop workshop;
     const auto figures = [&] {
         const Outcome outcome = workshop.run(drawing({"--stats", "stats.json"}));
@@ -250,7 +249,7 @@ TEST_CASE("a picture that goes on has its rays in a second by those of this run 
     CHECK(rays_now(resumed) < total - 0.5);
 }
 
-TEST_CASE("a file that is none of raylane's is left alone, and so is a journal in use") {
+TEST_CASE("a foreign file and a journal in use are left alone") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
     workshop.write("out/picture.png.part", "mine");
@@ -276,13 +275,13 @@ TEST_CASE("a file that is none of raylane's is left alone, and so is a journal i
     CHECK((picture_of(workshop) == expected));
 }
 
-TEST_CASE("where there is no room for a journal, the picture is drawn all the same") {
+TEST_CASE("an image is drawn even if the disk has no space for a journal") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
     static_cast<void>(interrupt(workshop));
     const auto had = std::filesystem::file_size(workshop.output() / "picture.png.part");
     Setup limited;
-    // Too little for all tiles, and enough for the picture.
+    // Too little for all tiles, but enough for the image.
     const rlim_t room = std::max<rlim_t>(had, expected.size()) + 1000;
     limited.in_child = [room] {
         const rlimit limit{room, room};
@@ -296,7 +295,7 @@ TEST_CASE("where there is no room for a journal, the picture is drawn all the sa
     CHECK(!has_journal(workshop));
 }
 
-TEST_CASE("a journal that has filled the disk gives its room to the picture") {
+TEST_CASE("a journal that has filled the disk gives its space to the image") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
     // The missing tiles have more bytes than the picture.
@@ -355,7 +354,7 @@ TEST_CASE("The same command with another option leaves the tiles of the first") 
     }
 }
 
-TEST_CASE("an empty picture of a film is drawn, as power may have left it") {
+TEST_CASE("an empty image of a sequence is drawn again") {
     const Workshop workshop;
     const Options film = {"render", "scene.json", "-o", "out/f%d.png", "--turn", "90/3"};
     REQUIRE(workshop.run(film).code == 0);
@@ -365,7 +364,7 @@ TEST_CASE("an empty picture of a film is drawn, as power may have left it") {
     CHECK(content_of(workshop.output() / "f1.png") == expected);
 }
 
-TEST_CASE("a signal while the last tile is written ends the program behind the whole picture") {
+TEST_CASE("a signal while the last tile is written ends the program after the whole image") {
     const Workshop workshop(two_tiles);
     const std::string expected = whole(workshop, drawing_two("16"));
     const auto end_amid_the_last = [&](const Options& command, const std::string& name) {
@@ -382,13 +381,13 @@ TEST_CASE("a signal while the last tile is written ends the program behind the w
     end_amid_the_last(drawing_two("16"), "picture.png");
     CHECK((picture_of(workshop) == expected));
     std::filesystem::remove(workshop.output() / "picture.png");
-    // So is the first of a film, and there is no second.
+    // The first image of a sequence is whole, too, and the second is not begun.
     end_amid_the_last({"render", "scene.json", "-o", "out/f-%d.png", "--turn", "90/4", "--tile",
                        "64", "--threads", "1", "--spp", "16"},
                       "f-0.png");
 }
 
-TEST_CASE("settings of a scene that no option could tell are told apart") {
+TEST_CASE("a journal distinguishes settings of a scene that no option has") {
     std::string scene = ball;
     const auto with_outline = [&](const char* color) {
         std::string text = scene;
@@ -406,7 +405,7 @@ TEST_CASE("settings of a scene that no option could tell are told apart") {
     CHECK(picture_of(workshop) == picture);
 }
 
-TEST_CASE("a journal is as private as the picture that is there") {
+TEST_CASE("a journal has the permissions of the existing image") {
     const Workshop workshop;
     workshop.write("out/picture.png", "old");
     const auto mode = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
@@ -419,12 +418,13 @@ TEST_CASE("a journal is as private as the picture that is there") {
     CHECK(process.wait().err.ends_with("; the same command goes on with out/picture.png.part\n"));
 }
 
-TEST_CASE("a signal behind the last tile ends the program behind the whole picture") {
+TEST_CASE("a signal after the last tile leaves the whole image or its journal") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
     leave_whole_journal(workshop);
     const std::string journal = content_of(workshop.output() / "picture.png.part");
-    // The hundredth read is one of a tile; then the picture gets its name, and the journal goes.
+    // The hundredth pread reads a tile. Then rename names the image, and unlink removes the
+    // journal.
     for (const auto& [call, count] :
          {std::pair{"pread", 100}, std::pair{"rename", 1}, std::pair{"unlink", 1}}) {
         CAPTURE(call);
@@ -446,13 +446,13 @@ TEST_CASE("a signal behind the last tile ends the program behind the whole pictu
             continue;
         }
         CHECK(said == "raylane: stopped, and out/picture.png is whole\n");
-        CHECK((picture_of(workshop) == expected)); // which is too much to be printed
+        CHECK((picture_of(workshop) == expected)); // too long to be printed
         CHECK(!has_journal(workshop));
         std::filesystem::remove(workshop.output() / "picture.png");
     }
 }
 
-TEST_CASE("a film that a signal ends says so at any moment between its first and last picture") {
+TEST_CASE("a sequence reports a signal at any moment between its first and last image") {
     for (int i = 0; i < 40; ++i) {
         const Workshop workshop;
         Process film = workshop.start({"render", "scene.json", "-o", "out/f-%d.png", "--turn",
@@ -467,7 +467,7 @@ TEST_CASE("a film that a signal ends says so at any moment between its first and
     }
 }
 
-TEST_CASE("a full disk is told at once, and the journal goes on when there is room again") {
+TEST_CASE("a full disk is reported at once and the journal continues when it has space again") {
     const Workshop workshop;
     void* const shared =
         ::mmap(nullptr, sizeof(pid_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -499,7 +499,7 @@ TEST_CASE("a full disk is told at once, and the journal goes on when there is ro
     CHECK(std::filesystem::file_size(journal) > room);
 }
 
-TEST_CASE("what a link leads to has a journal, unless that is among the devices") {
+TEST_CASE("the target of a link has a journal unless it is a device") {
     const Workshop workshop;
     std::filesystem::create_directories(workshop.path() / "dev");
     workshop.write("dev/real.png", "old");
@@ -507,7 +507,7 @@ TEST_CASE("what a link leads to has a journal, unless that is among the devices"
                                     workshop.output() / "picture.png");
     static_cast<void>(interrupt(workshop));
     CHECK(has_journal(workshop));
-    // These would be said to be none of raylane's.
+    // A journal would be reported as a foreign file.
     workshop.write("out/stream.png.part", "mine");
     workshop.write("out/further.png.part", "mine");
     std::filesystem::create_symlink("/dev/stdout", workshop.output() / "stream.png");
@@ -521,7 +521,7 @@ TEST_CASE("what a link leads to has a journal, unless that is among the devices"
     }
 }
 
-TEST_CASE("a picture whose journal would have too long a name is said to have none") {
+TEST_CASE("a journal whose name would be too long is reported and omitted") {
     const Workshop workshop;
     for (const std::size_t length : {250, 251, 255}) {
         const std::string name = "out/" + std::string(length - 4, 'n') + ".png";

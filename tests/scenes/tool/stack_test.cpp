@@ -4,7 +4,7 @@
 
 #include <sys/resource.h>
 
-/// What is deep needs no more stack than README.md says, or is refused in one line.
+/// Tests that deep scenes need no more stack than README.md says or are refused.
 using namespace raylane::tests;
 
 namespace {
@@ -39,7 +39,7 @@ void check_drawn(const std::string& name, const std::string& scene) {
     CHECK(outcome.code == 0);
 }
 
-/// In JSON several mistakes are told at once, one a line.
+/// Checks that the scene is refused in one line. JSON may have two errors, one a line.
 void check_refused(const std::string& name, const std::string& scene) {
     const Workshop workshop;
     workshop.write(name, scene);
@@ -59,7 +59,7 @@ std::string json(const std::string& objects, const std::string& more = "") {
            more + R"("objects": [)" + objects + "]}";
 }
 
-/// Of solids in each other.
+/// Returns solids that are nested this deep.
 std::string nested(int depth) {
     std::string begin, end;
     for (int i = 0; i < depth; ++i) {
@@ -75,7 +75,7 @@ const std::string pov = "camera { location <0, 0, -6> look_at 0 }\nlight_source 
 
 } // namespace
 
-TEST_CASE("the deepest scenes are drawn with the stack that is stated") {
+TEST_CASE("the deepest scenes are drawn with the documented stack") {
     check_drawn("csg.json", json(nested(127)));
     std::string definitions =
         R"("definitions": {"d0": {"type": "sphere", "center": [0, 0, 0], "radius": 1})";
@@ -116,7 +116,7 @@ TEST_CASE("the deepest scenes are drawn with the stack that is stated") {
                 pov + "sphere { 0, " + times(60, "abs(") + "1" + times(60, ")") + " }");
 }
 
-TEST_CASE("what is deeper is refused in one line") {
+TEST_CASE("scenes that are too deep are refused") {
     constexpr int many = 100'000;
     check_refused("csg.json", json(nested(2000)));
     for (const char* start : {"[", "{\"objects\": [", "{\"materials\": ", "{\"camera\": "})

@@ -5,7 +5,7 @@ using namespace raylane::tests;
 
 namespace {
 
-/// A red ball that fills the picture, and light of its own.
+/// A red ball that fills the image and is visible without lights.
 const std::string red = "BEGIN_SCENE RESOLUTION 8 6 SPHERE CENTER 0 0 4 RAD 3 TEXTURE AMBIENT 1 "
                         "DIFFUSE 0 SPECULAR 0 OPACITY 1 COLOR 1 0.5 0 TEXFUNC 0 END_SCENE";
 
@@ -22,10 +22,10 @@ std::string bytes(std::initializer_list<int> codes) {
 
 } // namespace
 
-TEST_CASE("raylane tachyon draws as the program tachyon is called") {
+TEST_CASE("raylane tachyon accepts the command line of the program tachyon") {
     const Workshop workshop;
     workshop.write("a.dat", red);
-    // As VMD calls it; the order is free.
+    // This is VMD's call. The order is free.
     const Outcome outcome =
         draw(workshop, {"-aasamples", "12", "a.dat", "-format", "TARGA", "-o", "out/a.dat.tga"});
     CHECK(outcome.err.empty());
@@ -102,7 +102,7 @@ TEST_CASE("raylane tachyon takes tachyon's options") {
     CHECK(draw(workshop, {"-version"}).code == 0);
 }
 
-TEST_CASE("raylane tachyon's options change what a scene says") {
+TEST_CASE("raylane tachyon's options override the scene") {
     const Workshop workshop;
     // A wall that the sky lights by half, and one light by a quarter.
     workshop.write("wall.dat",
@@ -125,7 +125,7 @@ TEST_CASE("raylane tachyon's options change what a scene says") {
     CHECK(code({"-lowshade"}) == 255);
 }
 
-TEST_CASE("what raylane tachyon cannot be meant to do costs one line") {
+TEST_CASE("an invalid call of raylane tachyon gives an error of one line") {
     const Workshop workshop;
     workshop.write("a.dat", red);
     const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {

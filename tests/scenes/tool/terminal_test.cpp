@@ -9,8 +9,8 @@ using namespace raylane::tests;
 
 namespace {
 
-/// Form of a text, which does not depend on the machine: N for each number and for each bar of #
-/// and dots, no more than one space at a time, and rays without their prefix.
+/// Returns the form of a text, which does not depend on the machine: N for each number and for each
+/// bar of # and dots, no more than one space at a time, and rays without their prefix.
 std::string form_of(const std::string& text) {
     std::string form;
     for (const char c : text) {
@@ -25,14 +25,14 @@ std::string form_of(const std::string& text) {
     return form;
 }
 
-/// A scene in NFF, but for its shapes; and one of these.
+/// A scene in NFF without its shapes, and the line of one shape.
 const std::string nff_head = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\n"
                              "resolution 4 4\nl 9 9 9\n";
 const std::string nff_line = "s 0 0 0 1\n";
 
 } // namespace
 
-TEST_CASE("a good rendering draws no bar in a pipe") {
+TEST_CASE("a successful rendering draws no progress bar in a pipe") {
     const Workshop workshop;
     // Long enough for several drawings of a progress bar.
     const Outcome outcome =
@@ -43,10 +43,10 @@ TEST_CASE("a good rendering draws no bar in a pipe") {
     CHECK(outcome.err.find('\r') == std::string::npos);
 }
 
-TEST_CASE("a rendering shows its progress on a terminal, and at the end a summary") {
+TEST_CASE("a rendering shows its progress on a terminal and a summary at the end") {
     const Workshop workshop;
-    // Each tile is written to the journal that is there. The first three writes are of the head and
-    // two tiles.
+    // An existing journal gets each tile at once. The first three writes are the head and two
+    // tiles.
     workshop.write("out/picture.png.part", "");
     Hold hold("pwrite", 3);
     Process process = workshop.start({"render", "scene.json", "-o", "out/picture.png", "--size",
@@ -66,7 +66,7 @@ TEST_CASE("a rendering shows its progress on a terminal, and at the end a summar
     CHECK(end == "out/pictureNpng: N x N pixels, N samples each, in N s, N rays/s\r\n");
 }
 
-TEST_CASE("reading and building show their progress on a terminal, and no bar in a pipe") {
+TEST_CASE("reading and building show their progress on a terminal and no bar in a pipe") {
     const Workshop workshop;
     const std::filesystem::path pipe = workshop.path() / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
@@ -90,7 +90,7 @@ TEST_CASE("reading and building show their progress on a terminal, and no bar in
             "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
                          "depth": 6}]})");
     {
-        // With all shapes placed, it gives back the first of its large arrays.
+        // When all shapes are placed, the process returns the first of its large arrays.
         Hold hold("madvise", 3);
         Setup setup = hold.in(on_terminal());
         setup.in_child = [prepare = setup.in_child] {
@@ -126,7 +126,7 @@ TEST_CASE("reading a file shows how much of it has been read") {
     CHECK(form_of(outcome.err).find("\r[N] N % N million shapes read\x1B[K") != std::string::npos);
 }
 
-TEST_CASE("an error is one line on a terminal, too") {
+TEST_CASE("an error is one line on a terminal") {
     const Workshop workshop;
     CHECK(workshop.run({"render", "none.json"}, on_terminal()).err ==
           "raylane: none.json: no such file\r\n");
@@ -137,12 +137,12 @@ TEST_CASE("an error is one line on a terminal, too") {
     CHECK(is_one_line(outcome.err));
 }
 
-TEST_CASE("the prompt stands on a line of its own after an interruption") {
+TEST_CASE("the prompt begins a new line after an interruption") {
     const Workshop workshop;
     Process process = workshop.start(
         joined({"render", "scene.json", "-o", "out/picture.png"}, hours), on_terminal());
     REQUIRE(workshop.wait_for_files(process, 1));
-    REQUIRE(process.wait_for_err("\r")); // there is something on its line
+    REQUIRE(process.wait_for_err("\r")); // the line is not empty
     process.send(SIGHUP);
     const Outcome outcome = process.wait();
     CAPTURE(outcome.err);

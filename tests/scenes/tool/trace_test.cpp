@@ -6,7 +6,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-/// Rays of a file in NumPy's format.
+/// Tests of rays from a file in NumPy's format.
 using namespace raylane::tests;
 
 namespace {
@@ -16,7 +16,7 @@ std::string bytes_of(const std::vector<Number>& numbers) {
     return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
 }
 
-/// A file with that head.
+/// Returns a file with this header.
 std::string npy(const std::string& head, const std::string& content) {
     const auto length = static_cast<std::uint16_t>(head.size());
     std::string file("\x93NUMPY\x01\x00", 8);
@@ -24,7 +24,7 @@ std::string npy(const std::string& head, const std::string& content) {
     return file + head + content;
 }
 
-/// Two rays: the first meets the ball, the second would if what lies by columns were rows.
+/// Two rays: the first hits the ball, and the second would if columns were read as rows.
 const std::string by_rows = bytes_of<float>({0, 0, 5, 0, 0, -1, 0, 0, 9, 0, 0, 1});
 const std::string by_columns = bytes_of<float>({0, 0, 0, 0, 5, 9, 0, 0, 0, 0, -1, 1});
 
@@ -40,7 +40,7 @@ const std::string first_alone("\x01\x00", 2);
 
 } // namespace
 
-TEST_CASE("heads of ray files are read as Python reads them") {
+TEST_CASE("headers of ray files are read as Python reads them") {
     const Workshop workshop;
     for (const char* head :
          {"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 6), }\n",
@@ -60,7 +60,7 @@ TEST_CASE("heads of ray files are read as Python reads them") {
     }
 }
 
-TEST_CASE("heads of ray files that are none are refused") {
+TEST_CASE("invalid headers of ray files are refused") {
     const Workshop workshop;
     const auto refused = [&](const std::string& head, const std::string& message) {
         CAPTURE(head);
@@ -99,7 +99,7 @@ TEST_CASE("heads of ray files that are none are refused") {
             "has an unknown key in its head, \"order\"");
 }
 
-TEST_CASE("rays from standard input are a file's, from where it stands") {
+TEST_CASE("rays from standard input are read from the file's current offset") {
     const Workshop workshop;
     const std::string rays =
         npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 6), }\n", by_rows);

@@ -7,7 +7,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-/// A usage error is one line, and nothing is written.
+/// Checks that a usage error gives one line and writes no file.
 void check(const Workshop& workshop, const Arguments& arguments, const std::string& message) {
     for (const std::string& argument : arguments)
         UNSCOPED_INFO(argument);
@@ -24,7 +24,7 @@ void check(const Workshop& workshop, const Arguments& arguments, const std::stri
 
 } // namespace
 
-TEST_CASE("a command line that means nothing is told in one line") {
+TEST_CASE("an invalid command line gives an error of one line") {
     const Workshop workshop;
     const std::string see = "; see raylane --help", see_render = "; see raylane render --help";
     const std::vector<std::pair<Arguments, std::string>> rows = {
@@ -66,7 +66,7 @@ TEST_CASE("a command line that means nothing is told in one line") {
         check(workshop, arguments, message);
 }
 
-TEST_CASE("an option's value that is none is told in one line") {
+TEST_CASE("an invalid value of an option gives an error of one line") {
     const Workshop workshop;
     const std::string size = "--size: must be WIDTHxHEIGHT in pixels, each from 1 to 65535, such "
                              "as 640x480, got ",
@@ -129,14 +129,14 @@ TEST_CASE("an option's value that is none is told in one line") {
     };
     for (const auto& [option, message] : rows) {
         check(workshop, joined({"render", "scene.json", "-o", "out/picture.png"}, option), message);
-        // It is said before the scene is read.
+        // The error comes before the scene is read.
         check(workshop, joined({"render", "none.json", "-o", "out/picture.png"}, option), message);
     }
     check(workshop, {"compare", "none.png", "none.png", "--tolerance", "-1"},
           "--tolerance: must be a number from 0 to 3.4028235e+38, got \"-1\"");
 }
 
-TEST_CASE("a file's name that is none is told in one line, before anything is read") {
+TEST_CASE("an invalid file name gives an error of one line before any file is read") {
     const Workshop workshop;
     std::filesystem::create_symlink("scene.json", workshop.path() / "scene.png");
     workshop.write("stats.png", "");
@@ -158,7 +158,7 @@ TEST_CASE("a file's name that is none is told in one line, before anything is re
          "out/picture: must end in .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got no ending"},
         {{"compare", "none.png", "none.png", "--diff", "out/difference.gif"},
          R"(out/difference.gif: must end in .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got ".gif")"},
-        // What would be overwritten.
+        // Files that would be overwritten.
         {{"render", "none.json", "-o", "out/a.png", "--stats", "./out/a.png"},
          R"(--stats: must be another file than --output, got "./out/a.png")"},
         {{"render", "none.json", "-o", "stats.png", "--stats", "stats.link"},
@@ -174,7 +174,7 @@ TEST_CASE("a file's name that is none is told in one line, before anything is re
          R"(--diff: must be another file than A, got "a.png")"},
         {{"compare", "a.png", "b.png", "--diff", "./b.png"},
          R"(--diff: must be another file than B, got "./b.png")"},
-        // What would go into each other.
+        // Outputs that would share a stream.
         {{"render", "none.json", "-o", "-", "--stats", "-"},
          R"(--stats: must be another file than --output, got "-")"},
         {{"render", "-", "-o", "-", "--stats", "-"},
@@ -189,14 +189,14 @@ TEST_CASE("a file's name that is none is told in one line, before anything is re
     CHECK(content_of(workshop.path() / "scene.json") == ball);
 }
 
-TEST_CASE("a scene's name without a stem gives a picture no name without one") {
+TEST_CASE("a scene's name without a stem is refused as a directory") {
     const Workshop workshop;
     check(workshop, {"render", "out/"}, "out/: must be a file, got a directory");
     check(workshop, {"render", ".."}, "..: must be a file, got a directory");
     check(workshop, {"render", "/"}, "/: must be a file, got a directory");
 }
 
-TEST_CASE("the help has an example, and the version is one line") {
+TEST_CASE("the help has an example and the version is one line") {
     const Workshop workshop;
     const std::vector<std::pair<Arguments, std::string>> rows = {
         {{"--help"}, "\nExample: raylane render "},

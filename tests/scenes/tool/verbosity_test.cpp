@@ -10,7 +10,7 @@ using namespace raylane::tests;
 
 namespace {
 
-/// Of which something is said.
+/// A scene that gives a remark.
 const std::string with_remark = "camera { location <0, 0, -5> look_at 0 }\n"
                                 "light_source { <1, 2, -3> color rgb 1 shadowless }\n"
                                 "sphere { 0, 1 pigment { color rgb 1 } }\n";
@@ -24,7 +24,7 @@ Setup with_threads(const char* count) {
 
 } // namespace
 
-TEST_CASE("quiet, nothing is said of what goes well") {
+TEST_CASE("--quiet leaves errors alone on standard error") {
     const Workshop workshop;
     workshop.write("scene.pov", with_remark);
     const std::vector<std::string> small = {"render",    "scene.pov", "-o",
@@ -39,7 +39,7 @@ TEST_CASE("quiet, nothing is said of what goes well") {
           "raylane: --quiet: goes without --verbose\n");
 }
 
-TEST_CASE("verbose, it is said what was done, in a pipe, too") {
+TEST_CASE("--verbose reports the work in a pipe") {
     const Workshop workshop;
     const std::string isa(raylane::simd::name_of(raylane::simd::narrowest_isa()));
     const std::string said =
@@ -50,8 +50,7 @@ TEST_CASE("verbose, it is said what was done, in a pipe, too") {
     CHECK(said.find("\npicture.png: 16 x 12 pixels, ") != std::string::npos);
 }
 
-TEST_CASE(
-    "in a pipe, progress is a line now and then, and so it is on a terminal without a cursor") {
+TEST_CASE("progress is a line now and then in a pipe and on a terminal without a cursor") {
     const Workshop workshop;
     const auto start = std::chrono::steady_clock::now();
     const auto draw = [&](const char* name, Setup setup) {
@@ -68,12 +67,12 @@ TEST_CASE(
         const std::string said = process->wait().err;
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         CHECK(said.find('\x1B') == std::string::npos);
-        // After one second, two more, four more: a machine that is busy writes later, never sooner.
+        // After one second, two more, four more. A busy machine writes later, never earlier.
         CHECK(std::exp2(count_of("[", said)) - 1.0 <= took.count());
     }
 }
 
-TEST_CASE("threads are as many as the environment says, unless the command line does") {
+TEST_CASE("RAYLANE_THREADS sets the number of threads unless --threads does") {
     const Workshop workshop;
     const std::vector<std::string> render = {"render", "scene.json", "-o", "picture.png", "-v"};
     CHECK(workshop.run(render, with_threads("3")).err.find(" 3 threads\n") != std::string::npos);

@@ -29,7 +29,7 @@ constexpr const char* right = "scene      the one that the picture names\n"
 constexpr const char* again = "rays       decided as the picture says\n"
                               "all bits   drawn again as they were\n";
 
-/// What has the codes of a PNG, those of its first `pixels` one step further.
+/// Returns a film with the codes of a PNG. Those of its first `pixels` are changed by one step.
 core::Film film_of(const scenes::Image& image, int pixels = 0) {
     core::Film film(image.width, image.height);
     for (int i = 0; i < image.width * image.height; ++i)
@@ -42,8 +42,8 @@ core::Film film_of(const scenes::Image& image, int pixels = 0) {
     return film;
 }
 
-/// Writes a PNG again without its alpha, the codes of its first `pixels` one step further, and
-/// other texts.
+/// Writes a PNG again without its alpha, with the codes of its first `pixels` changed by one step,
+/// and with other texts.
 template <class Texts>
 void write_again(const std::filesystem::path& from, const std::filesystem::path& to, Texts texts,
                  int pixels = 0) {
@@ -54,7 +54,7 @@ void write_again(const std::filesystem::path& from, const std::filesystem::path&
     scenes::OutputFile(to).commit(film, options);
 }
 
-/// Writes a picture again with one pixel turned over, and what it says of itself.
+/// Writes an image again with one pixel inverted and with its texts.
 void turn_one_over(const std::filesystem::path& path) {
     const scenes::Image image = scenes::read_image(path);
     core::Film film = film_of(image);
@@ -67,7 +67,7 @@ void turn_one_over(const std::filesystem::path& path) {
 
 } // namespace
 
-TEST_CASE("a picture says how its rays have been decided on") {
+TEST_CASE("an image records how its rays were decided") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png", {"--stats", "a.json", "--size", "100x80"}).code == 0);
     const auto stats = nlohmann::json::parse(content_of(workshop.path() / "a.json"));
@@ -87,7 +87,7 @@ TEST_CASE("a picture says how its rays have been decided on") {
               std::to_string(number("tests_beyond_double")) + " tests beyond double");
 }
 
-TEST_CASE("a picture is what its scene and its options draw, pixel by pixel") {
+TEST_CASE("verify reproduces each pixel of an image from its scene and options") {
     const Workshop workshop;
     for (const Options& options : {Options{},
                                    {"--spp", "9", "--max-depth", "2"},
@@ -116,14 +116,14 @@ TEST_CASE("a picture is what its scene and its options draw, pixel by pixel") {
 
 namespace {
 
-/// The lowest bit of a float, or of a half, which has 13 fewer.
+/// Returns the value with another lowest bit, that of a float, or of a half, which has 13 fewer.
 float with_another_bit(float value, int fewer_bits) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ 1U << fewer_bits);
 }
 
 } // namespace
 
-TEST_CASE("one bit of a picture that is another is found, in whichever format") {
+TEST_CASE("verify finds one changed bit in each format") {
     const Workshop workshop;
     const auto others = [&](const std::string& name) {
         const Outcome outcome = verify(workshop, name, {"--whole", "--pixels", "1"});
@@ -146,7 +146,7 @@ TEST_CASE("one bit of a picture that is another is found, in whichever format") 
         one.y += one.y > 0.5F ? -1.0F / 65535.0F : 1.0F / 65535.0F;
         scenes::OutputFile(workshop.path() / "a.png").commit(film, options);
         others("a.png");
-        // It is 257 of the steps that there are, if one of 8 bits.
+        // A step of 8 bits is 257 steps of 16 bits.
         one.y += one.y > 0.5F ? -0.5F / 255.0F : 0.5F / 255.0F;
         scenes::OutputFile(workshop.path() / "a.png").commit(film, options);
         CHECK(verify(workshop, "a.png").out.find("191 the same, 0 within a step, 1 others") !=
@@ -194,7 +194,7 @@ TEST_CASE("one bit of a picture that is another is found, in whichever format") 
     }
 }
 
-TEST_CASE("a picture that is not what it says is told from one that is") {
+TEST_CASE("verify detects a changed pixel and a changed scene") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png").code == 0);
     turn_one_over(workshop.path() / "a.png");
@@ -215,7 +215,7 @@ TEST_CASE("a picture that is not what it says is told from one that is") {
     CHECK(other.out == "scene      another one than the picture names\n");
 }
 
-TEST_CASE("what takes a scene's own settings away is said in the picture, and so is a precision") {
+TEST_CASE("an image records options that override its scene and the precision") {
     std::string scene = ball;
     scene.insert(1, R"("outline": {"width": 2, "color": [0.2003, 0.5, 7]},
                        "limits": {"max_see_through": 1},)");
@@ -239,7 +239,7 @@ TEST_CASE("what takes a scene's own settings away is said in the picture, and so
     CHECK(verify(workshop, "a.exr").code == 0);
 }
 
-TEST_CASE("A picture of any precision is held to its own precision") {
+TEST_CASE("verify renders an image with its own precision") {
     const Workshop workshop(R"({"image": {"width": 61, "height": 43}, "background": [0.5, 0.6, 0.8],
         "camera": {"from": [200000, 100000, 300000], "at": [0, 0, 0], "field_of_view": 0.001},
         "lights": [{"type": "point", "position": [40, 60, 50]}],
@@ -258,7 +258,7 @@ TEST_CASE("A picture of any precision is held to its own precision") {
         const Outcome outcome = verify(workshop, "a.png", {"--whole", "--pixels", "500"});
         CHECK(outcome.out.find(pixels) != std::string::npos);
         CHECK(outcome.code == 0);
-        // Or this scene says nothing.
+        // Otherwise this scene would prove nothing.
         if (options.size() == 2 && options[1] != "double")
             CHECK(workshop.run({"compare", "a.png", "exact.png"}).code == 1);
     }
@@ -327,14 +327,14 @@ TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
     refused("eXIf", chunk("eXIf", std::string("MM\0*\0\0\0\10\0\0\0\0\0\0", 14)), header);
     refused("acTL", chunk("acTL", big_endian(1) + big_endian(0)), header);
     refused("fcTL", chunk("fcTL", std::string(26, '\0')) + chunk("fdAT", "0123"), end);
-    // Pixels that are no squares.
+    // Pixels that are not square.
     std::string wide = picture;
     wide.replace(header, 12 + 9, chunk("pHYs", big_endian(2) + big_endian(1) + "\1"));
     workshop.write("b.png", wide);
     CHECK(verify(workshop, "b.png").err.ends_with(", got pHYs\n"));
 }
 
-TEST_CASE("the whole of a picture is looked at, whichever pixels are chosen") {
+TEST_CASE("--whole checks the whole image for any choice of pixels") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png").code == 0);
     turn_one_over(workshop.path() / "a.png");
@@ -349,7 +349,7 @@ TEST_CASE("the whole of a picture is looked at, whichever pixels are chosen") {
     CHECK(found > 0);
 }
 
-TEST_CASE("which pixels are drawn again is chance, or told by a seed") {
+TEST_CASE("the pixels that verify renders are random or follow from a seed") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png").code == 0);
     turn_one_over(workshop.path() / "a.png");
@@ -365,7 +365,7 @@ TEST_CASE("which pixels are drawn again is chance, or told by a seed") {
     CHECK(found < 18);
 }
 
-TEST_CASE("each picture of a film is drawn again as if it were alone") {
+TEST_CASE("verify renders each image of a sequence by itself") {
     const Workshop workshop(R"({"image": {"width": 16, "height": 12}, "camera": "auto",
         "parameters": {"r": 1},
         "objects": [{"type": "sphere", "material": {"color": [1, 0, 0]}, "center": [0, 0, 0], "radius": "$r"},
@@ -399,7 +399,7 @@ TEST_CASE("each picture of a film is drawn again as if it were alone") {
             CHECK(outcome.out == right + std::string(again));
             CHECK(outcome.code == 0);
         }
-        // The picture of another place is another one.
+        // An image with the place of another in its sequence is not confirmed.
         scenes::PictureOptions swapped;
         const scenes::Image last = scenes::read_image(workshop.path() / "f2.png");
         swapped.texts = last.texts;
@@ -425,7 +425,7 @@ TEST_CASE("each picture of a film is drawn again as if it were alone") {
             std::filesystem::remove(workshop.path() / ("f" + std::to_string(i) + ".png"));
     }
 
-    // Of sizes of their own, by the camera of the first.
+    // Images of different sizes with the camera of the first.
     workshop.write("wide.json", R"({"image": {"width": "$w", "height": 12}, "camera": "auto",
         "parameters": {"w": 16},
         "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})");
@@ -433,14 +433,14 @@ TEST_CASE("each picture of a film is drawn again as if it were alone") {
     for (const char* name : {"w0.png", "w1.png", "w2.png"})
         CHECK(workshop.run({"verify", name, "wide.json", "--quiet", "--whole"}).code == 0);
 
-    // What is behind the picture is not asked for.
+    // Frames after the image are not read.
     workshop.write("broken.xyz", atoms + "3\n\nO here 0 0\n");
     const Options first = {"--size", "16x12", "--spp", "1", "--frames", ":"};
     CHECK(workshop.run(joined({"render", "broken.xyz", "-o", "b%d.png"}, first)).code == 2);
     CHECK(workshop.run({"verify", "b1.png", "broken.xyz", "--quiet"}).code == 0);
 }
 
-TEST_CASE("settings that no Comment has are a picture's options, too") {
+TEST_CASE("settings that no Comment has belong to the options of an image") {
     const auto with = [](const std::string& where, const std::string& what) {
         std::string scene = ball;
         return scene.insert(scene.find(where), what);
@@ -454,7 +454,7 @@ TEST_CASE("settings that no Comment has are a picture's options, too") {
                R"("outline": {"width": 3}, "sampling": {"pattern": "stratified"}, )")}) {
         REQUIRE(workshop.render("a.png").code == 0);
         workshop.write("scene.json", other);
-        // Whichever pixel it is.
+        // For any pixel that is chosen.
         const Outcome outcome = verify(workshop, "a.png", {"--pixels", "1"});
         CHECK(outcome.code == 1);
         CHECK(outcome.out.starts_with("scene      the one that the picture names\n"
@@ -462,13 +462,13 @@ TEST_CASE("settings that no Comment has are a picture's options, too") {
         workshop.write("scene.json", outlined);
         CHECK(verify(workshop, "a.png").out == right);
     }
-    // What has no effect is none of them.
+    // Settings without an effect do not belong to the options.
     workshop.write("scene.json", ball);
     REQUIRE(workshop.render("a.png", {"--quality", "35"}).code == 0);
     workshop.write("scene.json", with("\"image\"", R"("sampling": {"grid": 3},
                                        "outline": {"width": 0, "creases": 20}, )"));
     CHECK(verify(workshop, "a.png", {"--whole"}).out == right + std::string(again));
-    // Older pictures have none.
+    // Older images have no Options.
     workshop.write("scene.json", ball);
     REQUIRE(workshop.render("a.png").code == 0);
     const auto without = [](auto texts) {
@@ -481,8 +481,8 @@ TEST_CASE("settings that no Comment has are a picture's options, too") {
     CHECK(older.out.starts_with("scene      the one that the picture names\npixels     192 "));
 }
 
-/// Light comes through the box along its diagonal plane, and meets its edges to the last bit.
-TEST_CASE("what hangs on a last bit is told from what is wrong") {
+/// Light passes the box along its diagonal plane, and meets its edges to the last bit.
+TEST_CASE("verify distinguishes ties in the last bit from errors") {
     const Workshop workshop(R"({"image": {"width": 64, "height": 64}, "background": [0.5, 0.5, 1],
         "camera": {"from": [0, 0, 6], "at": [0, 0, 0]},
         "lights": [{"type": "point", "position": [4, 4, 4]}],
@@ -493,7 +493,7 @@ TEST_CASE("what hangs on a last bit is told from what is wrong") {
     const Outcome outcome = verify(workshop, "p.png", {"--pixels", "4096"});
     CAPTURE(outcome.out);
     CHECK(outcome.code == 0);
-    CHECK(outcome.out.find(" 0 others\n") == std::string::npos); // or this scene has no ties
+    CHECK(outcome.out.find(" 0 others\n") == std::string::npos); // this scene has ties
     CHECK(outcome.out.find("\nties       ") != std::string::npos);
 
     turn_one_over(workshop.path() / "p.png");
@@ -502,7 +502,7 @@ TEST_CASE("what hangs on a last bit is told from what is wrong") {
     CHECK(turned.out.find("\nfirst      at pixel ") != std::string::npos);
 }
 
-TEST_CASE("a picture that has lost its alpha is another one") {
+TEST_CASE("verify does not confirm an image that has lost its alpha") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png", {"--alpha"}).code == 0);
     const auto same = [](auto texts) { return texts; };
@@ -513,7 +513,7 @@ TEST_CASE("a picture that has lost its alpha is another one") {
     CHECK(outcome.out.find("0 the same, 0 within a step, 192 others") != std::string::npos);
 }
 
-TEST_CASE("many pixels that are only within a step are no roundings") {
+TEST_CASE("verify does not confirm an image with many pixels one step off") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png").code == 0);
     const auto same = [](auto texts) { return texts; };
@@ -528,13 +528,13 @@ TEST_CASE("many pixels that are only within a step are no roundings") {
         CHECK(outcome.out.ends_with("steps      more than 1 pixel in 50 is only within one, as by "
                                     "no rounding\n") == (code == 1));
     }
-    // Of few, two may be.
+    // Two of a few pixels may be one step off.
     write_again(a, b, same, 192);
     CHECK(verify(workshop, "b.png", {"--pixels", "2"}).code == 0);
     CHECK(verify(workshop, "b.png", {"--pixels", "3"}).code == 1);
 }
 
-TEST_CASE("pictures that say nothing of themselves are refused in one line") {
+TEST_CASE("images without valid texts give an error of one line") {
     const Workshop workshop;
     const auto refused = [&](const std::string& name, const std::string& with) {
         const Outcome outcome = verify(workshop, name);

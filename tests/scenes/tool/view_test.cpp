@@ -7,14 +7,14 @@
 #include <fstream>
 #include <unistd.h>
 
-/// Windows, on a display that is a file (Xvfb's).
+/// Tests of windows on Xvfb, a display whose screen is a file.
 using namespace raylane::tests;
 
 namespace {
 
 constexpr int screen_width = 640, screen_height = 480;
 
-/// Xvfb, with its screen in a folder.
+/// Owns a process of Xvfb, which has its screen in a file of a folder.
 class Display {
   public:
     explicit Display(const std::filesystem::path& folder) : folder_(folder) {
@@ -29,7 +29,7 @@ class Display {
         }
         ::close(ends[1]);
         char text[16] = {};
-        const ssize_t size = ::read(ends[0], text, sizeof text - 1); // once it serves
+        const ssize_t size = ::read(ends[0], text, sizeof text - 1); // when Xvfb is ready
         ::close(ends[0]);
         if (size > 0) name_ = ":" + std::to_string(std::atoi(text));
     }
@@ -39,10 +39,10 @@ class Display {
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
 
-    /// Empty where there is no Xvfb.
+    /// Returns the name of the display, or "" without Xvfb.
     const std::string& name() const { return name_; }
 
-    /// Red, green and blue of each pixel of the screen, of the format xwd.
+    /// Returns red, green and blue of each pixel of the screen, whose file has the format xwd.
     std::vector<std::uint8_t> pixels() const {
         std::ifstream file(folder_ / "Xvfb_screen0", std::ios::binary);
         const std::string all((std::istreambuf_iterator<char>(file)), {});
@@ -69,7 +69,7 @@ class Display {
     std::string name_;
 };
 
-/// Those of a PPM of 8 bits.
+/// Returns the pixels of a PPM of 8 bits: its last `count` bytes.
 std::vector<std::uint8_t> pixels_of(const std::filesystem::path& ppm, std::size_t count) {
     std::ifstream file(ppm, std::ios::binary);
     const std::string all((std::istreambuf_iterator<char>(file)), {});
@@ -87,10 +87,10 @@ Setup on_display(const std::string& name) {
 
 } // namespace
 
-TEST_CASE("without a display there is one line") {
+TEST_CASE("a missing display gives an error of one line") {
     const Workshop workshop;
     Setup setup;
-    const char* driver = GENERATE("x11", ""); // and whatever SDL finds
+    const char* driver = GENERATE("x11", ""); // "": any driver that SDL finds
     setup.in_child = [driver] {
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
@@ -104,7 +104,7 @@ TEST_CASE("without a display there is one line") {
     CHECK(outcome.err.starts_with("raylane: view: cannot open a window: "));
 }
 
-TEST_CASE("a window shows what render draws, and what is written since") {
+TEST_CASE("a window shows the image of render and follows changes of the scene") {
     const Workshop workshop;
     std::filesystem::create_directory(workshop.path() / "screen");
     const Display display(workshop.path() / "screen");

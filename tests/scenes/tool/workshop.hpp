@@ -10,7 +10,7 @@
 
 namespace raylane::tests {
 
-/// A red mirror ball before a blue background: 16 x 12 pixels, a moment's work.
+/// A red mirror ball before a blue background: 16 x 12 pixels, rendered in a moment.
 inline const std::string ball = R"({
     "image": {"width": 16, "height": 12},
     "camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
@@ -20,9 +20,9 @@ inline const std::string ball = R"({
     "objects": [{"type": "sphere", "material": "red", "center": [0, 0, 0], "radius": 1}]
 })";
 
-/// Options that make a picture of any scene take hours.
+/// Options that make an image of any scene take hours.
 inline const std::vector<std::string> hours = {"--size", "4000x4000", "--spp", "65536"};
-/// The same, in tiles that take a moment.
+/// Options that make an image take minutes, in tiles that take a moment.
 inline const std::vector<std::string> minutes = {"--size", "4000x4000", "--spp", "256"};
 
 inline std::vector<std::string> joined(std::vector<std::string> a,
@@ -31,7 +31,7 @@ inline std::vector<std::string> joined(std::vector<std::string> a,
     return a;
 }
 
-/// Standard error is a terminal of that kind, as the environment's TERM says.
+/// Returns a setup with a terminal as standard error. `kind`: the environment's TERM.
 inline Setup on_terminal(const char* kind = "xterm") {
     Setup setup;
     setup.terminal = true;
@@ -39,7 +39,7 @@ inline Setup on_terminal(const char* kind = "xterm") {
     return setup;
 }
 
-/// A directory to run the tool in, with a scene and an empty directory for what comes out.
+/// Owns a directory to run the tool in, with a scene and an empty directory for outputs.
 class Workshop {
   public:
     explicit Workshop(const std::string& scene = ball) {
@@ -54,8 +54,8 @@ class Workshop {
     }
     std::vector<std::string> names() const { return directory_.names(); }
     bool is_output_empty() const { return std::filesystem::is_empty(output()); }
-    /// Until as many files as that have come out, temporaries included, also those without a name.
-    /// False after ten minutes.
+    /// Waits until there are `count` outputs, including temporaries with and without a name.
+    /// Returns false after ten minutes.
     bool wait_for_files(const Process& process, int count) const {
         return comes_true([&] {
             return std::distance(std::filesystem::directory_iterator(output()), {}) +
@@ -64,7 +64,7 @@ class Workshop {
         });
     }
 
-    /// Until that file is there. False after ten minutes.
+    /// Waits until the file exists. Returns false after ten minutes.
     bool wait_for(const std::filesystem::path& file) const {
         return comes_true([&] { return std::filesystem::exists(file); });
     }
@@ -90,8 +90,8 @@ inline bool is_one_line(const std::string& text) {
     return std::count(text.begin(), text.end(), '\n') == 1 && text.ends_with('\n');
 }
 
-/// Returns all but the lines of progress, "[###...] 12 % ...", of which a pipe gets one every now
-/// and then, after ten seconds.
+/// Returns all lines but those of progress, "[###...] 12 % ...". A pipe gets one of these now and
+/// then, after ten seconds.
 inline std::string messages_in(const std::string& text) {
     std::string messages;
     std::istringstream lines(text);
