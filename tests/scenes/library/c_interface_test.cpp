@@ -10,7 +10,7 @@
 using namespace raylane;
 using namespace raylane::tests;
 
-/// The library as C has it, held to the library as C++ has it.
+/// Tests of the C interface against the C++ library.
 
 namespace {
 
@@ -43,7 +43,7 @@ TracerHandle tracer_of(const SceneHandle& scene) {
     return TracerHandle(tracer);
 }
 
-/// Two balls, seen by one light.
+/// Returns a scene of two balls and one light.
 SceneHandle balls_in_c() {
     const Builder builder = builder_in_c();
     std::uint32_t material = 7, first = 7;
@@ -83,7 +83,7 @@ Scene balls() {
 
 } // namespace
 
-TEST_CASE("what C builds, asks and draws is what C++ does") {
+TEST_CASE("scenes and queries and images of the C interface equal those of C++") {
     const SceneHandle in_c = balls_in_c();
     const Scene scene = balls();
     CHECK(raylane_shape_count(in_c.get()) == 2);
@@ -146,7 +146,7 @@ TEST_CASE("what C builds, asks and draws is what C++ does") {
     CHECK(rgb == image.rgb);
 }
 
-TEST_CASE("a scene's alpha counts in C, whoever's the settings are") {
+TEST_CASE("C renders a scene with alpha over black with or without explicit settings") {
     const std::string text = R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
         "image": {"width": 16, "height": 12, "alpha": true}, "background": [1, 0.5, 0],
         "lights": [{"type": "point", "position": [4, 6, 5]}], "materials": {"m": {}},
@@ -163,7 +163,7 @@ TEST_CASE("a scene's alpha counts in C, whoever's the settings are") {
                              rgb.data()) == RAYLANE_OK);
     }
     CHECK(pictures[0] == pictures[1]);
-    CHECK(pictures[0][0] == 0.0F); // over black
+    CHECK(pictures[0][0] == 0.0F); // the background is black
 }
 
 TEST_CASE("C has the defaults of C++") {
@@ -184,7 +184,7 @@ TEST_CASE("C has the defaults of C++") {
     CHECK(raylane_default_material().opacity == Material{}.opacity);
 }
 
-TEST_CASE("what goes wrong in C has a code and a line of text") {
+TEST_CASE("an error in C has a code and a line of text") {
     const auto says = [](raylane_status status, raylane_status expected, const char* text) {
         CHECK(status == expected);
         CHECK(std::string(raylane_error_text()) == text);
@@ -249,7 +249,7 @@ TEST_CASE("what goes wrong in C has a code and a line of text") {
           RAYLANE_CANCELLED);
     CHECK(calls == 1);
 
-    // No pixel is looked at, nor room asked for, where there are too many.
+    // Invalid sizes are refused before a pixel is read or memory is allocated.
     for (const auto& [columns, rows, refusal] :
          {std::tuple(0, 9, "width: must be from 1 to 65535, got 0"),
           std::tuple(2147483647, 2147483647, "width: must be from 1 to 65535, got 2147483647"),

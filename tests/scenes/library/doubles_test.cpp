@@ -7,7 +7,7 @@
 #include <cmath>
 #include <variant>
 
-/// Rays and shapes in double, asked of the library, against the oracle.
+/// Tests of the library's answers for rays and shapes in double against the oracle.
 using namespace raylane;
 using namespace raylane::tests;
 using core::Vec3d;
@@ -15,8 +15,8 @@ using meetings::Way;
 
 namespace {
 
-/// A ray beside one in float, as doubles can be: by some of their ulps, or by what no float has. As
-/// small as it may be, it is no smaller than floats are, so that it still is one.
+/// Returns a ray next to one in float: displaced by a few ulps of doubles, or by less than an ulp
+/// of floats. No component is scaled below the smallest float, so that the ray stays valid.
 core::Ray<double> beside(const core::Ray<float>& ray, Random& random) {
     core::Ray<double> result{core::convert<double>(ray.origin),
                              core::convert<double>(ray.direction)};
@@ -43,7 +43,7 @@ core::Ray<double> beside(const core::Ray<float>& ray, Random& random) {
 
 } // namespace
 
-TEST_CASE("rays in double are taken for exactly their doubles", "[meetings]") {
+TEST_CASE("answers for rays in double are exact for these doubles", "[meetings]") {
     Random random(seed(20261124));
     DoubleFaults faults;
     for (const Way way : meetings::all_ways)
@@ -63,7 +63,7 @@ TEST_CASE("rays in double are taken for exactly their doubles", "[meetings]") {
     CHECK(faults.hits > faults.rays / 4);
 }
 
-TEST_CASE("rays in double answer as rays in float do where they are the same") {
+TEST_CASE("equal rays in double and in float have equal answers") {
     const Heap all = heap();
     const Tracer tracer(all.scene);
     DoubleRays rays;
@@ -73,7 +73,7 @@ TEST_CASE("rays in double answer as rays in float do where they are the same") {
     const Hits hits = intersect(tracer, all.rays);
     CHECK(answers.hits == hits);
     CHECK(answers.blocked == occluded(tracer, all.rays));
-    // And t in double is what t in float is rounded from.
+    // t in float is t in double, rounded.
     std::vector<double> t_double(all.rays.size(), -1.0);
     tracer.intersect(all.rays.span(), {.t_double = t_double});
     CHECK(t_double == answers.t_double);
@@ -83,7 +83,7 @@ TEST_CASE("rays in double answer as rays in float do where they are the same") {
     }
 }
 
-TEST_CASE("doubles outside of the range of floats are none") {
+TEST_CASE("rays of doubles outside of the range of floats hit nothing") {
     const Tracer tracer(ball());
     DoubleRays rays;
     const auto add = [&](const Vec3d& origin, const Vec3d& direction) {
@@ -110,21 +110,21 @@ TEST_CASE("doubles outside of the range of floats are none") {
 
 namespace {
 
-/// How shapes and rays of floats become those of doubles.
+/// A change that makes doubles of the floats of shapes and rays.
 enum class Change {
     none,
-    enlarged, ///< all lengths by one factor: what met meets still
-    stirred,  ///< each number by its own, but the same numbers by the same
+    enlarged, ///< multiplies all lengths by one factor: shapes that met still meet
+    stirred,  ///< multiplies each number by a factor that depends on this number alone
 };
 constexpr Change all_changes[] = {Change::none, Change::enlarged, Change::stirred};
 
-/// Tiny ones stay as they are: there is nothing between such floats.
+/// Returns the changed number. Tiny ones stay, as numbers below core::least_double must be floats.
 double changed(double number, Change change) {
     if (change == Change::none || std::abs(number) < 0x1p-125) return number;
     constexpr double factor =
-        1.0 + 13 * 0x1p-24; // with a float, or a small number and itself, exact
+        1.0 + 13 * 0x1p-24; // exact times a float, or squared times a small number
     if (change == Change::enlarged) return number * factor;
-    // Of the number alone.
+    // The factor depends on the number alone.
     const auto bits = std::bit_cast<std::uint64_t>(number) * 0x9E3779B97F4A7C15;
     const double part = static_cast<double>(bits >> 11) * 0x1p-53;
     return number * (1.0 + std::ldexp(part - 0.5, -24 - static_cast<int>(bits % 29)));
@@ -138,7 +138,7 @@ core::InDouble<Shape> changed(const Shape& shape, Change change) {
     auto result = core::shape_of<core::InDouble<Shape>>(numbers);
     if constexpr (core::kind_of<Shape> == core::Kind::quadric) {
         if (change != Change::enlarged) return result;
-        // Q(p / factor), times its square.
+        // Q(p / factor) times factor^2.
         const core::InDouble<Shape> before = core::to_doubles(shape);
         result.xx = before.xx;
         result.yy = before.yy;
@@ -167,7 +167,7 @@ void ask(const meetings::Meeting& meeting, Change change, DoubleFaults& faults) 
 
 } // namespace
 
-TEST_CASE("shapes in double are taken for exactly their doubles", "[meetings]") {
+TEST_CASE("answers for shapes in double are exact for these doubles", "[meetings]") {
     Random random(seed(20261125));
     for (const Change change : all_changes) {
         DoubleFaults faults;

@@ -32,7 +32,7 @@ bool is_valid(const oracle::Variant auto& any) {
 
 constexpr Visible visible_sides[] = {Visible::both, Visible::outside, Visible::inside};
 
-/// Of these.
+/// Returns the index in visible_sides of a shape's sides.
 std::size_t which_sides(std::size_t shape, Sides sides) {
     return sides == Sides::both ? 0 : shape % std::size(visible_sides);
 }
@@ -41,7 +41,7 @@ bool is_seen(std::size_t shape, Sides sides, bool entering) {
     return visible != (entering ? Visible::inside : Visible::outside);
 }
 
-/// Kind, floats, t and side, to be put into a test of its own.
+/// Writes kind, floats, t and side, from which a separate test can be made.
 void describe(std::ostream& out, std::span<const AnyShape> shapes, ShapeId id, float t,
               bool entering) {
     if (id >= shapes.size()) {
@@ -65,7 +65,7 @@ bool are_same(const Any& a, const Any& b) {
     if (a.index() != b.index()) return false;
     return std::visit(
         [&]<class Shape>(const Shape& shape) {
-            // To the bit, as the builder has it: -0 is another number.
+            // Compares bits, as the builder does: -0 differs from 0.
             const auto bits = [](const Shape& s) {
                 return std::bit_cast<std::array<char, sizeof(Shape)>>(s);
             };
@@ -221,7 +221,8 @@ void Exam::check(Questions& questions, std::size_t i, const Answers& answers, Ta
         wrong(Fault::normal);
 }
 
-/// StreamTracer gives the same bits with each instruction set, by one and by several threads.
+/// Checks that StreamTracer gives the same bits with each instruction set, on one thread and on
+/// several.
 void Exam::check_others(const Rays& rays, const Answers& answers, Ways ways, Tally& tally) const {
     static std::size_t turn = 0;
     std::vector<simd::Isa> isas;

@@ -9,32 +9,32 @@
 #include <string>
 #include <vector>
 
-/// Scenes and rays asked of the library in every way there is, against the oracle.
+/// Checks every kind of query of the library against the oracle.
 namespace raylane::tests {
 
-/// Sides of shapes that can be seen.
+/// Visible sides of the shapes of a scene.
 enum class Sides {
     both,
-    some, ///< of every third shape the outside, of every third the inside, of the others both
+    some, ///< in turn both sides, the outside, and the inside
 };
 
-/// Without what core finds not valid.
+/// Returns the shapes that core finds valid.
 template <oracle::Variant Any>
 std::vector<Any> valid(std::vector<Any> shapes);
 template <oracle::Variant Any>
 Scene scene_of(const std::vector<Any>& shapes, Sides sides = Sides::both);
-/// Float by float.
+/// Returns true if both have the same kind and bits.
 template <oracle::Variant Any>
 bool are_same(const Any& a, const Any& b);
-/// By shape: false if one before it is the same, of one material.
+/// Returns for each shape whether it counts: 0 if an equal one of the same material comes before.
 template <oracle::Variant Any>
 std::vector<char> which_count(const std::vector<Any>& shapes, Sides sides = Sides::both);
 
-/// True if a row has all crossings of a line that count, and in their order.
+/// Returns true if a row has all crossings of a line that count, in their order.
 bool is_right(const CrossingRows& rows, std::size_t row, const oracle::Sight& sight,
               const std::function<bool(const oracle::Found&)>& counts);
 
-/// Fault that an answer may have.
+/// Faults of an answer.
 enum class Fault {
     shape,
     t,
@@ -42,17 +42,17 @@ enum class Fault {
     side,      ///< entered or left
     occlusion, ///< by `occluded`
     crossings, ///< by `crossings`
-    other,     ///< another instruction set or number of threads gives other bits; counts spans
+    other,     ///< bits differ with instruction set or number of threads; one count a span
 };
 inline constexpr const char* fault_names[] = {"shape",     "t",         "normal", "side",
                                               "occlusion", "crossings", "other"};
 
-/// Tally of what was asked, and of the wrong answers.
+/// Counts queries and wrong answers.
 struct Tally {
-    long lines = 0; ///< without their limits
+    long lines = 0; ///< rays before limits are added
     long rays = 0, hits = 0, crossings = 0;
     long faults[std::size(fault_names)] = {};
-    std::string first[std::size(fault_names)]; ///< of each
+    std::string first[std::size(fault_names)]; ///< the first fault of each type
 
     long wrong() const { return std::accumulate(std::begin(faults), std::end(faults), 0L); }
     std::string report() const;
@@ -62,9 +62,9 @@ enum class Limits {
     none,
     at_crossings, ///< t_min and t_max at each crossing's t, an ulp before and an ulp behind it
 };
-enum class Ways { one, all }; ///< of instruction sets and threads besides the library's
+enum class Ways { one, all }; ///< instruction sets and threads to compare with the library's
 
-/// One scene. What core finds not valid is left out of it.
+/// Owns one scene and its tracer, and checks answers for it. Invalid shapes are omitted.
 class Exam {
   public:
     explicit Exam(std::vector<AnyShape> shapes, Sides sides = Sides::both);

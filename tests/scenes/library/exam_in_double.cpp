@@ -8,7 +8,7 @@ namespace raylane::tests {
 
 namespace {
 
-/// Order of a crossing's true t and a double.
+/// Compares the exact t of a crossing with a double: negative, zero or positive.
 int compare(const oracle::Hit& hit, double t) {
     if (t == endless) return -1;
     const int order = oracle::compare_digits(hit.t, oracle::Number(t));

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-/// Rays and shapes in double, asked of the library, against the oracle.
+/// Checks the library's answers for rays and shapes in double against the oracle.
 namespace raylane::tests {
 
 inline constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// Rays in double with arrays of their own.
+/// Owns the arrays of rays in double.
 struct DoubleRays {
     std::vector<double> origin[3], direction[3], t_min, t_max;
 
@@ -48,12 +48,12 @@ struct DoubleAnswers {
 struct DoubleFaults {
     long rays = 0, hits = 0, shape = 0, t = 0, t_double = 0, normal = 0, side = 0, occlusion = 0,
          crossings = 0;
-    std::string first; ///< what was asked and expected, in numbers
+    std::string first; ///< the numbers of the first faulty query and of the expected answer
     long all() const { return shape + t + t_double + normal + side + occlusion + crossings; }
 };
 
-/// Rays without limits, and with these at crossings and next to them. What core finds not valid is
-/// left out.
+/// Checks rays without limits, and with limits at the first three crossings and next to them.
+/// Omits shapes that core finds invalid.
 template <oracle::Variant Any>
 void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays,
          DoubleFaults& faults);

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-/// Failures of others in double, reported in the field, in rays and shapes. `t` is what
-/// the reports say that it should be, or what real arithmetic gives.
+/// Failures of other programs in double, reported in the field, as rays and shapes. `t` is the
+/// value that the report expects or that real arithmetic gives.
 using namespace raylane;
 
 namespace {
@@ -28,7 +28,7 @@ Scene scene_of(const Shape& shape) {
 
 } // namespace
 
-/// Celeritas, cylinders: rays nearly along the axis were said never to leave (t infinite), or at
+/// Celeritas, cylinders: rays nearly along the axis never left (t infinite), or left at
 /// 1370730.96944.
 TEST_CASE("Celeritas: a ray nearly along a cylinder leaves it") {
     const Scene scene = scene_of(OpenCylinder{{0, 0, -2e8F}, {0, 0, 4e8F}, 30});
@@ -67,8 +67,8 @@ TEST_CASE("Optiland: a ray along the axis meets a paraboloid once") {
     CHECK(rows.t[0] == 49.5);
 }
 
-/// Optiland #559 again, with a conic constant next to -1: the quadratic term is next to nothing.
-TEST_CASE("Optiland: a ray along the axis meets what is nearly a paraboloid as near") {
+/// Optiland #559 again, with a conic constant next to -1: the quadratic term is nearly zero.
+TEST_CASE("Optiland: a ray along the axis meets a near paraboloid at the same distance") {
     for (const double k : {std::nextafter(-1.0, 0.0), std::nextafter(-1.0, -2.0)}) {
         QuadricOf<double> conic{}; // x^2 + y^2 + (1 + k) z^2 + 200 z = 0
         conic.xx = conic.yy = 1;
@@ -82,7 +82,7 @@ TEST_CASE("Optiland: a ray along the axis meets what is nearly a paraboloid as n
     }
 }
 
-/// Optiland #787: of a hyperboloid's two sheets the wrong one was met, at t = 1.3023936.
+/// Optiland #787: rays hit the wrong one of a hyperboloid's two sheets, at t = 1.3023936.
 TEST_CASE("Optiland: rays from a point meet the sheet of a hyperboloid that is a lens") {
     const double radius = 1 / 0.3396, k = -2.5073;
     QuadricOf<double> hyperboloid{}; // x^2 + y^2 + (1 + k) z^2 - 2 R z = 0, z > -1
@@ -106,8 +106,8 @@ TEST_CASE("Optiland: rays from a point meet the sheet of a hyperboloid that is a
     }
 }
 
-/// optika #224: a ray that starts on a paraboloid of f = -0.65, 76 from its axis, was carried to
-/// where it leaves it, 1662.7455 further on.
+/// optika #224: a ray that starts on a paraboloid of f = -0.65, 76 from its axis, was moved to its
+/// exit, 1662.7455 further on.
 TEST_CASE("optika: a ray next to a paraboloid meets it there") {
     QuadricOf<double> paraboloid{}; // x^2 + y^2 - 4 f z = 0
     paraboloid.xx = paraboloid.yy = 1;
@@ -123,8 +123,8 @@ TEST_CASE("optika: a ray next to a paraboloid meets it there") {
     CHECK(rows.t[1] == Approx(1.0 + 1662.7455).epsilon(1e-7));
 }
 
-/// OpenMC #260: two cylinders that are the same, of different cells.
-TEST_CASE("OpenMC: cylinders that are the same are met at one point") {
+/// OpenMC #260: two equal cylinders of different cells.
+TEST_CASE("OpenMC: a ray meets equal cylinders at one point") {
     SceneBuilder builder;
     const CappedCylinderOf<double> pin{{0.1, 0.2, -3}, {0, 0, 6}, 0.7};
     builder.add(pin, builder.add_material({}));
@@ -137,7 +137,8 @@ TEST_CASE("OpenMC: cylinders that are the same are met at one point") {
     CHECK(rows.t[2] == rows.t[3]);
 }
 
-/// OpenMC #81, exactly: a coincidence tolerance of 1e-12 decides there which comes first.
+/// OpenMC #81, in which a coincidence tolerance of 1e-12 decides which comes first. Here the
+/// decision is exact.
 TEST_CASE("OpenMC: a sphere and a plane that a ray meets at one point are tied") {
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});

@@ -38,7 +38,7 @@ std::vector<float> inner_pixels(const Scene& scene) {
     return rgb;
 }
 
-/// A scene that floats draw as well, and sooner.
+/// Returns a scene that float precision can render, too, and faster.
 Scene lone_egg() {
     SceneBuilder builder;
     builder.settings.width = builder.settings.height = 100;
@@ -57,7 +57,7 @@ Scene lone_egg() {
 
 } // namespace
 
-TEST_CASE("other precisions draw other pictures") {
+TEST_CASE("other precisions give other images") {
     const Scene egg = lone_egg();
     const auto drawn = [&](Precision precision) {
         return render(egg, {.precision = precision}).rgb;
@@ -67,7 +67,7 @@ TEST_CASE("other precisions draw other pictures") {
           "precision: must be a Precision");
 }
 
-TEST_CASE("a picture is the tool's") {
+TEST_CASE("an image of the library equals one of the renderer") {
     const Scene scene = mirrored_ball();
     const Image image = render(scene);
     CHECK(image.width == 70);
@@ -79,7 +79,7 @@ TEST_CASE("a picture is the tool's") {
     CHECK(render(scene, {.threads = 3}).rgb == image.rgb);
 }
 
-TEST_CASE("settings can be others than the scene's") {
+TEST_CASE("settings can replace the scene's") {
     const Scene scene = mirrored_ball();
     Settings settings = scene.settings();
     settings.width = 7;
@@ -94,14 +94,14 @@ TEST_CASE("settings can be others than the scene's") {
           "threads: must be from 0 to 4096, got -1");
 }
 
-TEST_CASE("a scene without light shows what is ambient") {
+TEST_CASE("a scene without lights shows ambient light") {
     SceneBuilder builder;
     builder.settings.width = builder.settings.height = 9;
     builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({.ambient = 0.5F}));
     CHECK(render(builder.build()).at(4, 4) == Color{0.5F, 0.5F, 0.5F});
 }
 
-TEST_CASE("progress is told in order, to the end") {
+TEST_CASE("progress is reported in order up to the end") {
     const Scene scene = mirrored_ball();
     Progress last;
     int calls = 0;
@@ -146,7 +146,7 @@ TEST_CASE("a cancelled rendering ends soon") {
     CHECK(!render(scene, {.settings = settings}, [](const Progress&) { return false; }));
 }
 
-TEST_CASE("what the callback throws comes out") {
+TEST_CASE("exceptions thrown by the progress callback propagate") {
     const Scene scene = mirrored_ball();
     int calls = 0;
     CHECK_THROWS_AS(render(scene, {.threads = 4},
@@ -170,7 +170,7 @@ TEST_CASE("a callback may use the library itself") {
     CHECK(image.has_value());
 }
 
-TEST_CASE("several pictures can be made at a time") {
+TEST_CASE("several images can be rendered at a time") {
     const Scene scene = mirrored_ball();
     const Image image = render(scene);
     std::vector<Image> images(4);
@@ -183,7 +183,7 @@ TEST_CASE("several pictures can be made at a time") {
         CHECK(own.rgb == image.rgb);
 }
 
-TEST_CASE("pictures are written, in the format of the ending") {
+TEST_CASE("an image is written in the format of the file's ending") {
     const tests::TemporaryDirectory directory;
     const Image image = render(mirrored_ball());
     for (const std::string name : {"a.pfm", "a.hdr", "a.png"}) {
@@ -198,7 +198,7 @@ TEST_CASE("pictures are written, in the format of the ending") {
     CHECK(scenes::read_image(directory.path() / "linear.png").rgb[0] * 255.0F == Approx(64.0F));
 }
 
-TEST_CASE("a picture may leave its background out") {
+TEST_CASE("an image with alpha has no background") {
     const Scene scene = mirrored_ball();
     Settings settings = scene.settings();
     settings.alpha = true;
@@ -231,7 +231,7 @@ TEST_CASE("a picture may leave its background out") {
           "alpha: must be empty, or one for each of 70 x 50 pixels, got 3499");
 }
 
-TEST_CASE("a part of a picture is drawn by itself, with what it shows") {
+TEST_CASE("a crop has the pixels and layers of the whole image") {
     const Scene scene = mirrored_ball();
     const Image whole = render(scene, {.layers = true});
     REQUIRE(whole.layers.depth.size() == 70 * 50);
@@ -250,7 +250,7 @@ TEST_CASE("a part of a picture is drawn by itself, with what it shows") {
     const std::optional<Image> part =
         render(scene, {.crop = crop, .layers = true}, [&](const Progress& progress) {
             CHECK(progress.total_pixels == 11 * 7);
-            CHECK((progress.tile.x >= 30 && progress.tile.y >= 20)); // of the whole
+            CHECK((progress.tile.x >= 30 && progress.tile.y >= 20)); // in the whole image
             pixels = progress.pixels;
             return true;
         });
@@ -274,7 +274,7 @@ TEST_CASE("a part of a picture is drawn by itself, with what it shows") {
               "crop: must be a part of the picture");
 }
 
-TEST_CASE("pictures that cannot be written leave no file") {
+TEST_CASE("images that cannot be written leave no file") {
     const tests::TemporaryDirectory directory;
     const Image image = render(mirrored_ball());
     const std::string folder = directory.path().string();
@@ -294,7 +294,7 @@ TEST_CASE("pictures that cannot be written leave no file") {
     CHECK(directory.file_count() == 0);
 }
 
-TEST_CASE("a picture's tiles come as they are drawn") {
+TEST_CASE("the callback receives each tile of an image once") {
     const Scene scene = mirrored_ball();
     Image put_together{70, 50, std::vector<float>(std::size_t{3} * 70 * 50, -1.0F)};
     std::int64_t pixels = 0;
@@ -318,7 +318,7 @@ TEST_CASE("a picture's tiles come as they are drawn") {
     CHECK(put_together.rgb == image->rgb);
 }
 
-TEST_CASE("an image is not written by a transfer that is none") {
+TEST_CASE("an invalid transfer is refused when an image is written") {
     CHECK(message_of<InvalidValue>([&] {
               write_image("none.png", {1, 1, {0, 0, 0}}, static_cast<Transfer>(2));
           }) == "transfer: must be a Transfer");

@@ -5,7 +5,7 @@
 
 namespace raylane::tests {
 
-/// The library's shapes have core's names, and their numbers.
+/// Maps core's shapes to the library's, which have the same names and numbers.
 template <class CoreShape>
 struct InLibrary;
 #define RAYLANE_IN_LIBRARY(Shape, name, text)                                                      \

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs the built tree, moves it, looks at what it has, and builds and runs the examples.
+# Installs the built tree, moves it, checks its contents, and builds and runs the examples.
 #
 # usage: install_test.sh BUILD_FOLDER CMAKE GENERATOR C_COMPILER CXX_COMPILER BUILD_TYPE FLAGS
 set -eu
@@ -87,7 +87,7 @@ cmp sphere.png ball.png || fail "another picture from C"
 "$folder/examples/path" || fail "another picture than raylane's"
 [ -s path.png ] || fail "no picture of paths"
 
-# A sanitizer of C++ wants its compiler.
+# A library with sanitizers must be linked by the C++ compiler.
 in_c=yes
 case $flags in *-fsanitize*) in_c= ;; esac
 if [ -n "$in_c" ]; then

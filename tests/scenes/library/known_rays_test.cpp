@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-/// Rays that were once answered wrongly, and those around them. The numbers are the whole case: one
-/// bit off, and it is another.
+/// Rays that once had wrong answers, and rays around them. Every bit of the numbers matters: with
+/// one bit changed, it is another case.
 using namespace raylane;
 using namespace raylane::tests;
 using core::Vec3d;
@@ -19,7 +19,8 @@ namespace {
 using Ray = core::Ray<float>;
 using Shapes = std::vector<tests::AnyShape>;
 
-/// The oracle agrees with all answers, whatever the limits and whoever is asked. Returns the hits.
+/// Checks all answers against the oracle, with limits at crossings, on every instruction set and on
+/// one and several threads. Returns the number of hits.
 long check(const Shapes& shapes, std::span<const Ray> rays, double least_hits = 0.25) {
     Tally tally;
     Exam(shapes).ask(rays, Limits::at_crossings, Ways::all, tally);
@@ -29,7 +30,7 @@ long check(const Shapes& shapes, std::span<const Ray> rays, double least_hits = 
     return tally.hits;
 }
 
-/// Answer to one ray, once the oracle agrees.
+/// Answer to one ray. The oracle has confirmed it.
 struct Answer {
     float t;
     ShapeId shape;
@@ -56,7 +57,8 @@ core::Box cube(const Vec3f& corner, float size = 1.0F) {
 
 } // namespace
 
-TEST_CASE("a disc on a cylinder's end, seen from five million sizes, is in it", "[known]") {
+TEST_CASE("a disc on a cylinder's cap ties with the cap from five million diameters away",
+          "[known]") {
     const Shapes shapes = {core::CappedCylinder{{0, -1, 0}, {0, 1, 0}, 1},
                            core::Disc{{0, 0, 0}, {0, 1, 0}, 1}};
     const Ray ray{{0x1.72ae76p+22F, 0x1.f5ecfap+22F, 0x1.4bbabp+22F},
@@ -64,8 +66,7 @@ TEST_CASE("a disc on a cylinder's end, seen from five million sizes, is in it", 
     CHECK(answer(shapes, ray).shape == 0);
 }
 
-TEST_CASE("of stacked boxes, the one that is entered comes before the one that is left",
-          "[known]") {
+TEST_CASE("a ray between stacked boxes enters one before it leaves the other", "[known]") {
     const Shapes shapes = {cube({0, 0, 0}), cube({0, -1, 0})};
     const Ray ray{{0.25F, -0.75F, 0x1.000004p+0F}, {2, 5, -1}};
     const Answer first = answer(shapes, ray, 0x1p-22F);
@@ -73,7 +74,7 @@ TEST_CASE("of stacked boxes, the one that is entered comes before the one that i
     CHECK(first.entering);
 }
 
-TEST_CASE("a triangle in a box's face is at the face, from any distance", "[known]") {
+TEST_CASE("a triangle in a box's face ties with the face from any distance", "[known]") {
     ray_sets::Random random(11);
     const Shapes shapes = {cube({-2, -2, -4}, 4.0F),
                            core::Triangle{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}},
@@ -90,7 +91,8 @@ TEST_CASE("a triangle in a box's face is at the face, from any distance", "[know
     check(shapes, rays);
 }
 
-TEST_CASE("of two spheres in contact, the one nearer by a double's last bits is hit", "[known]") {
+TEST_CASE("a ray hits the one of two touching spheres that is nearer by a double's last bits",
+          "[known]") {
     const Shapes shapes = {core::Sphere{{0, 1.0F / 32, 0.5F}, 1.0F / 32},
                            core::Sphere{{1.0F / 16, 1.0F / 32, 0.5F}, 1.0F / 32}};
     const Ray ray{{0x1.25da72p-6F, 0x1.b880ccp-6F, 0x1.040432p-1F},
@@ -98,7 +100,7 @@ TEST_CASE("of two spheres in contact, the one nearer by a double's last bits is 
     CHECK(answer(shapes, ray).shape == 0);
 }
 
-TEST_CASE("rays within 1e-8 of where unit spheres touch tell one from the other", "[known]") {
+TEST_CASE("rays within 1e-8 of the contact of unit spheres hit the right one", "[known]") {
     ray_sets::Random random(12);
     const Shapes shapes = {core::Sphere{{-1, 0, 0}, 1}, core::Sphere{{1, 0, 0}, 1}};
     std::vector<Ray> rays;
@@ -112,7 +114,7 @@ TEST_CASE("rays within 1e-8 of where unit spheres touch tell one from the other"
     check(shapes, rays);
 }
 
-/// x^2 + z^2 + bend y^2 + lean y = 1 about y = 0.
+/// Returns the quadric x^2 + z^2 + bend y^2 + lean y = 1, which is used near y = 0.
 static core::Quadric rim(float bend, float lean) {
     core::Quadric q{};
     q.xx = q.zz = 1;
@@ -124,8 +126,7 @@ static core::Quadric rim(float bend, float lean) {
     return q;
 }
 
-TEST_CASE("a quadric and a cylinder 2^-148 apart, or its square, at their rim are in order",
-          "[known]") {
+TEST_CASE("a quadric and a cylinder apart by 2^-148 or its square are hit in order", "[known]") {
     const core::CappedCylinder pipe{{0, -1, 0}, {0, 2, 0}, 1};
     for (const float y : {-0x1.8p-148F, 0x1.8p-148F})
         for (const bool first : {false, true}) {
@@ -135,15 +136,15 @@ TEST_CASE("a quadric and a cylinder 2^-148 apart, or its square, at their rim ar
             const ShapeId of_quadric = first ? 0 : 1;
             const Ray ray{{-2, y, 0}, {1, 0, 0}};
             CAPTURE(y, first);
-            // Below y = 0 it is the wider one, above the narrower.
+            // Below y = 0 the quadric is the wider one, above it the narrower one.
             CHECK((answer(both(rim(0, 1)), ray).shape == of_quadric) == (y < 0));
             CHECK(answer(both(rim(1, 0)), ray).shape != of_quadric);
             CHECK(answer(both(rim(-1, 0)), ray).shape == of_quadric);
-            CHECK(answer(both(rim(0, 0)), ray).shape == 0); // the same
+            CHECK(answer(both(rim(0, 0)), ray).shape == 0); // the same surface
         }
 }
 
-TEST_CASE("a t given back as t_min leads on to the exit of a thin cone", "[known]") {
+TEST_CASE("a ray with the t of its entry as t_min finds the exit of a thin cone", "[known]") {
     const Shapes shapes = {core::OpenCone{{-0x1.040d94p+2F, -0x1.c3773ap+1F, 0x1.b76b34p+2F},
                                           {-0x1.9fe7dep-5F, -0x1.4db4ep-3F, -0x1.0c6236p-4F},
                                           0x1.318d2ap-7F,
@@ -162,7 +163,7 @@ TEST_CASE("a t given back as t_min leads on to the exit of a thin cone", "[known
     CHECK(!none.occluded);
 }
 
-TEST_CASE("an apex is answered once", "[known]") {
+TEST_CASE("a ray through an apex hits it once", "[known]") {
     const core::OpenCone open{{0, 0, 0}, {0, 0, 2}, 1, 0};
     const core::CappedCone capped{{0, 0, 0}, {0, 0, 2}, 1, 0};
     for (const Shapes& shapes : {Shapes{open}, Shapes{capped}, Shapes{open, capped}})
@@ -172,7 +173,7 @@ TEST_CASE("an apex is answered once", "[known]") {
             CHECK(answer(shapes, ray, 4.0F).shape == no_shape);
             CHECK(!answer(shapes, ray, 4.0F).occluded);
         }
-    // Along the axis it is entered there, and a capped one left by its base.
+    // Along the axis the ray enters at the apex, and leaves a capped cone by its base.
     const Ray along{{0, 0, 4}, {0, 0, -1}};
     CHECK(answer({open}, along).t == 2.0F);
     CHECK(answer({open}, along, 2.0F).shape == no_shape);
@@ -192,7 +193,7 @@ TEST_CASE("subnormal spheres block a ray that ends on them", "[known]") {
         }
 }
 
-TEST_CASE("a cylinder of size 1e-7 at 1e-3 is left at the nearest float", "[known]") {
+TEST_CASE("a ray leaves a cylinder of size 1e-7 at 1e-3 at the nearest float", "[known]") {
     ray_sets::Random random(14);
     for (int i = 0; i < 200; ++i) {
         const Vec3d base = 1e-3 * random.direction();
@@ -207,7 +208,8 @@ TEST_CASE("a cylinder of size 1e-7 at 1e-3 is left at the nearest float", "[know
     }
 }
 
-TEST_CASE("an apex has the axis for a normal, a corner and an edge the lowest face's", "[known]") {
+TEST_CASE("an apex has the axis as normal and a corner or edge the lowest face's normal",
+          "[known]") {
     const core::OpenCone up{{0, 0, 0}, {0, 0, 2}, 1, 0}, down{{0, 0, 0}, {0, 0, 2}, 0, 1};
     const Ray across{{-4, 0, 2}, {1, 0, 0}}, across_base{{-4, 0, 0}, {1, 0, 0}};
     CHECK(answer({up}, across).normal == Vec3f(0, 0, 1));
@@ -227,7 +229,7 @@ TEST_CASE("an apex has the axis for a normal, a corner and an edge the lowest fa
     CHECK(answer(box, {{-1, 0.5F, -1}, {1, 0, 1}}).normal == Vec3f(-1, 0, 0));
 }
 
-TEST_CASE("next to an apex and to corners normals point outwards", "[known]") {
+TEST_CASE("normals next to an apex and to corners point outwards", "[known]") {
     ray_sets::Random random(15);
     const Shapes shapes = {core::CappedCone{{0, 0, -2}, {0, 0, 2}, 1, 0}, cube({0, 0, 0})};
     std::vector<Ray> rays;
@@ -240,7 +242,7 @@ TEST_CASE("next to an apex and to corners normals point outwards", "[known]") {
     check(shapes, rays, 0.1);
 }
 
-TEST_CASE("which side a ray comes from is right at grazing planes", "[known]") {
+TEST_CASE("the side that a ray comes from is right at grazing planes", "[known]") {
     ray_sets::Random random(16);
     long hits = 0;
     for (int i = 0; i < 100; ++i) {
@@ -257,7 +259,7 @@ TEST_CASE("which side a ray comes from is right at grazing planes", "[known]") {
     CHECK(hits > 400);
 }
 
-TEST_CASE("what is far away is hit in its order, with its normals", "[known]") {
+TEST_CASE("shapes that are far away are hit in order and with their normals", "[known]") {
     ray_sets::Random random(17);
     const core::Sphere one{{0, 0, 0}, 1}, other{{0, 0, 1}, 1};
     CHECK(answer({one, other}, {{0.01F, 0.02F, 1e17F}, {0, 0, -1}}).shape == 1);
@@ -292,7 +294,7 @@ TEST_CASE("a light 2^-61 above a tilted plane lights it with finite numbers", "[
     builder.add_light({.position = {0, 0x1p-61F, 0}});
     builder.camera.from = {2, 3, 4};
     builder.camera.at = {0, 0, 0};
-    builder.settings.width = builder.settings.height = 33; // the middle one is seen right there
+    builder.settings.width = builder.settings.height = 33; // odd: one pixel is centred on the light
     const Scene scene = builder.build();
     const core::Scene& inside = library::Internals::of(scene);
     for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
@@ -305,7 +307,7 @@ TEST_CASE("a light 2^-61 above a tilted plane lights it with finite numbers", "[
     }
 }
 
-TEST_CASE("sizes of 1e30 and 1e-30 are right beside each other", "[known]") {
+TEST_CASE("shapes of size 1e30 and 1e-30 are hit correctly in one scene", "[known]") {
     ray_sets::Random random(18);
     Shapes shapes = {core::Sphere{{0, 0, -1e30F}, 1e30F}, core::Plane{{0, 0, -1e29F}, {0, 0, 1}}};
     for (int i = 0; i < 30; ++i) {
@@ -320,7 +322,7 @@ TEST_CASE("sizes of 1e30 and 1e-30 are right beside each other", "[known]") {
     check(shapes, rays);
 }
 
-TEST_CASE("a ray in the planes of bounds hits what touches them", "[known]") {
+TEST_CASE("a ray in a plane of bounds hits the shapes that touch it", "[known]") {
     for (const float size : {1.0F, 0x1p20F, 0x1p60F, 0x1p-60F}) {
         CAPTURE(size);
         Shapes row;
@@ -336,7 +338,7 @@ TEST_CASE("a ray in the planes of bounds hits what touches them", "[known]") {
     }
 }
 
-TEST_CASE("from afar, t_max is the limit that it says", "[known]") {
+TEST_CASE("t_max limits rays from afar exactly", "[known]") {
     Shapes row;
     for (int i = 0; i < 30; ++i)
         row.push_back(core::Sphere{{3.0F * static_cast<float>(i), 0, 0}, 1});
@@ -351,7 +353,7 @@ TEST_CASE("from afar, t_max is the limit that it says", "[known]") {
     check(row, rays);
 }
 
-TEST_CASE("spheres within 1e-6 are hit in their order", "[known]") {
+TEST_CASE("spheres within 1e-6 are hit in order", "[known]") {
     ray_sets::Random random(20);
     Shapes shapes;
     std::vector<Ray> rays;
@@ -364,7 +366,7 @@ TEST_CASE("spheres within 1e-6 are hit in their order", "[known]") {
     check(shapes, rays);
 }
 
-TEST_CASE("rays along a floor of triangles, 1e-7 above it", "[known]") {
+TEST_CASE("rays 1e-7 above a floor of triangles are answered correctly", "[known]") {
     ray_sets::Random random(21);
     Shapes shapes;
     constexpr int across = 32;
@@ -386,7 +388,7 @@ TEST_CASE("rays along a floor of triangles, 1e-7 above it", "[known]") {
     check(shapes, rays);
 }
 
-TEST_CASE("rays along the side of cylinders end to end", "[known]") {
+TEST_CASE("rays along the side of cylinders end to end are answered correctly", "[known]") {
     ray_sets::Random random(22);
     Shapes shapes;
     for (int i = 0; i < 300; ++i)
@@ -398,11 +400,11 @@ TEST_CASE("rays along the side of cylinders end to end", "[known]") {
         rays.push_back({rounded(on - Vec3d(2.0, 0.0, 0.0)),
                         rounded(Vec3d(1.0, 0.0, 0.0) + tilt * random.direction())});
     }
-    rays.push_back({{-2, 1, 0}, {1, 0, 0}}); // in it
+    rays.push_back({{-2, 1, 0}, {1, 0, 0}}); // in the surface
     check(shapes, rays, 0.1);
 }
 
-TEST_CASE("of a thousand identical spheres the first one is hit", "[known]") {
+TEST_CASE("a ray hits the first of a thousand identical spheres", "[known]") {
     ray_sets::Random random(23);
     const Shapes shapes(1000, core::Sphere{{0.1F, 0.2F, 0.3F}, 1.1F});
     std::vector<Ray> rays;
@@ -413,9 +415,9 @@ TEST_CASE("of a thousand identical spheres the first one is hit", "[known]") {
     CHECK(answer(shapes, rays.back()).shape == 0);
 }
 
-/// The nearest shape is behind where double brings such rays, and more than are listed at first may
-/// be.
-TEST_CASE("of many shapes that a ray from afar may hit, it hits the first", "[known]") {
+/// Double arithmetic may start such rays past the nearest shape, and more shapes may be the nearest
+/// than are listed at first.
+TEST_CASE("a ray from afar hits the first of many shapes that it may hit", "[known]") {
     Shapes balls, cubes;
     for (int i = 0; i < 65; ++i)
         balls.push_back(core::Sphere{{0, 0, 0}, 1.0F + static_cast<float>(i) / 64.0F});

@@ -28,7 +28,7 @@ std::string refusal_of(const auto& act) {
 
 } // namespace
 
-TEST_CASE("scenes are loaded from files, and mistakes cost one line") {
+TEST_CASE("a scene is loaded from a file or refused with an error of one line") {
     CHECK(load(RAYLANE_SOURCE_DIR "/scenes/sphere.json").shape_count() > 0);
     const tests::TemporaryDirectory directory;
     const auto message = [&](const std::string& name) {
@@ -43,7 +43,7 @@ TEST_CASE("scenes are loaded from files, and mistakes cost one line") {
     CHECK(message("a.json") == folder + "a.json:3:88: /objects/0/radius: must be positive, got -1");
 }
 
-TEST_CASE("each mistake in a file can be had by itself") {
+TEST_CASE("each error of a file is available by itself") {
     try {
         parse(with_objects("3,\n {\"a\": 1}"), "x.json");
         FAIL("must throw");
@@ -85,12 +85,12 @@ TEST_CASE("scenes are parsed from text") {
           "x:1:1: must have the key \"camera\"\nx:1:1: must have the key \"objects\"");
     CHECK(refusal_of([] { parse("\x01"); }) ==
           "scene: must be a scene or atoms in a text format, got a binary file");
-    // Longer than what is looked at to tell the format.
+    // Longer than the part that is examined to find the format.
     const std::string blank(200'000, ' ');
     CHECK(parse(blank + with_objects("") + blank, "x.json").shape_count() == 0);
 }
 
-TEST_CASE("atoms are read with the edges of their cell, or without") {
+TEST_CASE("atoms are read with or without the edges of their cell") {
     const std::string atom = "1\nLattice=\"3 0 0 0 4 0 0 0 5\"\nC 1 1 1\n";
     CHECK(parse_atoms(atom, "a.xyz", false).shape_count() == 1);
     CHECK(parse_atoms(atom, "a.xyz", true).shape_count() == 1 + 8 + 12);
@@ -98,14 +98,14 @@ TEST_CASE("atoms are read with the edges of their cell, or without") {
           "--cell: must have a cell to show, and a.xyz has none");
 }
 
-TEST_CASE("the README's program is the one that is tested") {
+TEST_CASE("the README contains the example program that is tested") {
     const std::string program = tests::content_of(RAYLANE_SOURCE_DIR "/scenes/examples/hits.cpp");
     REQUIRE(!program.empty());
     const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
     CHECK(readme.find("```cpp\n" + program + "```") != std::string::npos);
 }
 
-TEST_CASE("scenes are saved, and are the same when they are loaded again") {
+TEST_CASE("a saved scene is the same when it is loaded again") {
     const tests::TemporaryDirectory directory;
     const auto hits_of = [](const Scene& scene) {
         const float origins[3][3] = {{0, 0, 9}, {0.5F, 0.25F, 9}, {3, 0.125F, 9}};
@@ -172,19 +172,19 @@ TEST_CASE("scenes are saved, and are the same when they are loaded again") {
     CHECK_THROWS_AS(save(scene, path("none/a.json")), SystemRefused);
     CHECK(directory.names() == std::vector<std::string>{"a.pov"});
 
-    SceneBuilder dark; // for rays alone
+    SceneBuilder dark; // no lights: for rays alone
     dark.add(Sphere{{0, 0, 0}, 1}, dark.add_material(Material()));
     save(dark.build(), path("dark.json"));
     CHECK(load(path("dark.json")).shape_count() == 1);
 }
 
-TEST_CASE("to the library, - is a file as any other") {
+TEST_CASE("the library treats - as an ordinary file name") {
     CHECK(refusal_of([] { load("-"); }) == "./-: no such file");
 }
 
 namespace {
 
-/// RAYLANE_THREADS as it says, until it ends.
+/// Sets RAYLANE_THREADS during its lifetime.
 class ThreadsInEnvironment {
   public:
     explicit ThreadsInEnvironment(const char* text) {
@@ -206,8 +206,7 @@ class ThreadsInEnvironment {
 
 } // namespace
 
-TEST_CASE(
-    "threads in the environment that are none are an invalid value, wherever they are asked for") {
+TEST_CASE("an invalid RAYLANE_THREADS is an InvalidValue wherever it is used") {
     const Scene scene = parse(with_objects(""));
     SceneBuilder builder;
     builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({}));
@@ -225,7 +224,7 @@ TEST_CASE(
               "RAYLANE_THREADS");
         CHECK(field_of([] { parse(with_objects("")); }) == "RAYLANE_THREADS");
         CHECK(field_of([&] { builder.build(); }) == "RAYLANE_THREADS");
-        CHECK(builder.shape_count() == 1); // that it has still
+        CHECK(builder.shape_count() == 1); // the builder keeps its shape
         CHECK(field_of([&] { render(scene); }) == "RAYLANE_THREADS");
         CHECK(field_of([&] { Tracer asked(scene); }) == "RAYLANE_THREADS");
         CHECK(field_of([&] {
@@ -236,7 +235,7 @@ TEST_CASE(
     CHECK(builder.build().shape_count() == 1);
 }
 
-TEST_CASE("a scene of atoms that is saved as JSON is lit from wherever it is looked at") {
+TEST_CASE("a scene of atoms that is saved as JSON has light from every view") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path path = directory.path() / "a.json";
     const Scene scene = parse("3\n\nC 0 0 0\nO 2 1 -3\nN 0 3 1\n", "atoms.xyz");
@@ -259,7 +258,7 @@ TEST_CASE("a scene of atoms that is saved as JSON is lit from wherever it is loo
     }
 }
 
-TEST_CASE("what a file says and a scene does not have is told to who loads it") {
+TEST_CASE("parsing reports features of a file that the scene does not have") {
     const std::string pov = "camera { location <0, 0, -5> look_at 0 }\n"
                             "light_source { <1, 2, -3> color rgb 1 shadowless }\n"
                             "sphere { 0, 1 pigment { color rgb 1 } }\n";

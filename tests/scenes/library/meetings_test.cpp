@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-/// Shapes that meet, asked of the library, against the oracle.
+/// Tests of the library's answers for shapes that meet, against the oracle.
 using namespace raylane;
 using namespace raylane::tests;
 using meetings::Meeting;
@@ -16,12 +16,12 @@ namespace {
 void ask(const Meeting& meeting, Limits limits, Sides sides, Ways ways, Tally& tally) {
     Exam(meeting.shapes, sides).ask(meeting.rays, limits, ways, tally);
 }
-/// Every fourth time.
+/// Returns Sides::some in every fourth round.
 Sides sides_of(int round) {
     return round % 4 == 3 ? Sides::some : Sides::both;
 }
 
-/// No answer was wrong, of as many as there should be.
+/// Checks that no answer was wrong and that enough rays hit.
 void check(const char* what, const Tally& tally) {
     std::printf("%s: %s", what, tally.report().c_str());
     std::fflush(stdout);

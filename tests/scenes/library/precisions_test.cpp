@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-/// Limits of rays with the precisions that are not certified. What is right is found by trying
-/// every shape, exactly; it has to be found where it is so clear that no rounding is an excuse.
+/// Tests of ray limits with the precisions that are not certified. An exact brute-force search
+/// gives the truth. Each precision must find it where it is so clear that no rounding can hide it.
 using namespace raylane;
 using namespace raylane::tests;
 
@@ -38,8 +38,9 @@ class BruteForce {
         : scene_(library::Internals::of(all.scene)), rays_(all.rays),
           searcher_(scene_, core::Search::every_shape) {}
 
-    /// The nearest hit between a ray's limits, if all rays close by hit the same shape about as
-    /// far away, or all of them nothing. Some are closer than others: shapes may be small.
+    /// Returns the nearest hit between a ray's limits if all neighbouring rays hit the same shape
+    /// at about the same t, or all of them nothing; otherwise nothing. Some neighbours are closer
+    /// than others, as shapes may be small.
     std::optional<core::Hit<double>> clear_answer(std::size_t i) {
         const core::Hit<double> hit = nearest(i, rays_.ray(i), 1.0);
         Random random(i);
@@ -81,7 +82,7 @@ const Material materials[] = {
 
 } // namespace
 
-TEST_CASE("every precision finds what is clear between a ray's limits") {
+TEST_CASE("every precision finds clear hits between a ray's limits") {
     for (const Material& material : materials) {
         const Heap all = heap_of(material);
         BruteForce brute_force(all);
@@ -115,8 +116,8 @@ TEST_CASE("every precision finds what is clear between a ray's limits") {
                 wrongly_blocked += blocked[i] == (hit.any() ? 1 : 0) ? 0 : 1;
             }
             CAPTURE(static_cast<int>(precision), clear, clear_hits);
-            // A close call may escape all neighbours, and textbooks lose what is nearly parallel to
-            // a cone's side: 1 and 3 of some 750 were measured.
+            // The neighbours may miss a close call, and textbook formulas lose rays nearly parallel
+            // to a cone's side: 1 and 3 of some 750 were measured.
             const std::size_t most = precision == Precision::fast     ? 1 + clear / 100
                                      : precision == Precision::robust ? 1 + clear / 300
                                                                       : 0;
@@ -127,7 +128,7 @@ TEST_CASE("every precision finds what is clear between a ray's limits") {
     }
 }
 
-TEST_CASE("by every precision each t, given back as t_min, leads on, and to an end") {
+TEST_CASE("rays with each t as the next t_min advance and end with every precision") {
     const Heap all = heap_of({});
     for (const Precision precision : not_certified) {
         const Tracer tracer(all.scene, {.precision = precision});
@@ -136,7 +137,7 @@ TEST_CASE("by every precision each t, given back as t_min, leads on, and to an e
         rays.t_max.clear();
         std::size_t steps = 0, not_behind = 0;
         for (bool any = true; any; ++steps) {
-            // A crossing of each shape on its way in and out.
+            // A ray crosses each shape at most once on its way in and once on its way out.
             REQUIRE(steps <= 2 * all.scene.shape_count() + 1);
             any = false;
             const Hits hits = intersect(tracer, rays);

@@ -7,7 +7,7 @@
 #include <bit>
 #include <limits>
 
-/// Rays and what they hit in arrays of a test's own, and scenes to ask about.
+/// Arrays of rays and of hits for tests of the library, and scenes for them.
 namespace raylane::tests {
 
 using ray_sets::Random;
@@ -16,7 +16,7 @@ using ray_sets::Set;
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
-/// Rays with arrays of their own.
+/// Owns the arrays of rays.
 struct Rays {
     std::vector<float> x, y, z, dx, dy, dz, t_min, t_max;
 
@@ -102,7 +102,7 @@ void add_kind(SceneBuilder& builder, MaterialIndex material, int count, bool lat
     }
 }
 
-/// All kinds in one heap, with rays that are hard for some of them.
+/// Returns a scene of all kinds of shapes in one heap, with rays that are hard for some of them.
 inline Heap heap(bool lattice, int of_each_kind, std::uint64_t seed, const Material& of = {}) {
     Random random(seed);
     SceneBuilder builder;
@@ -123,14 +123,14 @@ inline Heap heap() {
 #endif
 }
 
-/// A unit ball around the origin.
+/// Returns a scene of a unit ball around the origin.
 inline Scene ball(const Material& material = {}) {
     SceneBuilder builder;
     builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material(material));
     return builder.build();
 }
 
-/// A ray down the z axis to the unit ball: t = 4 and 6.
+/// Returns a ray down the z axis to the unit ball: t = 4 and 6.
 inline Rays to_ball() {
     Rays rays;
     rays.add({0, 0, 5}, {0, 0, -1});

@@ -13,7 +13,8 @@ using namespace raylane;
 
 namespace {
 
-/// What a program may have made of its rounding: upward, and numbers near zero are none.
+/// Sets rounding that a program may use, during its lifetime: upward, with denormal numbers flushed
+/// to zero.
 class OddRounding {
   public:
     OddRounding() {
@@ -55,7 +56,7 @@ class OddRounding {
     std::fenv_t before_{};
 };
 
-/// Their numbers are there before any rounding is changed.
+/// Returns balls whose numbers are computed once, before the rounding changes.
 const std::vector<SphereOf<double>>& balls() {
     static const std::vector<SphereOf<double>> all = [] {
         std::vector<SphereOf<double>> result;
@@ -113,8 +114,9 @@ struct Answers {
 
 } // namespace
 
-TEST_CASE("whatever the caller's rounding, answers are the same, and it stays") {
-    // Numbers of threads that no test has had: their first call makes what others are given.
+TEST_CASE("answers do not depend on the caller's rounding and the rounding stays") {
+    // Numbers of threads that no other test uses: the first call creates the threads that are
+    // reused.
     for (const int threads : {1, 23, 29}) {
         const Answers expected(crowd(), 1);
         {

@@ -14,7 +14,8 @@
 #include <utility>
 #include <vector>
 
-/// Answers of any number for each ray or point. exam.cpp holds crossings to the oracle.
+/// Tests of queries with any number of answers for each ray or point. exam.cpp checks crossings
+/// against the oracle.
 using namespace raylane;
 using namespace raylane::tests;
 
@@ -22,8 +23,8 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-/// A word for each crossing, such as "+0@2" where shape 0 is entered at t = 2: with = if it is tied
-/// to the one before, and ~ if it only touches.
+/// Returns a word for each crossing: "+0@2" if the ray enters shape 0 at t = 2, "-0@2" if it leaves
+/// it. "=" in front marks a tie with the crossing before, "~" a touch.
 Strings words(const CrossingRows& rows, std::size_t i = 0) {
     Strings all;
     for (std::uint64_t k = rows.first[i]; k < rows.first[i + 1]; ++k) {
@@ -55,7 +56,7 @@ Rays one_ray(const Vec3& origin, const Vec3& direction) {
     return rays;
 }
 
-/// By material.
+/// Returns the length along one ray inside of each material.
 using Lengths = std::vector<std::pair<MaterialIndex, double>>;
 
 Lengths lengths_along(const Scene& scene, const Vec3& origin, const Vec3& direction, float t_min,
@@ -73,7 +74,7 @@ Lengths lengths_along(const Scene& scene, const Vec3& origin, const Vec3& direct
 
 } // namespace
 
-TEST_CASE("all crossings come in order, and ties and what only touches by name") {
+TEST_CASE("all crossings come in order with ties and touches marked") {
     // The cells of a reactor's pin: a sphere in a cylinder, between planes.
     const Scene pin =
         scene_of_materials(Sphere{{0, 0, 0}, 2.5F}, OpenCylinder{{0, 0, -8}, {0, 0, 16}, 4},
@@ -87,14 +88,14 @@ TEST_CASE("all crossings come in order, and ties and what only touches by name")
     CHECK(words(crossings(pin, one_ray({-10, 2.5F, 0}, {1, 0, 0}))).at(1) == "~+0@10");
     CHECK(words(crossings(pin, one_ray({-10, 2.5F, 0}, {1, 0, 0}))).at(2) == "=~-0@10");
 
-    // Surfaces that coincide: each by its id.
+    // Coincident surfaces come in the order of their ids.
     const OpenCylinder cylinder{{0, 0, 0}, {0, 0, 1}, 1};
     CHECK(words(crossings(scene_of_materials(cylinder, cylinder),
                           one_ray({-2, 0, 0.5F}, {1, 0, 0}))) ==
           Strings{"+0@1", "=+1@1", "-0@3", "=-1@3"});
 }
 
-TEST_CASE("of triangles of one polygon one is crossed at an edge") {
+TEST_CASE("a ray through the common edge of a polygon's triangles crosses one of them") {
     SceneBuilder builder;
     const Triangle square[] = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
                                {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
@@ -102,7 +103,7 @@ TEST_CASE("of triangles of one polygon one is crossed at an edge") {
     CHECK(words(crossings(builder.build(), one_ray({0.5F, 0.5F, 1}, {0, 0, -1}))).size() == 1);
 }
 
-TEST_CASE("the first crossings of a ray are asked for by number, with normals and limits") {
+TEST_CASE("crossings have normals on request and limits of their number and of t") {
     const Scene scene = scene_of_materials(Sphere{{0, 0, 0}, 1}, Sphere{{0, 0, 0}, 2});
     Rays rays = one_ray({-4, 0, 0}, {2, 0, 0});
     const CrossingRows two = crossings(scene, rays, {.most = 2, .normals = true});
@@ -116,7 +117,7 @@ TEST_CASE("the first crossings of a ray are asked for by number, with normals an
     const CrossingRows between = crossings(scene, rays);
     CHECK(words(between) == Strings{"+0@1.5", "-0@2.5"});
     CHECK(between.normal_x.empty());
-    // From a surface that is named.
+    // From a given origin surface.
     const ShapeId left[] = {1};
     const std::uint8_t inward[] = {1};
     RaySpan from = rays.span();
@@ -130,7 +131,7 @@ TEST_CASE("the first crossings of a ray are asked for by number, with normals an
     CHECK(words(rows) == Strings{"+0@0.5", "-0@1.5", "-1@2"});
 }
 
-TEST_CASE("rows have a place for rays that are none, and for none at all") {
+TEST_CASE("invalid rays have empty rows and an empty array of rays has none") {
     const Scene scene = scene_of_materials(Sphere{{0, 0, 0}, 1});
     Rays rays = one_ray({-2, 0, 0}, {0, 0, 0});
     rays.add({-2, 0, 0}, {1, 0, 0});
@@ -149,7 +150,7 @@ TEST_CASE("rows have a place for rays that are none, and for none at all") {
     CHECK_THROWS_AS(Tracer(scene).contains(PointSpan{x, zero, {}}, solids), InvalidValue);
 }
 
-TEST_CASE("rows are the same whatever the threads, and count what decided them") {
+TEST_CASE("rows do not depend on the number of threads and statistics count the decisions") {
     const Heap many = heap(true, sanitized ? 4 : 30, 3);
     CrossingRows alone, shared;
     CrossingStatistics by_one, by_three;
@@ -173,7 +174,7 @@ TEST_CASE("rows are the same whatever the threads, and count what decided them")
     CHECK(of_one.first == of_three.first);
 }
 
-TEST_CASE("rays with more crossings than are found at a time have all of them") {
+TEST_CASE("rays with more crossings than one pass finds have all of them") {
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
     constexpr int shells = 300;
@@ -184,14 +185,14 @@ TEST_CASE("rays with more crossings than are found at a time have all of them") 
         rays.add({-400, 0.25F * static_cast<float>(i), 0}, {1, 0, 0});
     const CrossingRows rows = crossings(builder.build(), rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        // A ray touches the shell of its height.
+        // A ray touches the shell whose radius is the ray's height.
         const int height = static_cast<int>(i / 4) + (i % 4 == 0 ? 0 : 1);
         const int met = shells - std::max(height, 1) + 1;
         CHECK(rows.first[i + 1] - rows.first[i] == 2U * static_cast<unsigned>(met));
     }
 }
 
-TEST_CASE("each crossing's normal is that of the nearest hit from the one before") {
+TEST_CASE("the first crossing of a ray is its nearest hit with the same normal") {
     const Heap many = heap(false, sanitized ? 3 : 12, 5);
     const Tracer tracer(many.scene);
     CrossingRows rows;
@@ -209,13 +210,13 @@ TEST_CASE("each crossing's normal is that of the nearest hit from the one before
     }
 }
 
-TEST_CASE("lengths are those of what is inside of a material") {
+TEST_CASE("path lengths are the lengths inside of each material") {
     SceneBuilder builder;
     const MaterialIndex glass = builder.add_material({}), lead = builder.add_material({});
     builder.add(Sphere{{0, 0, 0}, 2}, glass);
     builder.add(Sphere{{1, 0, 0}, 2}, glass);                  // overlaps the first
     builder.add(Sphere{{0, 0, 0}, 1}, lead);                   // inside of both
-    builder.add(OpenCylinder{{9, 0, -1}, {0, 0, 2}, 1}, lead); // no solid
+    builder.add(OpenCylinder{{9, 0, -1}, {0, 0, 2}, 1}, lead); // not a solid
     builder.add(Sphere{{-4, 0, 0}, 2}, glass);                 // touches the first
     const Scene scene = builder.build();
     const auto lengths = [&](const Vec3& origin, const Vec3& direction, float t_min, float t_max) {
@@ -230,7 +231,7 @@ TEST_CASE("lengths are those of what is inside of a material") {
     CHECK(lengths({-6, -5, 0}, {0, 1, 0}, 0, infinity).empty()); // touches
 }
 
-TEST_CASE("what is cut open has no inside, for lengths and points") {
+TEST_CASE("a clipped solid is open and has no inside for lengths and points") {
     SceneBuilder builder;
     const MaterialIndex glass = builder.add_material({});
     const raylane::Solid ball(Sphere{{0, 0, 0}, 1}), plane(Plane{{0, 0, 0}, {-1, 0, 0}});
@@ -238,7 +239,7 @@ TEST_CASE("what is cut open has no inside, for lengths and points") {
     builder.add(raylane::Solid(Sphere{{4, 0, 0}, 1}), glass);
     const Scene scene = builder.build();
     LengthRows rows;
-    // Twice through the open side, and out of the other.
+    // Both rays pass the open side of the first ball and leave it by the other side.
     Rays rays = one_ray({0, 0.5F, 0}, {1, 0, 0});
     rays.add({-3, 0, 0}, {1, 0, 0});
     Tracer(scene).path_lengths(rays.span(), rows);
@@ -251,13 +252,13 @@ TEST_CASE("what is cut open has no inside, for lengths and points") {
     CHECK(solids.first == std::vector<std::uint64_t>{0, 0, 1});
 }
 
-TEST_CASE("rays are inside of a solid without end whether they cross it or not") {
+TEST_CASE("rays have a length inside of an unbounded solid whether they cross its surface or not") {
     SceneBuilder builder;
     const MaterialIndex stone = builder.add_material({}), gold = builder.add_material({});
     const raylane::Solid below(Plane{{0, 0, 0}, {0, 0, 1}}), hole(Sphere{{0, 0, -5}, 1});
     builder.add(difference_of(below, {hole}), stone);
     builder.add(raylane::Solid(Plane{{0, 0, -50}, {0, 0, 1}}), gold);
-    builder.add(clipped(below, {raylane::Solid(Plane{{0, 0, 0}, {1, 0, 0}})}), gold); // is open
+    builder.add(clipped(below, {raylane::Solid(Plane{{0, 0, 0}, {1, 0, 0}})}), gold); // open
     const Scene scene = builder.build();
     const auto lengths = [&](const Vec3& origin, const Vec3& direction, float t_min, float t_max) {
         return lengths_along(scene, origin, direction, t_min, t_max);
@@ -273,14 +274,14 @@ TEST_CASE("rays are inside of a solid without end whether they cross it or not")
     CHECK(lengths({0, 0, -5}, {0, 0, 1}, 0, 100) == Lengths{{stone, 4.0}});
     CHECK(lengths({3, 0, -1}, {0, 0, 1}, 0, 100) == Lengths{{stone, 1.0}});
     CHECK(lengths({3, 0, -1}, {0, 0, 1}, 1, infinity).empty());
-    // From the surface: into it, out of it, and along it.
+    // From the surface into the solid, out of it, and along the surface.
     CHECK(lengths({3, 0, 0}, {1, 0, -1e-30F}, 0, 8) == Lengths{{stone, 8.0}});
     CHECK(lengths({3, 0, 0}, {1, 0, 1e-30F}, 0, 8).empty());
     CHECK(lengths({3, 0, 0}, {1, 0, 0}, 0, 8).empty());
     CHECK(lengths({3, 0, 1}, {1, 0, 0}, 0, infinity).empty());
 }
 
-TEST_CASE("lengths, crossings and points agree of solids without end") {
+TEST_CASE("lengths and crossings and points agree for unbounded solids") {
     tests::Random random(seed(20261127));
     const auto part = [&](int depth, const auto& self) -> raylane::Solid {
         const auto small = [&] {
@@ -331,9 +332,9 @@ TEST_CASE("lengths, crossings and points agree of solids without end") {
                         rows.t.begin() + static_cast<std::ptrdiff_t>(rows.first[i + 1]));
             ends.push_back(t_max);
             double expected = 0.0;
-            bool runs_along = false; // where the parts are, not the points, say what is inside
+            bool runs_along = false; // in a surface, where points do not tell whether it is inside
             for (std::size_t k = 1; k < ends.size(); ++k) {
-                // Not half way, where another surface may be; and a point that is not rounded.
+                // Not half way, where another surface may be. The rounded t makes the point exact.
                 const double t = ends[k - 1] + 0.48828125 * (ends[k] - ends[k - 1]);
                 const core::Vec3d at = o + d * std::ldexp(std::round(std::ldexp(t, 20)), -20);
                 const double x[] = {at.x}, y[] = {at.y}, z[] = {at.z};
@@ -355,7 +356,7 @@ TEST_CASE("lengths, crossings and points agree of solids without end") {
     CHECK(around > 100);
 }
 
-TEST_CASE("lengths inside of solids are within an ulp, however the rays graze") {
+TEST_CASE("lengths inside of solids are within an ulp for grazing rays") {
     ray_sets::Random random(seed(20261124));
     long measured = 0;
     for (int round = 0; round < rounds(3, 1); ++round)
@@ -379,7 +380,7 @@ TEST_CASE("lengths inside of solids are within an ulp, however the rays graze") 
                         []<class Shape>(const Shape&) { return core::is_solid<Shape>; },
                         shapes[id]);
                 });
-                // Of each material, from where it is first entered to where it is left last.
+                // For each material, the intervals of t inside of its shapes.
                 std::map<MaterialIndex, std::map<ShapeId, oracle::Number>> begins;
                 std::map<MaterialIndex, std::vector<std::pair<oracle::Number, oracle::Number>>> all;
                 for (const oracle::Found& found : sight.all()) {
@@ -406,7 +407,7 @@ TEST_CASE("lengths inside of solids are within an ulp, however the rays graze") 
                         end = std::max(to, end);
                     }
                     length *= speed;
-                    if (length < 1e-60) continue; // none, but for the digits
+                    if (length < 1e-60) continue; // zero but for the oracle's rounding
                     ++measured;
                     REQUIRE(k < rows.first[i + 1]);
                     CHECK(rows.material[k] == material);
@@ -421,7 +422,7 @@ TEST_CASE("lengths inside of solids are within an ulp, however the rays graze") 
     CHECK(measured > 60);
 }
 
-TEST_CASE("points are in solids as real arithmetic says") {
+TEST_CASE("contains decides exactly whether points are in solids or on them") {
     ray_sets::Random random(seed(20261125));
     long inside = 0, on_surface = 0, outside = 0;
     for (int round = 0; round < rounds(3, 1); ++round)
@@ -431,7 +432,7 @@ TEST_CASE("points are in solids as real arithmetic says") {
                 kind.make(random.integer(kind.least, kind.most), random, 40);
             const std::vector<tests::AnyShape> shapes = valid(meeting.shapes);
             const Scene scene = scene_of(shapes, Sides::some);
-            // Where rays cross surfaces, as near as doubles are, and places on a lattice.
+            // Points of rays: where they cross surfaces, rounded to doubles, and on a lattice.
             std::vector<double> x, y, z;
             for (const core::Ray<float>& narrow : meeting.rays) {
                 const core::Ray<double> ray{core::convert<double>(narrow.origin),
@@ -446,7 +447,8 @@ TEST_CASE("points are in solids as real arithmetic says") {
             SolidRows rows;
             Tracer(scene).contains(DoublePointSpan{x, y, z}, rows);
             for (std::size_t i = 0; i < x.size(); ++i) {
-                // A line through the point is in a convex solid on both sides of it, or on none.
+                // A point is inside of a convex solid if a line through it crosses the solid on
+                // both sides.
                 const core::Ray<double> line{{x[i], y[i], z[i]}, {0.41, 0.57, 0.71}};
                 std::vector<std::pair<ShapeId, int>> truth, answer;
                 for (ShapeId id = 0; id < shapes.size(); ++id) {

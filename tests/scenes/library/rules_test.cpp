@@ -7,7 +7,8 @@
 using namespace raylane;
 using namespace raylane::tests;
 
-/// Rules of the headers for rays that touch, lie in a surface, start on it, or meet several.
+/// Tests of the headers' rules for rays that touch a surface, lie in it, start on it, or meet
+/// several.
 
 namespace {
 
@@ -18,7 +19,7 @@ struct Answer {
     Vec3 normal;
 };
 
-/// The crossings of a ray, each t given back as t_min.
+/// Returns the crossings of a ray. Each t is the t_min of the query for the next one.
 template <class... Shapes>
 std::vector<Answer> answers(const Vec3& origin, const Vec3& direction, const Shapes&... shapes) {
     SceneBuilder builder;
@@ -82,13 +83,13 @@ TEST_CASE("a line that touches a surface enters it there") {
     check_one(3, true, {0, 1, 0}, {-3, 1, 0}, {1, 0, 0}, unit_quadric());
     check_one(3, true, {0, 1, 0}, {-3, 1, 0}, {1, 0, 0}, OpenCylinder{{0, 0, -1}, {0, 0, 2}, 1});
     check_one(3, true, {0, 1, 0}, {-3, 1, 0}, {1, 0, 0}, CappedCylinder{{0, 0, -1}, {0, 0, 2}, 1});
-    // By a float more or less, it enters and leaves, or misses.
+    // A line one float further out misses, and one float further in enters and leaves.
     const float more = std::nextafter(1.0F, 2.0F), less = std::nextafter(1.0F, 0.0F);
     CHECK(answers({-3, more, 0}, {1, 0, 0}, Sphere{{0, 0, 0}, 1}).empty());
     CHECK(answers({-3, less, 0}, {1, 0, 0}, Sphere{{0, 0, 0}, 1}).size() == 2);
 }
 
-TEST_CASE("a line in a surface does not hit it, and one in a solid's does") {
+TEST_CASE("a line in an open surface does not hit it and one in a solid's surface hits the solid") {
     const Vec3 from{-3, 0, 0}, along{1, 0, 0};
     CHECK(answers(from, along, Plane{{0, 0, 0}, {0, 1, 0}}).empty());
     CHECK(answers(from, along, Disc{{0, 0, 0}, {0, 1, 0}, 1}).empty());
@@ -97,7 +98,7 @@ TEST_CASE("a line in a surface does not hit it, and one in a solid's does") {
     CHECK(answers({-3, 4, 0}, {1, -1, 0}, OpenCone{{0, 0, 0}, {2, 0, 0}, 1, 3}).size() == 1);
     CHECK(answers({-1, 0, 0}, {1, 1, 0}, OpenCone{{0, 0, 0}, {2, 0, 0}, 1, 3}).empty());
     CHECK(answers(from, along, saddle()).empty()); // z = x y holds the x axis
-    // In a face of a box, or along the side of a cylinder.
+    // In a face of a box, and along the side of a cylinder.
     const std::vector<Answer> face =
         answers({-3, 1, 0}, along, Box{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}});
     REQUIRE(face.size() == 2);
@@ -110,12 +111,12 @@ TEST_CASE("a line in a surface does not hit it, and one in a solid's does") {
     check(side[1], 0, 4, false, {1, 0, 0});
 }
 
-TEST_CASE("surfaces are crossed at one t where real arithmetic says so, and nowhere else") {
-    // The nearer one is the later one; both t are 1 in float, and in double.
+TEST_CASE("crossings are tied exactly if real arithmetic gives the same t") {
+    // The second plane is nearer. Both t are 1 in float and in double.
     const float tiny = 0x1p-100F;
     const Plane at{{0, 0, tiny}, {0, 0, 1}}, before{{0, 0, 2 * tiny}, {0, 0, 1}};
     CHECK(answers({0, 0, 1}, {0, 0, -1}, at, before)[0].shape == 1);
-    // At one t what is entered comes first, then the lower id.
+    // At the same t, entries come first, then lower ids.
     const Sphere left{{0, 0, 1}, 1}, entered{{0, 0, -1}, 1};
     const std::vector<Answer> contact = answers({0, 0, 1}, {0, 0, -1}, left, entered);
     REQUIRE(contact.size() == 2);
@@ -125,14 +126,14 @@ TEST_CASE("surfaces are crossed at one t where real arithmetic says so, and nowh
     CHECK(answers({0, 0, 1}, {0, 0, -1}, Plane{{0, 0, 0}, {0, 0, 1}}, same)[0].shape == 0);
 }
 
-TEST_CASE("a crossing at the origin is none, and the next one is") {
+TEST_CASE("a crossing at the origin does not count and the next one does") {
     check_one(2, false, {0, 0, -1}, {0, 0, 1}, {0, 0, -1}, Sphere{{0, 0, 0}, 1});
     CHECK(answers({0, 0, 1}, {0, 0, 1}, Sphere{{0, 0, 0}, 1}).empty());
     CHECK(answers({0, 0, 1}, {1, 0, 0}, Sphere{{0, 0, 0}, 1}).empty());
     CHECK(answers({0, 0, 0}, {1, 0, 1}, Disc{{0, 0, 0}, {0, 0, 1}, 1}).empty());
 }
 
-TEST_CASE("t is the float that is nearest to where the crossing is") {
+TEST_CASE("t is the float nearest to the exact t") {
     check_one(1.0F / 3.0F, true, {0, 0, -1}, {0, 0, -1}, {0, 0, 3}, Plane{{0, 0, 0}, {0, 0, -1}});
     const float root = static_cast<float>(2.0 - std::sqrt(0.5));
     check_one(2.0F, true, {0, 1, 0}, {-2, 1, 0}, {1, 0, 0}, Sphere{{0, 0, 0}, 1});
@@ -141,19 +142,19 @@ TEST_CASE("t is the float that is nearest to where the crossing is") {
     CHECK(chord[0].t == root);
 }
 
-TEST_CASE("edges, rims and apexes have a normal") {
-    // Where faces of a box meet, that of edge_u before that of edge_v before that of edge_w.
+TEST_CASE("edges and rims and apexes have a defined normal") {
+    // Where faces meet, the normal of edge_u's face comes before edge_v's, and this before edge_w's.
     const Box box{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
     CHECK(answers({3, 3, 0}, {-1, -1, 0}, box)[0].normal.x == 1);
     CHECK(answers({0, 3, 3}, {0, -1, -1}, box)[0].normal.y == 1);
     CHECK(answers({3, 3, 3}, {-1, -1, -1}, box)[0].normal.x == 1);
     CHECK(answers({-3, 3, 3}, {1, -1, -1}, box)[0].normal.x == -1);
-    // At a rim, the side's.
+    // At a rim, the normal is the side's.
     const CappedCylinder can{{0, -1, 0}, {0, 2, 0}, 1};
     CHECK(answers({3, 3, 0}, {-1, -1, 0}, can)[0].normal.x == 1);
     const CappedCone bucket{{0, 1, 0}, {0, 1, 0}, 1, 1.5F};
     CHECK(answers({2.5F, 3, 0}, {-1, -1, 0}, bucket)[0].normal.y < 0);
-    // At an apex, along the axis to the apex; a quadric's is z.
+    // At an apex, the normal points along the axis towards the apex. A quadric's is z.
     const CappedCone cone{{0, -1, 0}, {0, 1, 0}, 1, 0};
     CHECK(answers({-3, 0, 0}, {1, 0, 0}, cone)[0].normal.y == 1);
     CHECK(answers({0, 3, 0}, {0, -1, 0}, cone)[0].normal.y == 1);
@@ -166,7 +167,7 @@ TEST_CASE("edges, rims and apexes have a normal") {
 }
 
 TEST_CASE("a ray may enter and leave with the same normal") {
-    // Grazing by less than a float of the normal can say.
+    // The ray grazes the plane by an angle that a normal in float cannot express.
     const Plane plane{{0, 0, 0}, {1, 0x1p60F, 0}};
     const std::vector<Answer> up = answers({-1, 0, 0}, {1, 0, 0}, plane);
     const std::vector<Answer> down = answers({1, 0, 0}, {-1, 0, 0}, plane);

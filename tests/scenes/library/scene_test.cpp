@@ -61,7 +61,7 @@ TEST_CASE("every kind of shape has its fields in a file's order") {
     CHECK(same_shapes(Internals::of(built), Internals::of(parse(with_objects(objects)))));
 }
 
-TEST_CASE("everything else comes back as it was given") {
+TEST_CASE("a scene returns all values that its builder was given") {
     SceneBuilder builder;
     builder.camera = {.projection = Projection::orthographic,
                       .from = {1, 2, 3},
@@ -173,7 +173,7 @@ TEST_CASE("everything else comes back as it was given") {
     CHECK(material.opacity == 0.27F);
 }
 
-TEST_CASE("what is not set is as in a file") {
+TEST_CASE("values that are not set have the defaults of a file") {
     SceneBuilder builder;
     builder.camera.from = {0, 0, 90};
     builder.add_light({.kind = LightKind::directional});
@@ -195,7 +195,7 @@ TEST_CASE("what is not set is as in a file") {
     CHECK(built.background() == parsed.background());
 }
 
-TEST_CASE("each enumerator is the one of that name inside") {
+TEST_CASE("each enumerator of the library equals core's of that name") {
     const auto same = [](auto ours, auto theirs) {
         return static_cast<int>(ours) == static_cast<int>(theirs);
     };
@@ -219,7 +219,7 @@ TEST_CASE("each enumerator is the one of that name inside") {
     CHECK(no_shape == core::no_shape);
 }
 
-TEST_CASE("a value that no scene may hold is refused, and the builder stays") {
+TEST_CASE("an invalid value is refused and the builder stays usable") {
     SceneBuilder builder;
     const MaterialIndex m = builder.add_material({});
     try {
@@ -255,7 +255,7 @@ TEST_CASE("a value that no scene may hold is refused, and the builder stays") {
     CHECK(builder.build().shape_count() == 1);
 }
 
-TEST_CASE("polygons are numbered and known as such") {
+TEST_CASE("the triangles of a polygon are numbered in order and known as coplanar") {
     SceneBuilder builder;
     const MaterialIndex m = builder.add_material({});
     const std::array<Triangle, 2> halves = {
@@ -282,7 +282,7 @@ TEST_CASE("polygons are numbered and known as such") {
     CHECK(Internals::of(scene).coplanar_with(3).last == 4);
 }
 
-TEST_CASE("what concerns the whole scene is checked at the end, and a new one begins") {
+TEST_CASE("build checks the whole scene and empties the builder") {
     const auto message = [](const auto& act) { return message_of<InvalidValue>(act); };
     SceneBuilder builder;
     builder.camera.at = builder.camera.from;
@@ -303,7 +303,7 @@ TEST_CASE("what concerns the whole scene is checked at the end, and a new one be
     CHECK(builder.build().material_count() == 0);
 }
 
-TEST_CASE("builders and scenes can be handed on") {
+TEST_CASE("builders can be moved and scenes can be copied and moved") {
     SceneBuilder builder;
     builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({}));
     SceneBuilder other = std::move(builder);
@@ -317,7 +317,7 @@ TEST_CASE("builders and scenes can be handed on") {
     CHECK(moved.shape_count() == 1);
 }
 
-TEST_CASE("there is nothing behind the last shape or material") {
+TEST_CASE("an index behind the last shape or material is refused") {
     const Scene scene = ball();
     CHECK(message_of<InvalidValue>([&] { scene.material_of(1); }) ==
           "must be one of 1 shapes, got 1");
@@ -333,7 +333,7 @@ TEST_CASE("the headers' version is the library's") {
                                               std::to_string(RAYLANE_VERSION_PATCH));
 }
 
-TEST_CASE("a builder that was moved from is as new") {
+TEST_CASE("a moved-from builder is empty and can be reused") {
     SceneBuilder first;
     first.camera.from = {1, 2, 3};
     first.background = {1, 0, 0};
@@ -357,7 +357,7 @@ TEST_CASE("a builder that was moved from is as new") {
     CHECK(scene.camera().from == Vec3{1, 2, 3});
 }
 
-TEST_CASE("a number that is no enumerator is refused") {
+TEST_CASE("a number that matches no enumerator is refused") {
     SceneBuilder builder;
     const auto message = [](const auto& call) { return message_of<InvalidValue>(call); };
     const auto material = [&](const Material& wrong) {
@@ -395,7 +395,7 @@ TEST_CASE("a number that is no enumerator is refused") {
           }).starts_with("settings/transfer: must be"));
 }
 
-TEST_CASE("a scene has the bounds of its shapes but planes") {
+TEST_CASE("the bounds of a scene enclose all shapes except planes") {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});

@@ -19,7 +19,7 @@ void each_shape(const Expression& expression, const Visit& visit) {
         each_shape(part, visit);
 }
 
-/// True also where a line lies in faces.
+/// Returns true if the point is on the shape's surface, even where a line lies in faces.
 bool is_on(const AnyShapeInDouble& any, const core::Vec3d& point) {
     return std::visit(
         [&]<class Shape>(const Shape& shape) {
@@ -148,7 +148,7 @@ void ask(const Expression& expression, const Scene& scene,
         for (const AnyShapeInDouble& shape : shapes)
             if (is_on(shape, exact[i].origin)) side = 0;
         const bool is_in = solids.first[i] != solids.first[i + 1];
-        // What is clipped may have an inside, and no surface at all.
+        // A clipped solid may have an inside without any surface.
         if (side != 0 && !has_clip && is_in != (side < 0)) wrong.blame(wrong.sides, "side");
         if (!wrong.first.empty() && wrong.of.empty()) {
             std::ostringstream text;

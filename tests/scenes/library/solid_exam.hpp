@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// Solids that are made of others, asked of the library, against the oracle.
+/// Checks the library's answers for solids that are made of others against the oracle.
 namespace raylane::tests {
 
 struct SolidTally {
@@ -21,13 +21,13 @@ struct SolidTally {
 };
 
 std::string described(const oracle::Expression& expression);
-/// The parts in their order, and what clips.
+/// Returns the parts in their order, and the clipping shapes.
 std::vector<AnyShapeInDouble> shapes_of(const oracle::Expression& expression);
 raylane::Solid solid_of(const oracle::Expression& expression);
-/// The solid by itself; none where it has no bounds, or a shape is not valid.
+/// Returns a scene of the solid alone, or nothing if it has no bounds or a shape is invalid.
 std::optional<Scene> scene_of(const oracle::Expression& expression);
 
-/// All that the library answers of rays, and their origins, in the scene of a solid.
+/// Checks all answers of the library for rays and for their origins in the scene of a solid.
 void ask(const oracle::Expression& expression, const Scene& scene,
          const std::vector<core::Ray<float>>& asked, SolidTally& wrong);
 

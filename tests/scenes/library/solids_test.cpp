@@ -6,14 +6,14 @@
 
 #include <cmath>
 
-/// Solids that are made of others, held to the oracle.
+/// Tests of solids that are made of others against the oracle.
 using namespace raylane;
 using namespace raylane::tests;
 using oracle::Expression, oracle::Op;
 
 namespace {
 
-/// A shape that may be a part, of small whole numbers or of any.
+/// Returns a shape that may be a part. With `lattice` its numbers are small whole ones.
 AnyShapeInDouble any_part(Random& random, bool lattice) {
     const auto made = [&]<class Shape>(std::type_identity<Shape>) {
         return AnyShapeInDouble(core::to_doubles(ray_sets::Target<Shape>::make(random, lattice)));
@@ -46,7 +46,7 @@ AnyShapeInDouble any_box(Random& random) {
 Expression any_expression(Random& random, bool lattice, int depth,
                           std::vector<AnyShapeInDouble>& before) {
     if (depth == 0 || random.integer(0, 3) == 0) {
-        // The same once more, or something new.
+        // Repeats an earlier part or makes a new one.
         if (!before.empty() && random.integer(0, 4) == 0)
             return {Op::part, before[static_cast<std::size_t>(
                                   random.integer(0, static_cast<int>(before.size()) - 1))]};
@@ -61,7 +61,7 @@ Expression any_expression(Random& random, bool lattice, int depth,
     return made;
 }
 
-/// A crowd of balls and a few others, less what planes, boxes and balls take away.
+/// Returns a union of balls and a few other shapes, cut by planes, boxes and balls.
 Expression any_cut_crowd(Random& random, bool lattice) {
     const auto number = [&](double least, double most) {
         const double any = random.uniform(least, most);
@@ -88,7 +88,7 @@ Expression any_cut_crowd(Random& random, bool lattice) {
         return Expression{Op::part, core::PlaneOf<double>{point(), normal}};
     };
     Expression made{random.integer(0, 3) == 0 ? Op::clip : Op::subtract};
-    if (random.integer(0, 2) == 0) { // what is left of it in a box
+    if (random.integer(0, 2) == 0) { // intersected with a box
         Expression boxed{Op::intersect};
         boxed.of.push_back(std::move(crowd));
         boxed.of.push_back({Op::part, core::BoxOf<double>{point(),
@@ -121,7 +121,7 @@ Expression any_cut_crowd(Random& random, bool lattice) {
         }
     }
     if (random.integer(0, 2) != 0) return made;
-    // Beside something else.
+    // Beside another part.
     Expression both{Op::unite};
     both.of.push_back(std::move(made));
     both.of.push_back({Op::part, core::SphereOf<double>{point(), 1.0}});
@@ -158,7 +158,7 @@ void check(const SolidTally& wrong, bool lattice) {
 
 } // namespace
 
-TEST_CASE("solids of any others are what real arithmetic says") {
+TEST_CASE("answers for solids of any parts are those of real arithmetic") {
     const bool lattice = GENERATE(true, false);
     Random random(seed(17));
     SolidTally wrong;
@@ -173,7 +173,7 @@ TEST_CASE("solids of any others are what real arithmetic says") {
     check(wrong, lattice);
 }
 
-TEST_CASE("a crowd that is cut is what real arithmetic says") {
+TEST_CASE("answers for a union that is cut are those of real arithmetic") {
     const bool lattice = GENERATE(true, false);
     Random random(seed(23));
     SolidTally wrong;

@@ -5,13 +5,13 @@
 #include <functional>
 #include <pthread.h>
 
-/// Calls on threads with little stack.
+/// Tests of calls on threads with little stack.
 using namespace raylane;
 using namespace raylane::tests;
 
 namespace {
 
-/// Calls it on a thread with so much stack.
+/// Calls `body` on a thread with this many bytes of stack.
 void on_thread(std::size_t bytes, std::function<void()> body) {
     pthread_attr_t attributes;
     REQUIRE(::pthread_attr_init(&attributes) == 0);
@@ -41,7 +41,7 @@ raylane::Solid deepest() {
 
 } // namespace
 
-TEST_CASE("solids that are as deep as they may be need no more stack than is stated") {
+TEST_CASE("solids of the greatest depth need no more stack than is documented") {
     constexpr std::size_t stated = 1 << 20; // bytes
     bool found = false;
     int around = 0;

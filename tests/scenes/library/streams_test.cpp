@@ -12,7 +12,8 @@
 using namespace raylane;
 using namespace raylane::tests;
 
-/// Streams: rays that have something in common, that have limits, or that leave what others hit.
+/// Tests of streams: rays that have something in common, that have limits, or that start on
+/// surfaces that other rays hit.
 
 namespace {
 
@@ -22,14 +23,14 @@ using core::Vec3f;
 #ifdef RAYLANE_FEW_RAYS
 constexpr int ray_count = 300;
 #else
-constexpr int ray_count = 1500; // more than are looked at together
+constexpr int ray_count = 1500; // more than are examined together
 #endif
 
 float uniform(Random& random, double low, double high) {
     return static_cast<float>(random.uniform(low, high));
 }
 
-/// Balls and sticks in the unit cube, on a table.
+/// Returns a scene of balls and sticks in the unit cube, above a plane.
 Scene balls() {
     Random random(5);
     SceneBuilder builder;
@@ -50,7 +51,7 @@ enum class Way { from_a_point, to_a_point, to_a_point_by_distance, parallel, any
 constexpr Way all_ways[] = {Way::from_a_point, Way::to_a_point, Way::to_a_point_by_distance,
                             Way::parallel, Way::any};
 
-/// Rays in the order of lines in a picture.
+/// Returns rays in the order of an image's pixels, line by line.
 Rays rays_of(Way way, bool with_limits) {
     Random random(6);
     Rays rays;
@@ -90,7 +91,7 @@ Rays rays_of(Way way, bool with_limits) {
 
 } // namespace
 
-TEST_CASE("rays answered together have the answers that they have alone") {
+TEST_CASE("rays in one call have the answers that they have alone") {
     const Tracer tracer(balls(), {.threads = 1});
     for (const Way way : all_ways)
         for (const bool with_limits : {false, true}) {
@@ -120,7 +121,7 @@ TEST_CASE("rays answered together have the answers that they have alone") {
 
 namespace {
 
-/// So many that rays line by line are put into tiles.
+/// Returns a scene of so many balls that rays in lines are reordered into tiles.
 Scene many_balls() {
     Random random(7);
     SceneBuilder builder;
@@ -132,9 +133,9 @@ Scene many_balls() {
     return builder.build();
 }
 
-/// Line by line, from one point or parallel.
+/// Returns rays line by line, from one point or parallel.
 Rays lines(bool parallel, bool with_limits) {
-    constexpr int width = 256, count = 9 * 1024 + 100; // some of them in a block of their own
+    constexpr int width = 256, count = 9 * 1024 + 100; // the last 100 in a separate block
     Rays rays;
     for (int i = 0; i < count; ++i) {
         const float x = static_cast<float>(i % width) / 256.0F,
@@ -152,12 +153,12 @@ Rays lines(bool parallel, bool with_limits) {
 
 } // namespace
 
-TEST_CASE("rays that come line by line have the answers that they have one by one") {
+TEST_CASE("rays line by line have the answers that they have alone") {
     const Tracer tracer(many_balls(), {.threads = 1});
     for (const bool parallel : {false, true})
         for (const bool with_limits : {false, true}) {
             const Rays rays = lines(parallel, with_limits);
-            simd::TileOrder order; // or else nothing would be tested here
+            simd::TileOrder order; // must be found: otherwise this tests nothing
             const simd::RayStream<float> first = {simd::TileOrder::most,
                                                   {rays.x.data(), rays.y.data(), rays.z.data()},
                                                   {rays.dx.data(), rays.dy.data(), rays.dz.data()}};
@@ -196,7 +197,7 @@ TEST_CASE("rays that come line by line have the answers that they have one by on
         }
 }
 
-TEST_CASE("rays are put into another order where that is better") {
+TEST_CASE("rays are reordered into tiles where that makes packets more compact") {
     constexpr std::size_t count = simd::TileOrder::most;
     std::vector<float> u(count), v(count), one(count, 1.0F), none(count, 0.0F);
     const auto is_found = [&](auto&& point_of) {
@@ -218,7 +219,7 @@ TEST_CASE("rays are put into another order where that is better") {
                 }
                 rims += static_cast<double>(high - low) * 512.0;
             }
-        CHECK(rims / (count / 16) < 11.5); // of a line, 15
+        CHECK(rims / (count / 16) < 11.5); // a packet on a line has 15
         std::sort(all.begin(), all.end());
         for (std::uint32_t i = 0; i < count; ++i)
             CHECK(all[i] == i);
@@ -242,7 +243,7 @@ TEST_CASE("rays are put into another order where that is better") {
 
 namespace {
 
-/// A surface that a ray starts on, as core has it.
+/// Returns the surface that a ray starts on in core's terms.
 core::OriginSurfaces<double> origin_on(const core::Scene& scene, const core::Hit<double>& hit,
                                        bool inward) {
     const core::Contact<double> surface{
@@ -250,7 +251,7 @@ core::OriginSurfaces<double> origin_on(const core::Scene& scene, const core::Hit
     return core::OriginSurfaces<double>(std::span(&surface, 1));
 }
 
-/// Rays that go on from where others hit, mirrored or through, and what they leave.
+/// Rays from the hits of other rays, reflected or straight on, and the surfaces that they leave.
 struct Next {
     Rays rays;
     std::vector<core::Hit<double>> left;
@@ -290,7 +291,7 @@ Next rays_from(const core::Scene& scene, core::Searcher<double>& searcher, const
 
 } // namespace
 
-TEST_CASE("rays that name what they leave start on it") {
+TEST_CASE("rays with an origin surface start on it") {
     for (const bool lattice : {false, true}) {
         const Heap all = heap(lattice, 20, 11);
         const core::Scene& scene = library::Internals::of(all.scene);
@@ -327,11 +328,11 @@ TEST_CASE("rays that name what they leave start on it") {
         CAPTURE(lattice, next.rays.size(), found, own);
         CHECK(wrong == 0);
         CHECK(found > next.rays.size() / 4);
-        CHECK(own > found / 20); // through, and out again
+        CHECK(own > found / 20); // rays that leave the shape that they entered
     }
 }
 
-TEST_CASE("rays that name no shape are what their numbers say") {
+TEST_CASE("an origin surface that is not a shape of the scene has no effect") {
     const Tracer tracer(ball());
     Rays rays;
     for (int i = 0; i < 3; ++i)
@@ -342,7 +343,7 @@ TEST_CASE("rays that name no shape are what their numbers say") {
     span.origin_shape = shape;
     Hits hits(3);
     tracer.intersect(span, hits.span());
-    CHECK(hits.shape == std::vector<ShapeId>{0, 0, no_shape}); // the last one goes to the outside
+    CHECK(hits.shape == std::vector<ShapeId>{0, 0, no_shape}); // the last one leaves outwards
     span.origin_inward = inward;
     tracer.intersect(span, hits.span());
     CHECK(hits.shape == std::vector<ShapeId>{0, 0, 0});

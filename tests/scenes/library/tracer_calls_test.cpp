@@ -9,7 +9,7 @@
 using namespace raylane;
 using namespace raylane::tests;
 
-TEST_CASE("answers depend on the ray alone, in spans of any length") {
+TEST_CASE("answers depend on the ray alone and not on the length of the span") {
     const Heap all = heap();
     const Tracer tracer(all.scene), one_thread(all.scene, {.threads = 1}),
         many_threads(all.scene, {.threads = 5});
@@ -35,14 +35,14 @@ TEST_CASE("answers depend on the ray alone, in spans of any length") {
     }
 }
 
-TEST_CASE("no rays get no answers") {
+TEST_CASE("a call without rays gives no answers") {
     const Tracer tracer(ball());
     tracer.intersect(RaySpan{}, {});
     tracer.occluded(RaySpan{}, {});
     CHECK(intersect(tracer, {}).t.empty());
 }
 
-TEST_CASE("what is not wanted may be left out") {
+TEST_CASE("outputs that are not wanted may be omitted") {
     const Heap all = heap();
     const Tracer tracer(all.scene);
     const Hits whole = intersect(tracer, all.rays);
@@ -57,7 +57,7 @@ TEST_CASE("what is not wanted may be left out") {
     CHECK(hits == whole);
 }
 
-TEST_CASE("a span of another length is refused by its name") {
+TEST_CASE("a span of the wrong length is refused with its name") {
     const Tracer tracer(ball());
     const std::vector<float> two(2, 1.0F), three(3, 1.0F);
     std::vector<float> out(3);
@@ -108,7 +108,7 @@ TEST_CASE("a span of another length is refused by its name") {
     CHECK(refused([] { Tracer(ball(), {.threads = 4097}); }) == "threads");
 }
 
-TEST_CASE("what is no ray hits nothing, and harms no other") {
+TEST_CASE("an invalid ray hits nothing and does not affect other rays") {
     const Tracer tracer(ball());
     Rays rays;
     const float bad[] = {not_a_number, infinity, -infinity};
@@ -145,7 +145,7 @@ TEST_CASE("what is no ray hits nothing, and harms no other") {
     CHECK(occluded(tracer, limited)[0] == 0);
 }
 
-TEST_CASE("a tracer keeps its scene alive, and copies are the same") {
+TEST_CASE("a tracer keeps its scene alive and a copy gives the same answers") {
     const Tracer tracer = [] {
         const Tracer first(ball());
         return Tracer(first); // NOLINT: a copy

@@ -11,7 +11,7 @@
 using namespace raylane;
 using namespace raylane::tests;
 
-TEST_CASE("the nearest crossings are those that trying every shape finds") {
+TEST_CASE("the nearest crossings are those of a brute-force search") {
     for (const bool lattice : {false, true}) {
         const Heap all = heap(lattice, 20, 7);
         const Hits hits = intersect(Tracer(all.scene), all.rays);
@@ -40,7 +40,7 @@ TEST_CASE("the nearest crossings are those that trying every shape finds") {
     }
 }
 
-TEST_CASE("each t, given back as t_min, leads on to the next crossing") {
+TEST_CASE("a ray with a hit's t as t_min finds the next crossing") {
     const Heap all = heap();
     const Tracer tracer(all.scene);
     core::Searcher<double> searcher(library::Internals::of(all.scene), core::Search::every_shape);
@@ -72,7 +72,7 @@ TEST_CASE("each t, given back as t_min, leads on to the next crossing") {
         CHECK(found[i] == expected[i]);
 }
 
-TEST_CASE("t_max belongs to the ray, t_min does not") {
+TEST_CASE("the range of t includes t_max and excludes t_min") {
     const Heap all = heap();
     const Tracer tracer(all.scene);
     const Hits hits = intersect(tracer, all.rays);
@@ -141,7 +141,7 @@ TEST_CASE("directions may have any length") {
     }
 }
 
-TEST_CASE("a t that no float can hold is the smallest or the largest of them") {
+TEST_CASE("a t outside of the range of floats becomes the smallest or the largest one") {
     Rays rays;
     rays.add({0, 0, 5}, {0, 0, -std::numeric_limits<float>::denorm_min()});
     rays.add({0, 0, 1 + 0x1p-20F}, {0, 0, -std::numeric_limits<float>::max()});
@@ -161,7 +161,7 @@ TEST_CASE("a t that no float can hold is the smallest or the largest of them") {
     CHECK(occluded(Tracer(ball()), rays) == std::vector<std::uint8_t>{1, 1, 1});
 }
 
-TEST_CASE("a hit has the outward normal, from either side") {
+TEST_CASE("a hit has the outward normal from either side") {
     Rays rays = to_ball();
     rays.add({0, 0, 0}, {0, 0, -2});
     const Hits hits = intersect(Tracer(ball()), rays);
@@ -169,7 +169,7 @@ TEST_CASE("a hit has the outward normal, from either side") {
     CHECK(hits.t[1] == 0.5F);
 }
 
-TEST_CASE("of surfaces that coincide the one that is entered comes first, then the lower id") {
+TEST_CASE("of coincident surfaces the entered one comes first and then the lower id") {
     SceneBuilder builder;
     const MaterialIndex m = builder.add_material({});
     const auto block = [&](float z) {
@@ -188,7 +188,7 @@ TEST_CASE("of surfaces that coincide the one that is entered comes first, then t
     CHECK(intersect(tracer, rays).t[0] == 1.5F);
 }
 
-TEST_CASE("sides that are not visible are not hit, and glass is") {
+TEST_CASE("invisible sides are not hit and glass is") {
     const auto hits = [](const Material& material) {
         Rays rays = to_ball();
         rays.add({0, 0, 0}, {0, 0, 1});
@@ -204,7 +204,7 @@ TEST_CASE("sides that are not visible are not hit, and glass is") {
     CHECK(hits({.visible = Visible::inside}) == 6.0F);
 }
 
-TEST_CASE("a scene without shapes is hit by nothing") {
+TEST_CASE("a ray hits nothing in a scene without shapes") {
     const Tracer tracer(SceneBuilder().build());
     CHECK(intersect(tracer, to_ball()).is_none(0));
     CHECK(occluded(tracer, to_ball())[0] == 0);

@@ -38,13 +38,13 @@ Scene row_of_balls(const Camera& camera, int count = 5) {
 
 } // namespace
 
-TEST_CASE("a scene seen by another camera is as if it had been built with it") {
+TEST_CASE("a scene seen by another camera equals one that is built with it") {
     const Scene scene = row_of_balls({});
     const std::vector<float> before = render(scene).rgb;
     const Scene same = scene.seen_by(aside);
     CHECK(same.camera().from == aside.from);
     CHECK(render(same).rgb == render(row_of_balls(aside)).rgb);
-    // The one that was there is as it was, and so is what is seen of another's.
+    // The first scene is unchanged, and seeing by its camera again gives the same image.
     CHECK(scene.camera().from == Camera{}.from);
     CHECK(render(scene).rgb == before);
     CHECK(render(same.seen_by({})).rgb == before);
@@ -52,7 +52,7 @@ TEST_CASE("a scene seen by another camera is as if it had been built with it") {
           std::string::npos);
 }
 
-TEST_CASE("a scene seen by another camera has the same memory of shapes") {
+TEST_CASE("a scene seen by another camera shares the memory of shapes") {
     const Scene scene = row_of_balls({}, 5000), same = scene.seen_by(aside);
     const core::Scene &a = Internals::of(scene), &b = Internals::of(same);
     CHECK(a.hierarchy().nodes.data() == b.hierarchy().nodes.data());
@@ -60,14 +60,14 @@ TEST_CASE("a scene seen by another camera has the same memory of shapes") {
         return std::get<core::Table<core::Sphere>>(of.shapes());
     };
     CHECK(spheres(a).plain_blocks().data() == spheres(b).plain_blocks().data());
-    // It lasts as long as any of them.
+    // The memory lasts as long as any of the scenes.
     std::optional<Scene> first = row_of_balls({}, 5000);
     const Scene second = first->seen_by(aside);
     first.reset();
     CHECK(render(second).rgb == render(same).rgb);
 }
 
-TEST_CASE("lights and fog that a camera brings along come with the other one") {
+TEST_CASE("lights and fog that follow the camera move with another camera") {
     const Scene scene = parse("3\n\nC 0 0 0\nO 2 1 -3\nN 0 3 1\n", "atoms.xyz");
     REQUIRE(scene.lights().size() == 2);
     const Scene same = scene.seen_by(aside);
@@ -79,7 +79,7 @@ TEST_CASE("lights and fog that a camera brings along come with the other one") {
     CHECK(drawn(same.seen_by(scene.camera())) == drawn(scene));
 }
 
-TEST_CASE("a camera on all sees all of it, as large as that may be") {
+TEST_CASE("a camera on all sees the whole scene in nearly the largest size") {
     const Scene scene = row_of_balls({});
     for (const Vec3 direction :
          {Vec3{0, 0, -1}, Vec3{-3, -1, 2}, Vec3{0, -1, 0}, Vec3{1e-20F, 0, 0}}) {
@@ -116,7 +116,7 @@ TEST_CASE("a camera on all sees all of it, as large as that may be") {
           "scene: must have shapes other than planes, to look at");
 }
 
-TEST_CASE("a camera on all is one that a scene takes, or none") {
+TEST_CASE("a camera on all is valid for the scene or refused") {
     for (const float radius : {2e29F, 3e29F, 1e30F}) {
         SceneBuilder builder;
         builder.add(Sphere{{0, 0, 0}, radius}, builder.add_material({}));
