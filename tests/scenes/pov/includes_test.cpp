@@ -22,7 +22,7 @@ constexpr const char* files[] = {
 
 } // namespace
 
-TEST_CASE("POV-Ray: an include that declares names is refused where one is used that is not read") {
+TEST_CASE("POV-Ray: an include is accepted until a name is used that raylane does not read") {
     for (const char* file : files) {
         CAPTURE(file);
         const Read of = read(include(file) + "sphere { 0, 1 }");
@@ -44,7 +44,7 @@ TEST_CASE("POV-Ray: an include that declares names is refused where one is used 
     CHECK(number("A", include("chars.inc") + "#ifdef (char_A) #declare A = 2; #end") == "2");
 }
 
-TEST_CASE("POV-Ray: each declaration of an include is of its language") {
+TEST_CASE("POV-Ray: each declaration of an include can be read") {
     std::size_t values = 0, macros = 0;
     for (const char* file : files)
         for (const auto& [name, text] : scenes::pov::standard_file(file)->declarations) {
@@ -73,14 +73,14 @@ TEST_CASE("POV-Ray: textures of includes are those of POV-Ray's files") {
     CHECK(material("metals.inc", "T_Chrome_1A").pattern.colors[0] == core::Vec3f(0.2F));
     CHECK(material("metals.inc", "T_Brass_2C").reflectivity == 0.5F);
     CHECK(material("metals.inc", "pigment { P_Copper3 } finish { F_MetalE }").reflectivity == 0.8F);
-    // metals.inc replaces the finishes of golds.inc, but not in textures that have them.
+    // metals.inc replaces the finishes of golds.inc, but not in textures that already use them.
     const float gold = material("golds.inc", "T_Gold_1A").reflectivity;
     CHECK(gold > 0.4F);
     CHECK(material("metals.inc", "T_Gold_1A").reflectivity == gold);
     CHECK(material("golds.inc", "pigment { P_Gold1 } finish { F_MetalA }").reflectivity == gold);
 }
 
-TEST_CASE("POV-Ray: a pattern of an include has the mean of its colours, and a remark where used") {
+TEST_CASE("POV-Ray: a pattern of an include gives its mean colour and a remark where it is used") {
     const Read of = read(include("woods.inc") + "sphere { 0, 1 texture { T_Wood1 } }");
     CHECK(of.remarks == "a.pov:3:25: has the pattern \"wood\", drawn as one colour\n");
     const core::Vec3f color = of.material_of().pattern.colors[0];
@@ -90,7 +90,7 @@ TEST_CASE("POV-Ray: a pattern of an include has the mean of its colours, and a r
               .pattern.colors[0] == core::Vec3f(0.25F));
 }
 
-TEST_CASE("POV-Ray: the last declaration of a name counts, of a scene or of an include") {
+TEST_CASE("POV-Ray: the last declaration of a name counts in a scene and in an include") {
     CHECK(number("Cube.x", include("shapes.inc") + "#declare Cube = <3, 4, 5>;") == "3");
     CHECK(number("Red.x", "#declare Red = <3, 4, 5>;\n" + include("colors.inc")) == "1");
     CHECK(number("Red.x", include("colors.inc") + "#declare Red = <3, 4, 5>;\n" +
@@ -112,7 +112,7 @@ TEST_CASE("POV-Ray: shapes and macros of includes are those of POV-Ray's files")
     CHECK(number("VMax(<1, 7, 3>) + VDist(x, -x)", include("math.inc")) == "9");
     CHECK(number("Interpolate(0.5, 0, 1, 10, 20, 2)", include("math.inc")) == "12.5");
     CHECK(number("RRand(5, 5, S)", include("rand.inc") + "#declare S = seed(1);") == "5");
-    // Onto y, from x: the sphere at x goes to y.
+    // Turns x onto y: the sphere on x moves to y.
     const Read turned = read(include("transforms.inc") + "sphere { 2*x, 1 Reorient_Trans(x, y) }");
     scenes::for_each_by_id(turned.scene, [](const auto& shape, core::ShapeId) {
         CHECK(core::numbers_of(shape)[0] == Approx(0.0).margin(1e-12));

@@ -9,10 +9,10 @@
 
 #include <string>
 
-/// Scenes in POV-Ray's language.
+/// Reads scenes in POV-Ray's language.
 namespace raylane::tests {
 
-/// Seen as raylane sees it: the coordinates of what is read are those that are written.
+/// A right-handed camera as in raylane, so that coordinates are read as they are written.
 inline const std::string camera = "camera { location <0, 0, 9> look_at 0 right -x up y }\n";
 
 struct Read {
@@ -37,7 +37,7 @@ inline std::string complaint(const std::string& text) {
     return message_of<scenes::BadInput>([&] { scenes::parse_scene("a.pov", text); });
 }
 
-/// What a number is after some statements.
+/// Returns the value of an expression after some statements, as text.
 inline std::string number(const std::string& expression, const std::string& before = "") {
     const Read of = read(before + " sphere { <" + expression + ", 0, 0>, 1 }");
     std::string text;

@@ -12,7 +12,7 @@ using namespace raylane;
 using namespace raylane::scenes;
 using tests::camera, tests::complaint, tests::number, tests::read, tests::Read;
 
-TEST_CASE("POV-Ray: what is read may declare anew what it is read for") {
+TEST_CASE("POV-Ray: an argument may redeclare names that its macro or array uses") {
     const std::string long_text = "\"" + std::string(100, 'a') + "\"";
     CHECK(read("#macro M(A, B, C, D) sphere { A, B } #end\n"
                "#macro N() #declare M = 5; #declare X = " +
@@ -22,7 +22,7 @@ TEST_CASE("POV-Ray: what is read may declare anew what it is read for") {
                                            "#macro N() #declare A = array[1]; 1 #end") == "3");
 }
 
-TEST_CASE("POV-Ray: clips are counted, and how deep they are in each other") {
+TEST_CASE("POV-Ray: the number and the depth of nested clips have limits") {
     const auto many = [](const std::string& times, const std::string& next) {
         return complaint("#declare S = sphere { 0, 1 }\n#declare I = 0;\n#while (I < " + times +
                          ") #declare S = " + next + " #declare I = I + 1; #end\nS");
@@ -39,7 +39,7 @@ TEST_CASE("POV-Ray: clips are counted, and how deep they are in each other") {
               .find("must not be of more than 16777216 shapes") != std::string::npos);
 }
 
-TEST_CASE("POV-Ray: str makes of a number what POV-Ray does") {
+TEST_CASE("POV-Ray: str formats a number as POV-Ray does") {
     const auto text = [](const std::string& expression) {
         return complaint("#error " + expression).substr(42);
     };
@@ -72,7 +72,7 @@ TEST_CASE("POV-Ray: val takes the number that a string begins with") {
         CHECK(number("val(\"" + std::string(none) + "\")") == "0");
 }
 
-TEST_CASE("POV-Ray: an image that is no animation has frame 0") {
+TEST_CASE("POV-Ray: an image outside of an animation has frame 0") {
     for (const char* name : {"frame_number", "initial_frame", "final_frame", "clock", "clock_delta",
                              "clock_on", "initial_clock", "final_clock"}) {
         CAPTURE(name);
@@ -80,7 +80,7 @@ TEST_CASE("POV-Ray: an image that is no animation has frame 0") {
     }
 }
 
-TEST_CASE("POV-Ray: strings are compared") {
+TEST_CASE("POV-Ray: strings can be compared") {
     const std::string name = "#declare V = \"a\"; ";
     CHECK(number("(V = \"a\")", name) == "1");
     CHECK(number("(\"a\" != V)", name) == "0");
@@ -91,25 +91,25 @@ TEST_CASE("POV-Ray: strings are compared") {
     CHECK(complaint(name + "#if (V = 1) #end") == "a.pov:1:28: must be a string, got \"1\"");
 }
 
-TEST_CASE("POV-Ray: a name is declared where it is found") {
+TEST_CASE("POV-Ray: declaring a known name changes it in its scope") {
     CHECK(number("Outer()", "#macro Inc() #declare N = N + 1; #end\n"
                             "#macro Outer() #local N = 0; Inc() Inc() N #end") == "2");
     CHECK(number("N", "#macro M() #declare N = 4; #end M()") == "4");
 }
 
-TEST_CASE("POV-Ray: a macro changes what it is given by name") {
+TEST_CASE("POV-Ray: a macro changes an argument that is a name") {
     const std::string add = "#macro Add(A) #declare A = A + 2; #end #declare N = 1; ";
     CHECK(number("N", add + "Add(N)") == "3");
     CHECK(number("N", add + "Add(N + 0)") == "1");
     CHECK(number("N", add + "#macro Twice(B) Add(B) Add(B) #end Twice(N)") == "5");
-    CHECK(number("N", add + "#macro Own(N) #local N = 9; #end Own(N)") == "9"); // so there, too
+    CHECK(number("N", add + "#macro Own(N) #local N = 9; #end Own(N)") == "9"); // as in POV-Ray
     CHECK(number("A[0]",
                  "#macro Set(X) #declare X[0] = 9; #end #declare A = array[1] {1} Set(A)") == "9");
-    // The scope that a name is of ends before the macro is read.
+    // The scope of L ends before the macro M is read.
     CHECK(number("K() 5)", "#macro M(A, B) A + B #end #macro K() #local L = 1; M(L, #end") == "6");
 }
 
-TEST_CASE("POV-Ray: an array is a value") {
+TEST_CASE("POV-Ray: an array is copied as a value") {
     const std::string array = "#declare A = array[2] {1, 2} ";
     CHECK(number("A[0]", array + "#declare B = A; #declare B[0] = 7;") == "1");
     CHECK(number("M(A)", array + "#macro M(X) X[1] #end") == "2");
@@ -129,7 +129,7 @@ TEST_CASE("POV-Ray: a directive follows an array without a semicolon") {
     CHECK(number("A[1]", "#if (1) #declare A = array[2]\n#end #declare A[1] = 9;") == "9");
 }
 
-TEST_CASE("POV-Ray: an object has the default texture of where it stands") {
+TEST_CASE("POV-Ray: an object has the default texture that precedes it") {
     const Read of = read("#default { pigment { rgb <1, 0, 0> } } sphere { -2*x, 1 }\n"
                          "#default { pigment { rgb <0, 0, 1> } } sphere { 2*x, 1 }\n" +
                              camera + "#default { pigment { rgb <0, 1, 0> } } sphere { 2*y, 1 }",
@@ -139,7 +139,7 @@ TEST_CASE("POV-Ray: an object has the default texture of where it stands") {
     CHECK(of.material_of(2).pattern.colors[0] == core::Color(0, 1, 0));
 }
 
-TEST_CASE("a byte-order mark begins a scene") {
+TEST_CASE("a scene may begin with a byte-order mark") {
     const std::string mark = "\xEF\xBB\xBF";
     CHECK(parse_scene("a.pov", mark + "#version 3.7; sphere { 0, 1 }").shape_count() == 1);
     CHECK(parse_scene("a", mark + "#version 3.7; sphere { 0, 1 }").shape_count() == 1);

@@ -18,7 +18,7 @@ std::size_t shapes(const std::string& text) {
 
 } // namespace
 
-TEST_CASE("POV-Ray: a gradient repeats there") {
+TEST_CASE("POV-Ray: a gradient gets a remark since it repeats in POV-Ray") {
     const std::string gradient =
         "sphere { 0, 3 pigment { gradient y color_map { [0 rgb 0] [1 rgb 1] } } }";
     CHECK(read(gradient).remarks_on("has a gradient, which repeats beyond its ends"));
@@ -30,7 +30,7 @@ TEST_CASE("POV-Ray: a gradient repeats there") {
     CHECK(read(stripes).remarks.empty());
 }
 
-TEST_CASE("POV-Ray: patterns let light through as one") {
+TEST_CASE("POV-Ray: a pattern of colours with different transparency gets a remark") {
     const std::string what = "has a pattern of colours that let different light through";
     CHECK(read("plane { y, 0 pigment { checker rgb 1, rgbt 1 } }").remarks_on(what));
     CHECK(read("plane { y, 0 pigment { gradient y color_map { [0 rgb 0] [1 rgbf 1] } } }")
@@ -38,7 +38,7 @@ TEST_CASE("POV-Ray: patterns let light through as one") {
     CHECK_FALSE(read("plane { y, 0 pigment { checker rgbt 1, rgbt 1 } }").remarks_on(what));
 }
 
-TEST_CASE("POV-Ray: cutaway_textures are of what is cut") {
+TEST_CASE("POV-Ray: cutaway_textures give a cut the texture of the object that is cut") {
     const std::string cut = "difference { sphere { 0, 2 pigment { rgb x } } box { -3, <3, 3, 0> } ";
     const auto color_of_cut = [](const Read& of) { return of.material_of(1).pattern.colors[0]; };
     CHECK(color_of_cut(read(cut + "}")) == core::Color(0, 0, 0));
@@ -51,8 +51,8 @@ TEST_CASE("POV-Ray: cutaway_textures are of what is cut") {
               .remarks_on("has cutaway_textures of several textures"));
 }
 
-TEST_CASE("POV-Ray: albedo is of all the light that comes back") {
-    // As POV-Ray draws them: 0.01 is 0.1275 where it is brightest.
+TEST_CASE("POV-Ray: albedo is the share of all reflected light") {
+    // POV-Ray's images have these values: an albedo of 0.01 is 0.1275 at the brightest point.
     const auto finish = [](const std::string& text) {
         return read("sphere { 0, 1 finish { " + text + " } }").material_of();
     };
@@ -64,7 +64,7 @@ TEST_CASE("POV-Ray: albedo is of all the light that comes back") {
           Approx(2.0F * finish("diffuse 0.25 brilliance 3").diffuse));
 }
 
-TEST_CASE("POV-Ray: shapes without a size, and those that are inside out") {
+TEST_CASE("POV-Ray: shapes without a size are left out and those with a negative one are read") {
     CHECK(number("0", "sphere { 0, -1 } cylinder { 0, y, -1 } disc { 0, y, -1 }") == "0");
     CHECK(shapes("sphere { 0, 0 } cylinder { 0, y, 0 } cylinder { 0, 0, 1 }") == 0);
     CHECK(read("sphere { 0, 0 }").remarks_on("has objects without a size, which are left out"));
@@ -90,14 +90,14 @@ TEST_CASE("POV-Ray: polygons that are not flat are left out") {
     CHECK(read("polygon { 6, 0, <0, 0.1, 0>, z, <3, 0, 1>, 3*x, 0 }").remarks_on(what));
 }
 
-TEST_CASE("POV-Ray: lights that take light away are black") {
+TEST_CASE("POV-Ray: negative components of a light are black") {
     const Read dark = read("light_source { 9*y, rgb <-1, 0.5, 0> } sphere { 0, 1 }");
     REQUIRE(dark.scene.lights().size() == 1);
     CHECK(dark.scene.lights()[0].color == core::Color(0, 0.5F, 0));
     CHECK(dark.remarks_on("has lights that take light away, which are black here"));
 }
 
-TEST_CASE("POV-Ray: fog does not dim light on its way to surfaces") {
+TEST_CASE("POV-Ray: a light that fog dims gets a remark") {
     const auto is_remarked = [](const std::string& modifier, const std::string& fog) {
         return read("light_source { 9*y, rgb 1 media_attenuation " + modifier + " } " + fog +
                     " sphere { 0, 1 }")
@@ -110,7 +110,7 @@ TEST_CASE("POV-Ray: fog does not dim light on its way to surfaces") {
     CHECK_FALSE(is_remarked("on", ""));
 }
 
-TEST_CASE("POV-Ray: fog fills transparent objects that are hollow") {
+TEST_CASE("POV-Ray: transparent objects that fog fills in another way get a remark") {
     const auto is_remarked = [](const std::string& object, const std::string& modifiers,
                                 const std::string& fog = "fog { distance 80 rgb 0.5 }") {
         return read(fog + object + " pigment { rgbt 1 } " + modifiers + " }")
@@ -129,7 +129,7 @@ TEST_CASE("POV-Ray: fog fills transparent objects that are hollow") {
                     .remarks_on("has transparent objects in fog"));
 }
 
-TEST_CASE("POV-Ray: surfaces that take light away are black") {
+TEST_CASE("POV-Ray: negative components of a surface's colour are black") {
     const std::string what = "has colours that take light away, which are black here";
     const Read dark = read("sphere { 0, 1 pigment { rgb <-1, 0.5, 0> } }");
     CHECK(dark.material_of().pattern.colors[0] == core::Color(0, 0.5F, 0));
@@ -138,7 +138,7 @@ TEST_CASE("POV-Ray: surfaces that take light away are black") {
     CHECK_FALSE(read("sphere { 0, 1 pigment { rgb 0 transmit -1 } }").remarks_on(what));
 }
 
-TEST_CASE("POV-Ray: a #switch goes on from the first case that holds") {
+TEST_CASE("POV-Ray: a #switch runs from the first case that holds to a #break") {
     const auto chosen = [](const std::string& value) {
         return number("N", "#declare N = 0; #switch (" + value +
                                ") #case (1) #declare N = N + 1; #case (2) #declare N = N + 10;\n"
@@ -155,7 +155,7 @@ TEST_CASE("POV-Ray: a #switch goes on from the first case that holds") {
     CHECK(complaint("#switch (1) #case (1)").find("must have an #end") != std::string::npos);
 }
 
-TEST_CASE("POV-Ray: functions are those of POV-Ray") {
+TEST_CASE("POV-Ray: functions have the values of POV-Ray's") {
     CHECK(number("select(-1, 1, 2, 3) * 100 + select(0, 1, 2, 3) * 10 + select(1, 1, 2, 3)") ==
           "123");
     CHECK(number("select(-1, 1, 2) * 10 + select(0, 1, 2)") == "12");
@@ -166,7 +166,7 @@ TEST_CASE("POV-Ray: functions are those of POV-Ray") {
     CHECK(complaint("#declare A = rand(0);") == "a.pov:1:19: must be what seed() has made");
 }
 
-TEST_CASE("POV-Ray: maps of colours, layers, skies and functions have names") {
+TEST_CASE("POV-Ray: maps of colours and layers and skies and functions can be declared") {
     const Read layers = read("#declare M = color_map { [0 rgb 1] [1 rgb 0] }\n"
                              "#declare T = texture { pigment { rgb <0, 1, 0> } }\n"
                              "  texture { pigment { bozo color_map { M } } }\n"
@@ -185,7 +185,7 @@ TEST_CASE("POV-Ray: maps of colours, layers, skies and functions have names") {
               .scene.shape_count() == 1);
 }
 
-TEST_CASE("POV-Ray: a scene that writes files is drawn, and one that reads them is refused") {
+TEST_CASE("POV-Ray: a scene that writes files is drawn and one that reads them is refused") {
     const Read of = read("#fopen F \"none.txt\" write\n#write (F, \"a\", (1 + 2) * 3, x, \"\\n\")\n"
                          "#fclose F\nsphere { 0, 1 }");
     CHECK(of.scene.shape_count() == 1);

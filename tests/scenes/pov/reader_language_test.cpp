@@ -17,7 +17,7 @@ core::Color color_of(const Read& of, core::ShapeId id = 0) {
 
 } // namespace
 
-TEST_CASE("POV-Ray: an element of an array stands wherever a name may") {
+TEST_CASE("POV-Ray: an element of an array may stand wherever a name may") {
     const core::Color red(1, 0, 0), green(0, 1, 0);
     CHECK(color_of(read("#declare T = array[2] { texture { pigment { rgb x } }, "
                         "texture { pigment { rgb y } } }\nsphere { 0, 1 texture { T[1] } }")) ==
@@ -54,7 +54,7 @@ TEST_CASE("POV-Ray: an element of an array stands wherever a name may") {
           "a.pov:1:48: must be an element that has a value, got one of \"T\" that has none");
 }
 
-TEST_CASE("POV-Ray: arrays in arrays keep their own elements") {
+TEST_CASE("POV-Ray: nested arrays keep separate elements") {
     const std::string nested = "#declare A = array[2]; #declare A[0] = array[2] {1, 2};\n"
                                "#declare A[1] = array[1] { sphere { 0, 7 } };\n";
     CHECK(number("A[0][1]", nested) == "2");
@@ -70,7 +70,7 @@ TEST_CASE("POV-Ray: arrays in arrays keep their own elements") {
               .find("must not be of arrays in each other more than 128 deep") != std::string::npos);
 }
 
-TEST_CASE("POV-Ray: macros that yield numbers call themselves") {
+TEST_CASE("POV-Ray: macros that yield numbers may call themselves") {
     const std::string halves = "#macro F(n) #if (n<=1) 0 #else (F(n/2)+1) #end #end\n";
     CHECK(number("F(8)/3", halves) == "1");
     CHECK(number("F(8)*2 + 1", halves) == "7");
@@ -84,7 +84,7 @@ TEST_CASE("POV-Ray: macros that yield numbers call themselves") {
     CHECK(number("X", halves + "#declare X = F(8)*2 + 1;") == "7");
 }
 
-TEST_CASE("POV-Ray: a name is declared before a directive that may ask for it") {
+TEST_CASE("POV-Ray: a name is declared before the next directive that may use it") {
     CHECK(number("N", "#declare N = 5 #if (N = 5) #declare N = 6 #end") == "6");
     CHECK(number("N", "#declare N = 0 #while (N < 3) #declare N = N + 1 #end") == "3");
     CHECK(number("N", "#if (1) #declare N = 1 #else #declare N = 2 #end") == "1");
@@ -96,7 +96,7 @@ TEST_CASE("POV-Ray: a name is declared before a directive that may ask for it") 
     CHECK(number("N", many) == "4999");
 }
 
-TEST_CASE("POV-Ray: a transformation is inverse where the word stands in its braces") {
+TEST_CASE("POV-Ray: the word inverse counts inside the braces of a transformation alone") {
     const std::string turned =
         "#declare T = transform { rotate <0, 90, 90> translate x scale 2 }\n";
     const auto center = [&](const std::string& motion) {
@@ -123,7 +123,7 @@ TEST_CASE("POV-Ray: a transformation is inverse where the word stands in its bra
               .scene.shape_count() == 1);
 }
 
-TEST_CASE("POV-Ray: lights are in unions, and objects") {
+TEST_CASE("POV-Ray: unions and objects may have lights") {
     const auto positions = [](const std::string& text) {
         std::string all;
         const Read of = read(text);
@@ -148,7 +148,7 @@ TEST_CASE("POV-Ray: lights are in unions, and objects") {
             .scene.lights()
             .at(0);
     CHECK(parallel.direction == core::Vec3f(0, -2, 0));
-    // The camera that sees the world in a mirror.
+    // POV-Ray's left-handed camera, which mirrors the scene.
     CHECK(read("union { light_source { <1, 2, 3>, rgb 1 } }",
                "camera { location <0, 0, -9> look_at 0 }")
               .scene.lights()
@@ -159,7 +159,7 @@ TEST_CASE("POV-Ray: lights are in unions, and objects") {
               .find("must not be of more than 65536 lights") != std::string::npos);
 }
 
-TEST_CASE("POV-Ray: declared values that are not rendered refuse no scene") {
+TEST_CASE("POV-Ray: declared values that are not rendered are accepted") {
     const Read values = read(
         "#declare N = array[1] { normal { bumps 0.5 scale 2 } } #declare M = media { emission 1 }\n"
         "#declare D = density { spherical } #declare F = function(x, y) { x*y + sin(x) }\n"
@@ -182,7 +182,7 @@ TEST_CASE("POV-Ray: declared values that are not rendered refuse no scene") {
     CHECK(horizon.scene.background() == core::Color(0.5F, 0.5F, 0.5F));
 }
 
-TEST_CASE("POV-Ray: layers of textures are as one") {
+TEST_CASE("POV-Ray: layers of textures are combined into one") {
     const std::string layers =
         "texture { pigment { rgb x } finish { specular 0.5 } } "
         "texture { pigment { rgbt <0, 0, 1, 0.75> } finish { specular 0.25 } }";
@@ -206,7 +206,7 @@ TEST_CASE("POV-Ray: layers of textures are as one") {
               .remarks.empty());
 }
 
-TEST_CASE("POV-Ray: words that a scene can do without refuse none") {
+TEST_CASE("POV-Ray: words that a scene can do without are accepted") {
     const Read words = read(
         "default { finish { ambient 0.25 } }\n"
         "sphere { 0, 1 uv_mapping pigment { mandel 50 interior 2, 0.5 exterior 1, 1 rgb y } }\n"
@@ -218,7 +218,7 @@ TEST_CASE("POV-Ray: words that a scene can do without refuse none") {
     CHECK(words.remarks_on("patterns on a surface's own axes, drawn in space"));
 }
 
-TEST_CASE("POV-Ray: a light on a surface shines from beside it") {
+TEST_CASE("POV-Ray: a light on a surface moves off the surface") {
     const std::string above = "camera { location <0, 3, 9> look_at 0 right -x up y }\n";
     const auto position = [&](const std::string& light, const std::string& object,
                               const std::string& before) {
@@ -238,7 +238,7 @@ TEST_CASE("POV-Ray: a light on a surface shines from beside it") {
     CHECK(is_just_above(position("z", "sphere { 0, 1 }", above).z, 1));
     CHECK(is_just_below(position("-z", "sphere { 0, 1 }", above).z, -1)); // behind the sphere
     CHECK(is_just_below(position("<0, 5, 0>", "box { <-9, -5, -9>, <9, 5, 10> }", above).y, 5));
-    // The camera is in the same place.
+    // The camera is at the same point as the light.
     CHECK(is_just_above(position("<0, 0, 9>", "box { -9, 9 }",
                                  "camera { location <0, 0, 9> look_at <0, 0, 20> right -x up y }\n")
                             .z,

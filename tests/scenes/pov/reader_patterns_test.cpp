@@ -65,7 +65,7 @@ TEST_CASE("POV-Ray: a face on an edge of a checker's cells has the colour of the
     CHECK(color_at(5.5, "scale <1, 1, -1>") == 0.0);
 }
 
-TEST_CASE("POV-Ray: checkers are of colours, pigments and textures") {
+TEST_CASE("POV-Ray: checkers may be of colours or pigments or textures") {
     for (const std::string text :
          {"checker rgb x, rgb y", "checker pigment { rgb x } pigment { rgb y }",
           "checker pigment { rgb x }, rgb y", "checker R[0] pigment { P }"}) {
@@ -106,7 +106,7 @@ TEST_CASE("POV-Ray: a pattern of textures has the mean of their finishes") {
               Approx(i == 0 ? 0.5F : 0.25F));
 }
 
-TEST_CASE("POV-Ray: gradients are of maps of colours, pigments and textures") {
+TEST_CASE("POV-Ray: gradients may have maps of colours or pigments or textures") {
     for (const std::string text :
          {"color_map { [0 rgb x] [1 rgb y] }", "color_map { [0, 1 rgb x rgb y] }",
           "pigment_map { [0 rgb x] [1 P] }", "color_map { C }", "colour_map { M[0] }"}) {
@@ -132,7 +132,7 @@ TEST_CASE("POV-Ray: gradients are of maps of colours, pigments and textures") {
           "a.pov:1:48: must have an entry, got an empty map");
 }
 
-TEST_CASE("POV-Ray: a pattern that is not drawn has the mean of its colours") {
+TEST_CASE("POV-Ray: an unsupported pattern has the mean of its colours") {
     const auto color = [](const std::string& text) {
         const Read of = with_pigment(text, "#declare N = 3;\n");
         CHECK(of.remarks_on("drawn as one"));
@@ -142,7 +142,7 @@ TEST_CASE("POV-Ray: a pattern that is not drawn has the mean of its colours") {
     CHECK(color("bozo") == grey);
     CHECK(color("image_map { png \"none.png\" map_type 1 interpolate 2 once }") == grey);
     CHECK(color("wood color_map { [0 rgb 0] [1 rgb 1] }") == grey);
-    // Weighted by the share of the map.
+    // Each colour weighs its share of the map.
     CHECK(
         color("marble turbulence 1 color_map { [0 rgb 0] [0.75 rgb 0] [0.75 rgb 1] [1 rgb 1] }") ==
         core::Color(0.25F, 0.25F, 0.25F));
@@ -165,7 +165,7 @@ TEST_CASE("POV-Ray: a pattern that is not drawn has the mean of its colours") {
     CHECK(textures.remarks_on("has the pattern \"granite\", drawn as one colour"));
 }
 
-TEST_CASE("POV-Ray: words that change how a pattern lies are left out") {
+TEST_CASE("POV-Ray: words that distort a pattern are ignored with a remark") {
     const Read turbulent = with_pigment("checker rgb 0, rgb 1 turbulence 0.5 frequency 2");
     CHECK(pattern_of(turbulent).kind == core::PatternKind::checker);
     CHECK(turbulent.remarks_on("has \"turbulence\" of a pattern, which is not drawn"));
@@ -175,7 +175,7 @@ TEST_CASE("POV-Ray: words that change how a pattern lies are left out") {
     CHECK(on_surface.remarks_on("patterns on a surface's own axes, drawn in space"));
 }
 
-TEST_CASE("POV-Ray: an image_map has the mean colour of its picture") {
+TEST_CASE("POV-Ray: an image_map has the mean colour of its image") {
     const tests::TemporaryDirectory directory;
     directory.write("one.png", bytes_of(one_pixel));
     directory.write("half.png", bytes_of(half_clear));

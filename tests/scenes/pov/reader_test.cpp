@@ -36,7 +36,7 @@ LoadOptions noting(std::vector<std::string>& remarks) {
     return options;
 }
 
-/// Seen as raylane sees it: the coordinates of what is read are those that are written.
+/// A right-handed camera as in raylane, so that coordinates are read as they are written.
 const std::string camera = "camera { location <0, 0, 9> look_at 0 right -x up y }\n";
 
 Read read(const std::string& text, const std::string& before = camera) {
@@ -56,7 +56,7 @@ Read from_program(const std::string& name) {
     return {std::move(scene), std::move(remarks)};
 }
 
-/// Kind and numbers of all shapes, in words.
+/// Returns kind and numbers of all shapes, as text.
 std::string shapes_of(const core::Scene& scene) {
     std::string text;
     for_each_by_id(scene, [&](const auto& shape, core::ShapeId) {
@@ -108,7 +108,7 @@ TEST_CASE("shapes are read as they are written") {
                       .scene) == "quadric 1 0 0 1 1 0 0 0 0 0 0 0 -1 -2 -2 -2 2 2 2\n");
 }
 
-TEST_CASE("a quadric without a box ends at its ellipsoid, or where POV-Ray's depth ends") {
+TEST_CASE("a quadric without a box ends at its ellipsoid or at POV-Ray's greatest depth") {
     const auto ends_of = [](const std::string& text) {
         std::vector<float> ends;
         scenes::for_each_by_id(read(text).scene, [&](const auto& shape, core::ShapeId) {
@@ -134,7 +134,7 @@ TEST_CASE("a quadric without a box ends at its ellipsoid, or where POV-Ray's dep
         1);
 }
 
-TEST_CASE("what moves objects is applied in its order, exactly") {
+TEST_CASE("transformations of objects are applied in order and exactly") {
     CHECK(shapes_of(read("sphere { x, 1 translate y scale 2 }").scene) == "sphere 2 2 0 2\n");
     CHECK(shapes_of(read("sphere { x, 1 scale 2 translate y }").scene) == "sphere 2 1 0 2\n");
     CHECK(shapes_of(read("sphere { x, 1 rotate 90*z }").scene) == "sphere 0 1 0 1\n");
@@ -147,7 +147,7 @@ TEST_CASE("what moves objects is applied in its order, exactly") {
                         .scene) == "sphere 0 0 1 1\nsphere 1 2 1 2\n");
 }
 
-TEST_CASE("expressions, macros, conditions and loops are carried out") {
+TEST_CASE("expressions and macros and conditions and loops are evaluated") {
     const auto radius = [](const std::string& expression) {
         const std::string text = shapes_of(read("sphere { 0, " + expression + " }").scene);
         return text.substr(13, text.size() - 14);
@@ -181,7 +181,7 @@ TEST_CASE("expressions, macros, conditions and loops are carried out") {
                                          "sphere 0 0 0 7\nsphere 50 0 0 1\nsphere 0 3 0 1\n");
 }
 
-TEST_CASE("textures are found where they are given, and inherited where not") {
+TEST_CASE("an object has the texture that it is given or inherits one") {
     const Read one = read(R"(#include "colors.inc"
         #default { finish { ambient 0.25 diffuse 0.5 } }
         union {
@@ -216,7 +216,7 @@ TEST_CASE("textures are found where they are given, and inherited where not") {
     CHECK(material_of(floor).pattern.colors[0] == core::Color(0, 0, 0)); // the cells below 0
 }
 
-TEST_CASE("Materials have the names that textures, pigments and materials are declared by") {
+TEST_CASE("Materials have the names of declared textures and pigments and materials") {
     const auto names = [](const std::string& text) {
         const Read scene = read(text);
         std::vector<std::string> found;
@@ -251,7 +251,7 @@ TEST_CASE("Materials have the names that textures, pigments and materials are de
                 "sphere { x*I, 1 texture { T } } #declare I = I + 1; #end") == Names{"T", "T"});
 }
 
-TEST_CASE("solids are made of others as there") {
+TEST_CASE("solids of other objects are read as in POV-Ray") {
     const Read solid =
         read("difference { box { -1, 1 } sphere { 0, 1.25 } cylinder { -2*z, 2*z, 0.5 } "
              "pigment { rgb x } }");
@@ -274,7 +274,7 @@ TEST_CASE("the version that is in force at the end decides on the gamma") {
     CHECK(transfer(include) == core::Transfer::srgb);
     CHECK(transfer("#version 3.6;\n" + include) == core::Transfer::linear);
     CHECK(transfer(include + "#version 3.6;\n") == core::Transfer::linear);
-    // As POV-Ray's own files begin and end.
+    // POV-Ray's own files begin and end in this way.
     CHECK(transfer("#declare T = version;\n#version 3.5;\n#version T;\n") == core::Transfer::srgb);
     const tests::TemporaryDirectory directory;
     directory.write("own.inc", "#version 3.7;\n");
@@ -283,7 +283,7 @@ TEST_CASE("the version that is in force at the end decides on the gamma") {
               .transfer == core::Transfer::srgb);
 }
 
-TEST_CASE("a camera along its sky keeps its right") {
+TEST_CASE("a camera along its sky vector keeps its right vector") {
     const core::Camera down =
         read("sphere { 0, 1 }", "camera { location <0, 10, 0> look_at <0, 0, 0> }\n")
             .scene.camera();
@@ -293,7 +293,7 @@ TEST_CASE("a camera along its sky keeps its right") {
     CHECK(down.up.x == 0.0F);
 }
 
-TEST_CASE("a camera along its sky has the hand that its right and up have") {
+TEST_CASE("a camera along its sky vector has the handedness of its right and up vectors") {
     const auto up_of = [](const std::string& of) {
         return read("sphere { 0, 1 }", "camera { " + of + " look_at 0 }\n").scene.camera().up;
     };
@@ -306,7 +306,7 @@ TEST_CASE("a camera along its sky has the hand that its right and up have") {
     CHECK(up_of("location 9*y right z up x") == core::Vec3f(-1, 0, 0));
 }
 
-TEST_CASE("a camera close to its sky is as upright as in POV-Ray") {
+TEST_CASE("a camera nearly along its sky vector is as upright as in POV-Ray") {
     const auto up_of = [](const std::string& location) {
         const core::Vec3f up =
             read("sphere { 0, 1 }", "camera { location " + location + " look_at 0 }\n")
@@ -329,7 +329,7 @@ TEST_CASE("a camera whose axes do not span an image is refused") {
     CHECK(complaint("camera { right 1e200*x up 1e200*y }") == axes);
 }
 
-TEST_CASE("angles of a camera are bounded as its projection is") {
+TEST_CASE("the angle of a camera has the bounds of its projection") {
     const auto angle = [](const std::string& of) {
         return "camera { " + of + " location <0, 0, -9> look_at 0 }\nsphere { 0, 1 }";
     };
@@ -343,7 +343,7 @@ TEST_CASE("angles of a camera are bounded as its projection is") {
     CHECK(read(angle("spherical angle 360 180"), "").remarks_on("drawn in perspective"));
 }
 
-TEST_CASE("fog by height is left out, and a scene of nothing says so") {
+TEST_CASE("fog by height and a scene without objects get a remark") {
     const Read ground = read("fog { fog_type 2 distance 5 fog_alt 0.3 rgb 1 } sphere { 0, 1 }");
     CHECK(ground.scene.fog().kind == core::FogKind::none);
     CHECK(ground.remarks_on("fog by height, which is left out"));
@@ -351,7 +351,7 @@ TEST_CASE("fog by height is left out, and a scene of nothing says so") {
     CHECK(read("").remarks_on("has no object, so the background alone is seen"));
 }
 
-TEST_CASE("the camera, lights, fog and settings are those of POV-Ray") {
+TEST_CASE("camera and lights and fog and settings are read as in POV-Ray") {
     const Read flat = read(R"(#version 3.7;
         global_settings { assumed_gamma 1 max_trace_level 7 adc_bailout 0.25 }
         camera { orthographic location <0, 0, 9> look_at <0, 0, 0> right -4*x up 3*y }
@@ -373,7 +373,7 @@ TEST_CASE("the camera, lights, fog and settings are those of POV-Ray") {
     REQUIRE(flat.scene.lights().size() == 2);
     CHECK(flat.scene.lights()[1].direction == core::Vec3f(0, -8, 0));
 
-    // By default it sees the world in a mirror, which so is turned; and older scenes know no gamma.
+    // The default camera is left-handed, so the scene is mirrored. Older scenes have no gamma.
     const Read left = read("camera { location <0, 0, -9> look_at 0 angle 90 right 2*x up y } "
                            "sphere { z, 1 }",
                            "");
@@ -381,14 +381,14 @@ TEST_CASE("the camera, lights, fog and settings are those of POV-Ray") {
     CHECK(left.scene.camera().from == core::Vec3f(0, 0, 9));
     CHECK(left.scene.camera().field_of_view == Approx(53.1301F));
     CHECK(left.scene.settings().transfer == core::Transfer::linear);
-    // What moves it comes last, wherever it is written.
+    // Transformations of a camera apply last, wherever they are written.
     const Read moved =
         read("camera { translate x location <0, 0, 9> look_at 0 right -x up y }", "");
     CHECK(moved.scene.camera().from == core::Vec3f(1, 0, 9));
     CHECK(moved.scene.camera().at == core::Vec3f(1, 0, 0));
 }
 
-TEST_CASE("what is drawn otherwise is said, once") {
+TEST_CASE("each feature that is drawn in another way gets one remark") {
     const Read one = read("sphere { 0, 1 no_shadow } sphere { 3*x, 1 no_shadow }\n"
                           "light_source { <9, 9, 9> rgb 1 spotlight radius 3 }");
     REQUIRE(one.remarks.size() == 2);
@@ -396,7 +396,7 @@ TEST_CASE("what is drawn otherwise is said, once") {
     CHECK(one.remarks_on("a.pov:3:32: has a light that is a spotlight"));
 }
 
-TEST_CASE("a mistake costs one line, with its place") {
+TEST_CASE("a mistake gives an error of one line with its position") {
     CHECK(complaint("sphere { 0, 1 }\n torus { 1, 2 }") ==
           "a.pov:2:2: must be made of quadrics, and \"torus\" is not: it is not read");
     CHECK(complaint("sphere { 0, }") == "a.pov:1:13: must be a number, got \"}\"");
@@ -413,7 +413,7 @@ TEST_CASE("a mistake costs one line, with its place") {
               .starts_with("a.pov:1:32: must have an inside"));
 }
 
-TEST_CASE("POV-Ray's language is known by its ending, and by how it begins") {
+TEST_CASE("POV-Ray's language is recognised by the ending and by the beginning of a file") {
     const auto shapes = [](const std::string& name, const std::string& text) {
         return parse_scene(name, text).shape_count();
     };
@@ -425,7 +425,7 @@ TEST_CASE("POV-Ray's language is known by its ending, and by how it begins") {
           }).find("a:2:3: ") == 0);
 }
 
-TEST_CASE("what goes on for ever ends") {
+TEST_CASE("endless recursions and loops end with an error") {
     CHECK(complaint("#macro A() A() #end A()").find("deep") != std::string::npos);
     const std::string words = "must not expand to more than 100 million words",
                       bytes = "must not take more than 256 MB";
@@ -458,7 +458,7 @@ TEST_CASE("what goes on for ever ends") {
     CHECK(
         complaint(arrays + "#declare C = array[1000000]; #for (I, 0, 999) #declare B[I] = C; #end")
             .find(bytes) != std::string::npos);
-    // What is gone does not count.
+    // Values that are gone do not count.
     CHECK(read("#for (I, 1, 100) #declare C = array[100000]; #end sphere { 0, 1 }")
               .scene.shape_count() == 1);
     std::string doubled = "#declare A = sphere { 0, 1 }\n";

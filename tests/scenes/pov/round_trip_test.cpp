@@ -31,7 +31,7 @@ Copy by_way_of_pov(const core::Scene& scene) {
     return {load_scene(path, options), std::move(left_out), std::move(remarks)};
 }
 
-/// Kind and numbers of each shape that is no part of a solid.
+/// Returns kind and numbers of each shape that is not part of a solid.
 std::vector<float> numbers_in(const core::Scene& scene) {
     std::vector<float> all;
     for_each_by_id(scene, [&](const auto& shape, core::ShapeId) {
@@ -53,7 +53,7 @@ core::Film picture_of(const core::Scene& scene, const core::Settings& like) {
     return simd::render(scene, settings, {}).film;
 }
 
-/// Pixels that differ by more than what the last bits of a material may make of them.
+/// Returns the number of pixels that differ by more than the last bits of a material can cause.
 std::size_t differing(const core::Scene& a, const core::Scene& b) {
     const core::Film first = picture_of(a, a.settings()), second = picture_of(b, a.settings());
     std::size_t count = 0;
@@ -66,7 +66,7 @@ std::size_t differing(const core::Scene& a, const core::Scene& b) {
 
 } // namespace
 
-TEST_CASE("what convert writes for POV-Ray is read as it was") {
+TEST_CASE("a scene exported to POV-Ray's language reads back unchanged") {
     for (const auto& entry : std::filesystem::directory_iterator(
              std::filesystem::path(RAYLANE_SOURCE_DIR) / "scenes")) {
         if (entry.path().extension() != ".json" || entry.path().stem().extension() == ".schema")
@@ -90,7 +90,7 @@ TEST_CASE("what convert writes for POV-Ray is read as it was") {
         CHECK(copy.scene.settings().height == scene.settings().height);
         CHECK(copy.scene.settings().max_depth == scene.settings().max_depth);
         CHECK(copy.scene.settings().transfer == scene.settings().transfer);
-        // Gradients are seen between their ends in all of these.
+        // All of these scenes show gradients between their ends alone.
         const bool is_whole =
             std::all_of(copy.left_out.begin(), copy.left_out.end(), [](const std::string& words) {
                 return words.find("gradients") != std::string::npos;
@@ -99,7 +99,7 @@ TEST_CASE("what convert writes for POV-Ray is read as it was") {
     }
 }
 
-TEST_CASE("solids and materials come back from POV-Ray's language") {
+TEST_CASE("solids and materials read back from POV-Ray's language unchanged") {
     const core::Scene scene = tests::scene_of(R"({"camera": {"from": [4, 5, 6], "at": [0, 0, 0]},
     "image": {"width": 96, "height": 72},
     "lights": [{"type": "point", "position": [30, 40, 50], "color": [0.5, 0.5, 0.5]},
