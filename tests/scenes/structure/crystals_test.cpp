@@ -14,20 +14,20 @@ using namespace raylane::tests;
 using raylane::core::Vec3d;
 using raylane::core::Vec3f;
 
-/// Crystals of small molecules, as CIF has them.
+/// Tests of crystals of small molecules in CIF.
 namespace {
 
 const std::string cube = "data_a\n_cell_length_a 10\n_cell_length_b 10\n_cell_length_c 10\n"
                          "_cell_angle_alpha 90\n_cell_angle_beta 90\n_cell_angle_gamma 90\n";
 
-/// Sites: label, element and coordinates, line by line.
+/// Returns a table of sites. Each line has a label, an element and coordinates.
 std::string sites(const std::string& lines) {
     return "loop_\n_atom_site_label\n_atom_site_type_symbol\n_atom_site_fract_x\n"
            "_atom_site_fract_y\n_atom_site_fract_z\n" +
            lines;
 }
 
-/// Positions in angstrom, of whole numbers.
+/// Returns the positions in angstrom, rounded to whole numbers.
 std::string places_of(const Structure& structure) {
     std::string text;
     for (const Vec3f& at : structure.positions) {
@@ -40,7 +40,7 @@ std::string places_of(const Structure& structure) {
 
 } // namespace
 
-TEST_CASE("CIF of a crystal is all that is in its cell") {
+TEST_CASE("CIF of a crystal gives all atoms of its cell") {
     if (!has_gemmi()) return;
     const std::string text =
         "data_salt\n_cell_length_a 5.64\n_cell_length_b 5.64\n_cell_length_c 5.64\n"
@@ -55,7 +55,7 @@ TEST_CASE("CIF of a crystal is all that is in its cell") {
     CHECK(complaint(open_cif, "data_a\n_x 1\n") == "a: must have a table _atom_site, got none");
 }
 
-TEST_CASE("a crystal's operations follow from Hall's symbol, and from names of many kinds") {
+TEST_CASE("a crystal's operations follow from Hall's symbol and from many kinds of names") {
     if (!has_gemmi()) return;
     const auto count_of = [](const std::string& symmetry, const std::string& place) {
         return frames(open_cif, cube + symmetry + "\n" + sites("C1 C " + place)).at(0).size();
@@ -79,7 +79,7 @@ TEST_CASE("a crystal's operations follow from Hall's symbol, and from names of m
                    "0.05 0.13 0.22") == 2);
 }
 
-TEST_CASE("groups of a disorder exclude each other") {
+TEST_CASE("groups of disordered atoms exclude each other") {
     if (!has_gemmi()) return;
     const std::string text = cube + "loop_\n_atom_site_label\n_atom_site_type_symbol\n"
                                     "_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n"
@@ -130,10 +130,10 @@ TEST_CASE("images of a negative disorder group exclude each other where they mee
     CHECK(elements("P -1", "C1 .2 .3 .1 -1\n") == "C C ");
 }
 
-TEST_CASE("a crystal's displacements are along the axes that its positions have") {
+TEST_CASE("a crystal's displacements have the axes of its positions") {
     if (!has_gemmi()) return;
-    // The same in all directions, 0.05 angstrom^2, in a cell that leans: U13 is its cosine's part.
-    // In a cell with a fourfold axis, the image has U11 and U22 in each other's place.
+    // Isotropic, 0.05 angstrom^2, in an oblique cell: U13 is the part of the angle's cosine.
+    // In a cell with a fourfold axis, the image has U11 and U22 exchanged.
     const std::string leaning = "data_a\n_cell_length_a 10\n_cell_length_b 8\n_cell_length_c 9\n"
                                 "_cell_angle_alpha 90\n_cell_angle_beta 120\n_cell_angle_gamma 90\n"
                                 "_symmetry_space_group_name_H-M 'P 1'\n";
@@ -173,7 +173,7 @@ TEST_CASE("a crystal's displacements are along the axes that its positions have"
     CHECK(turned.names.at(0) == "O1");
 }
 
-TEST_CASE("a crystal's own operations of symmetry count, or those of its space group") {
+TEST_CASE("a crystal has the operations of symmetry of its file or of its space group") {
     if (!has_gemmi()) return;
     const auto atoms = [](const std::string& symmetry) {
         return places_of(frames(open_cif, cube + symmetry + sites("O1 O 0.1 0.2 0.3\n")).at(0));
@@ -218,17 +218,17 @@ TEST_CASE("a remark names a space group that is taken by its number alone") {
     CHECK(remarks("?").empty());
 }
 
-TEST_CASE("molecules of a crystal stay together, with their middles in the cell") {
+TEST_CASE("molecules of a crystal stay together with their middles in the cell") {
     if (!has_gemmi()) return;
     const Structure frame =
         frames(open_cif, cube + "loop_\n_space_group_symop_operation_xyz\nx,y,z\n-x,-y,-z\n" +
                              sites("C1 C 0.4 0.1 0.1\nO1 O 0.4 0.1 0.0\nNa Na -0.2 0.5 1.5\n"))
             .at(0);
-    // Carbon monoxide, whose image's middle is at z = -0.5 without a cell's length.
+    // Carbon monoxide. Its image's middle is at z = -0.5 before it is moved by a cell's length.
     CHECK(places_of(frame) == "4 1 1\n6 9 9\n4 1 0\n6 9 10\n8 5 5\n2 5 5\n");
 }
 
-TEST_CASE("a crystal without a cell, or with places that are none, is said to be") {
+TEST_CASE("a crystal without a cell or with invalid coordinates is refused") {
     if (!has_gemmi()) return;
     CHECK(complaint(open_cif, "data_a\n" + sites("O1 O 0.1 0.2 0.3\n")) ==
           "a: must have a cell (_cell_length_a, ...), as its coordinates are parts of it");
@@ -240,7 +240,7 @@ TEST_CASE("a crystal without a cell, or with places that are none, is said to be
     CHECK(frames(open_cif, cube + sites("O1 O ? ? ?\nC1 C 0.1 0.2 0.3(1)\n")).at(0).size() == 1);
 }
 
-TEST_CASE("mmCIF without an author's numbers has those of its labels") {
+TEST_CASE("mmCIF without an author's residue numbers has those of its labels") {
     if (!has_gemmi()) return;
     const auto text = [](const std::string& columns, const std::string& values) {
         return "data_a\nloop_\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
@@ -286,7 +286,7 @@ TEST_CASE("an atom with an isotropic displacement alone is a sphere beside ellip
     CHECK(radii[1] == Approx(0.3));      // of hydrogen: a ball
 }
 
-TEST_CASE("B of a crystal's displacements is U by 8 pi squared") {
+TEST_CASE("B of a crystal's displacements is divided by 8 pi squared") {
     if (!has_gemmi()) return;
     const Structure frame =
         frames(open_cif, cube + sites("O1 O 0.1 0.2 0.3\n") +

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-/// What readers of atoms make of a text, which messages call "a".
+/// Calls readers of atoms with a text, which messages call "a".
 namespace raylane::tests {
 
 using namespace scenes;

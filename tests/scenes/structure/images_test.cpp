@@ -8,13 +8,13 @@
 #include <cmath>
 #include <string>
 
-/// Bonds where a cell ends.
+/// Tests of bonds across the faces of a cell.
 using namespace raylane::scenes;
 using raylane::core::Vec3d;
 
 namespace {
 
-/// A chain of carbon along x through cells of 3 angstrom, of two atoms each.
+/// Returns a chain of carbon along x through cells of 3 angstrom, of two atoms each.
 Structure chain() {
     Structure structure;
     structure.of_kind = {{"C", element_of("C")}};
@@ -42,7 +42,7 @@ TEST_CASE("images of a cell are bonded to each other") {
 TEST_CASE("a file's bonds join the nearest images of their atoms") {
     Structure structure = chain();
     structure.has_all_bonds = true;
-    structure.positions[1].x = 2.5F; // half an angstrom to the left of the next cell's first
+    structure.positions[1].x = 2.5F; // half an angstrom to the left of the next cell's first atom
     structure.bonds = {{0, 1, 2}};
     CHECK(text_of(find_bonds(with_images(structure, {1, 1, 1}))).empty());
     CHECK(text_of(find_bonds(with_images(structure, {3, 1, 1}))) == "1-2 3-4 ");
@@ -51,7 +51,7 @@ TEST_CASE("a file's bonds join the nearest images of their atoms") {
     CHECK(text_of(find_bonds(with_images(structure, {1, 1, 1}))) == "0-1 ");
     structure.cell = {};
     CHECK(text_of(find_bonds(with_images(structure, {1, 1, 1}))) == "0-1 ");
-    // A cell that leans by nearly its width.
+    // An oblique cell: its second edge leans by nearly the width.
     structure = chain();
     structure.has_all_bonds = true;
     structure.cell.edges = {Vec3d(3, 0, 0), Vec3d(2.9, 3, 0), Vec3d(0, 0, 9)};
@@ -60,7 +60,7 @@ TEST_CASE("a file's bonds join the nearest images of their atoms") {
     CHECK(text_of(find_bonds(with_images(structure, {1, 2, 1}))) == "1-2 ");
 }
 
-TEST_CASE("a cell that is no number is not asked for, but to be repeated") {
+TEST_CASE("a cell with invalid numbers is refused if it is repeated and otherwise ignored") {
     Structure structure = chain();
     structure.cell.edges[0].x = std::nan("");
     CHECK(offsets_of_images(structure.cell, {1, 2, 1}).at(1) == Vec3d(0, 9, 0));
@@ -75,7 +75,7 @@ TEST_CASE("a cell that is no number is not asked for, but to be repeated") {
     CHECK(parse_scene("a.xyz", text, options).shape_count() == 1);
 }
 
-TEST_CASE("sticks go on where a cell is repeated") {
+TEST_CASE("sticks continue into the next image of a cell") {
     LoadOptions options;
     options.drawing.style = Style::sticks;
     options.drawing.repeat = {2, 1, 1};
@@ -86,5 +86,5 @@ TEST_CASE("sticks go on where a cell is repeated") {
     const raylane::core::Scene scene = parse_scene("a.xyz", text, options);
     CHECK(scene.shape_count() == 4 + 3);
     CHECK(legend.of(4) == "bond of atom 1, C (C), and atom 2, C (C)");
-    CHECK(legend.of(5) == "bond of atom 2, C (C), and atom 1, C (C)"); // of the next cell
+    CHECK(legend.of(5) == "bond of atom 2, C (C), and atom 1, C (C)"); // atom 1 of the next cell
 }

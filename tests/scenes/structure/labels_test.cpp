@@ -9,7 +9,7 @@ using namespace raylane::scenes;
 
 namespace {
 
-/// The symbol; empty for none.
+/// Returns the symbol, or "" for no element.
 std::string symbol_of(Element element) {
     return element == 0 ? "" : std::string(data_of(element).symbol);
 }
@@ -27,7 +27,7 @@ TEST_CASE("a label begins with the symbol of its element") {
     }
 }
 
-TEST_CASE("labels of ghosts, dummies, vectors and vacancies are of no element") {
+TEST_CASE("labels of ghosts and dummies and vectors and vacancies give no element") {
     for (const char* label : {"Bq", "BQ1", "Du", "Tv", "X", "Xx", "Gh(O)", "Q1", "Vac", "UNK", "M1",
                               "T1", "", "12", "-"}) {
         CAPTURE(label);
@@ -35,12 +35,12 @@ TEST_CASE("labels of ghosts, dummies, vectors and vacancies are of no element") 
     }
 }
 
-TEST_CASE("labels of minerals' water are oxygen") {
+TEST_CASE("labels of water in minerals give oxygen") {
     CHECK(symbol_of(element_of_label("Wat1")) == "O");
     CHECK(symbol_of(element_of_label("W1")) == "W");
 }
 
-TEST_CASE("labels are of no element that no sample has") {
+TEST_CASE("labels in capitals do not give elements that no sample has") {
     CHECK(symbol_of(element_of_label("NH4")) == "N");
     CHECK(symbol_of(element_of_label("Nh")) == "Nh");
     CHECK(symbol_of(element_of_label("NO3")) == "N");
@@ -54,7 +54,7 @@ TEST_CASE("an atom that is named like its residue is an ion") {
     CHECK(symbol_of(element_of_atom("CD", "CDL")) == "C");
 }
 
-TEST_CASE("ions of CHARMM have names of three letters") {
+TEST_CASE("names of three letters give the ions of CHARMM") {
     for (const auto& [name, symbol] :
          std::vector<std::pair<std::string, std::string>>{{"BAR", "Ba"},
                                                           {"CAD", "Cd"},
@@ -81,7 +81,7 @@ TEST_CASE("atoms of a residue ION are ions") {
     CHECK(symbol_of(element_of_atom("NA", "LIG")) == "N");
 }
 
-TEST_CASE("in amino acids and nucleotides the first letter is the symbol") {
+TEST_CASE("the first letter of a name is the symbol in amino acids and nucleotides") {
     for (const auto& [name, symbol] :
          std::vector<std::pair<std::string, std::string>>{{"CA", "C"},
                                                           {"HA", "H"},
@@ -98,7 +98,7 @@ TEST_CASE("in amino acids and nucleotides the first letter is the symbol") {
     CHECK(symbol_of(element_of_atom("SE", "MSE")) == "Se");
 }
 
-TEST_CASE("elsewhere some symbols have two letters") {
+TEST_CASE("some symbols have two letters in other residues") {
     for (const auto& [name, symbol] :
          std::vector<std::pair<std::string, std::string>>{{"CL1", "Cl"},
                                                           {"BR1", "Br"},
@@ -115,6 +115,6 @@ TEST_CASE("elsewhere some symbols have two letters") {
         CAPTURE(name);
         CHECK(symbol_of(element_of_atom(name, "LIG")) == symbol);
     }
-    CHECK(element_of_atom("MW", "SOL") == 0); // of water models
+    CHECK(element_of_atom("MW", "SOL") == 0); // in water models
     CHECK(element_of_atom("", "LIG") == 0);
 }

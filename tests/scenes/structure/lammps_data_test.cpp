@@ -37,7 +37,8 @@ std::string refusal(const std::string& text, const std::string& atom_style = "")
     return message_of<BadInput>([&] { read(text, atom_style); });
 }
 
-/// A file in a box of edge 10, whose section Atoms begins in line 9 with `counts` of one line.
+/// Returns a file with a box of edge 10. Its section Atoms begins in line 9 if `counts` is one
+/// line.
 std::string data(const std::string& counts, const std::string& section, const std::string& atoms,
                  const std::string& rest = "") {
     const auto count = std::count(atoms.begin(), atoms.end(), '\n');
@@ -61,7 +62,7 @@ std::vector<float> values_of(const Structure& frame, const std::string& name) {
 
 const std::vector<Vec3f> places = {{2.5F, 3.5F, 4.5F}, {6.5F, 3.25F, 4.75F}, {2.25F, 9.5F, 8.5F}};
 
-/// Three atoms of types 1, 2, 2 at `places`, in the columns of a layout.
+/// Returns three atoms of types 1, 2, 2 at `places`, in the columns of a layout.
 std::string atoms_of(const AtomLayout& layout, bool with_images) {
     std::string text;
     for (int atom = 0; atom < 3; ++atom) {
@@ -96,7 +97,7 @@ std::string atoms_of(const AtomLayout& layout, bool with_images) {
 
 } // namespace
 
-TEST_CASE("LAMMPS' data has sections, and bonds by numbers of atoms") {
+TEST_CASE("LAMMPS' data has sections and bonds by numbers of atoms") {
     const std::string text = "a remark\n\n3 atoms\n2 bonds\n2 atom types\n\n"
                              "0 10 xlo xhi\n0 11 ylo yhi\n0 12 zlo zhi\n1 0 0 xy xz yz\n\n"
                              "Masses\n\n1 15.9994 # O\n2 1.008\n\n"
@@ -129,7 +130,7 @@ TEST_CASE("LAMMPS' data has sections, and bonds by numbers of atoms") {
           std::string::npos);
 }
 
-TEST_CASE("LAMMPS' data has the columns of each atom style, with image flags or without") {
+TEST_CASE("LAMMPS' data of each atom style is read with and without image flags") {
     const auto styles = atom_style_names();
     for (const char* owed :
          {"angle",  "atomic",       "body", "bond", "bpm/sphere", "charge",     "dielectric",
@@ -181,7 +182,7 @@ TEST_CASE("the sub-styles of hybrid add their columns once") {
 }
 
 TEST_CASE("an atom style without a name follows from the columns") {
-    // Every style whose columns are not those of a more usual one.
+    // Every style whose columns differ from those of a more usual one.
     for (const auto& [style, counts] : std::vector<std::pair<std::string, std::string>>{
              {"atomic", "2 atom types"},
              {"charge", "2 atom types"},
@@ -234,7 +235,7 @@ TEST_CASE("an atom style without a name follows from the columns") {
     CHECK(read(data("1 atom types", "Atoms", "1 1 1 2 300\n")).frame.positions[0].z == 300.0F);
 }
 
-TEST_CASE("an atom style that may be one of two has to be named") {
+TEST_CASE("an atom style that may be one of two must be named") {
     const std::string text =
         data("2 atom types", "Atoms", "1 1 2 1.5 1.5 1.5\n2 2 1 5.5 1.5 1.5\n");
     CHECK(refusal(text) ==
@@ -242,7 +243,7 @@ TEST_CASE("an atom style that may be one of two has to be named") {
           "--atom-style: it may be charge or molecular");
     CHECK(types_of(read(text, "charge").frame) == "1 2 ");
     CHECK(types_of(read(text, "bond").frame) == "2 1 ");
-    // Both styles draw the same here.
+    // Both styles give the same drawing here.
     CHECK_NOTHROW(read(data("2 atom types", "Atoms", "1 1 1 1.5 1.5 1.5\n2 2 2 5.5 1.5 1.5\n")));
     CHECK(
         refusal(
@@ -270,12 +271,12 @@ TEST_CASE("the columns of a named atom style are checked") {
           "a:11:19: an image flag must be a whole number, got \"0.5\"");
     CHECK(refusal(data("1 atom types", "Atoms # full", "1 0.5 1 1 2 3 4\n")) ==
           "a:11:3: molecule must be a whole number, got \"0.5\"");
-    // The option is believed rather than the remark.
+    // The option takes precedence over the remark.
     CHECK(read(data("1 atom types", "Atoms # full", atoms), "charge").frame.positions[0] ==
           Vec3f(1, 2, 3));
 }
 
-TEST_CASE("a remark that is no atom style is left out with a word") {
+TEST_CASE("a section's remark that is not an atom style is reported and ignored") {
     const Reading reading = read(data("1 atom types", "Atoms # id type x y z", "1 1 1 2 3\n"));
     CHECK(reading.frame.positions[0] == Vec3f(1, 2, 3));
     CHECK(reading.remarks ==
@@ -301,7 +302,7 @@ TEST_CASE("LAMMPS' data may have a general triclinic box") {
     CHECK(flat.cell.edges == std::array{Vec3d(3, 1, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)});
 }
 
-TEST_CASE("words of a header and of sections have any blanks between them") {
+TEST_CASE("words of a header and of sections may have any blanks between them") {
     const std::string text =
         "a remark\n\n1\t atoms\n2 atom \t types # two\n0  5 xlo  xhi\n0 6 ylo\tyhi\n"
         "0 7 zlo zhi\n1 2 3\txy  xz\tyz\n\nPair  Coeffs\n\n1 1.0\n\n"
@@ -309,7 +310,7 @@ TEST_CASE("words of a header and of sections have any blanks between them") {
     const Structure frame = read(text).frame;
     CHECK(frame.cell.edges == std::array{Vec3d(5, 0, 0), Vec3d(1, 6, 0), Vec3d(2, 3, 7)});
     CHECK(types_of(frame) == "1 ");
-    CHECK(values_of(frame, "charge") == std::vector{3.0F}); // 3 is no type
+    CHECK(values_of(frame, "charge") == std::vector{3.0F}); // 3 is not a type
     const Cell general = read("a\n\n1 atoms\n1 0 0  avec\n0 2 0\tbvec\n0 0 3 cvec\n"
                               "4 5 6 abc  origin\n\nAtoms # atomic\n\n1 1 0 0 0\n")
                              .frame.cell;
@@ -317,7 +318,7 @@ TEST_CASE("words of a header and of sections have any blanks between them") {
     CHECK(general.origin == Vec3d(4, 5, 6));
 }
 
-TEST_CASE("labels of types may begin with any letter, and end no section") {
+TEST_CASE("labels of types may begin with any letter and do not end a section") {
     const std::string rest = "\nBonds\n\n1 OW-HW 1 2\n2 OW-HW 1 3\n";
     const std::string labels = "Atom Type Labels\n\n1 OW\n2 HW\n3 C_3\n\nBond Type Labels\n\n"
                                "1 OW-HW\n\nMasses\n\nOW 15.999\nHW 1.008\n3 12.011\n\n"
@@ -336,7 +337,7 @@ TEST_CASE("labels of types may begin with any letter, and end no section") {
     }
 }
 
-TEST_CASE("atoms in reduced units have the colours of their types, and united atoms no element") {
+TEST_CASE("atoms in reduced units and united atoms have no element") {
     const auto elements = [](const std::string& title, const std::string& masses) {
         std::string text = data("2 atom types", "Masses\n\n" + masses + "\nAtoms # atomic",
                                 "1 1 0 0 0\n2 2 1.1 0 0\n");
@@ -351,7 +352,7 @@ TEST_CASE("atoms in reduced units have the colours of their types, and united at
     CHECK(elements(by_lammps + "lj", "1 15.9994\n2 1.008\n") == "X X ");
 }
 
-TEST_CASE("electrons beside nuclei are no hydrogen") {
+TEST_CASE("electrons beside nuclei are not hydrogen") {
     const std::string masses = "Masses\n\n1 6.941\n2 1.0\n\nAtoms",
                       nuclei = "1 1 3.0 0 0.0 1.5 2 3\n";
     CHECK(
@@ -403,7 +404,7 @@ TEST_CASE("ellipsoids have their diameters along axes that a quaternion turns") 
               .ends_with("must be the number of an atom, and there is no 7"));
 }
 
-TEST_CASE("an atom style goes with LAMMPS' data alone") {
+TEST_CASE("an atom style is refused for other files than LAMMPS' data") {
     LoadOptions options;
     options.atom_style = "full";
     CHECK(message_of<BadInput>([&] { parse_scene("a.xyz", "1\n\nC 0 0 0\n", options); }) ==

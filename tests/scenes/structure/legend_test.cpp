@@ -5,7 +5,7 @@
 
 #include <string>
 
-/// What the shapes of a file of atoms are, and atoms that are seen through.
+/// Tests of the legend, which names the shapes of a file of atoms, and of transparent atoms.
 using namespace raylane::scenes;
 
 namespace {
@@ -18,7 +18,7 @@ const std::string peptide = "two residues\n 3\n"
 
 } // namespace
 
-TEST_CASE("each shape of a drawing is an atom's, a bond's or the cell's") {
+TEST_CASE("each shape of a drawing belongs to an atom or a bond or the cell") {
     const float opacity = GENERATE(1.0F, 0.5F);
     LoadOptions options;
     Legend legend;
@@ -55,10 +55,10 @@ TEST_CASE("each shape of a drawing is an atom's, a bond's or the cell's") {
         });
     CHECK(atoms == 6);
     CHECK(halves == 4);
-    CHECK(edges == 2 * 20 - 8); // what two cells share is one shape
+    CHECK(edges == 2 * 20 - 8); // two cells share 8 shapes
 }
 
-TEST_CASE("a cell of a slab or a chain has no edges where it has no length") {
+TEST_CASE("a cell of a slab or a chain has no edges in directions without a length") {
     const auto shapes = [](const std::string& lattice) {
         LoadOptions options;
         options.drawing.show_cell = true;
@@ -69,13 +69,13 @@ TEST_CASE("a cell of a slab or a chain has no edges where it has no length") {
     CHECK(shapes("3 0 0 0 4 0 0 0 0") == 4 + 4);
     CHECK(shapes("3 0 0 0 0 0 0 0 5") == 4 + 4);
     CHECK(shapes("3 0 0 0 0 0 0 0 0") == 2 + 1);
-    CHECK(shapes("3 0 0 0 4 0 0 0 1e-60") == 4 + 4); // none as floats
+    CHECK(shapes("3 0 0 0 4 0 0 0 1e-60") == 4 + 4); // 0 as a float
     CHECK(shapes("0 0 0 0 4 0 0 0 5") == 4 + 4);
     CHECK_THROWS_AS(shapes("0 0 0 0 0 0 0 0 0"), BadInput);
 }
 
-TEST_CASE("atoms that are seen through have no walls inside") {
-    // Along the line of sight, two balls that overlap: as much is seen through them as through one.
+TEST_CASE("transparent atoms have no walls inside") {
+    // Two balls overlap along the line of sight. They are as transparent as one.
     const auto middle = [](const std::string& text) {
         LoadOptions options;
         options.drawing.style = Style::spheres;
@@ -92,7 +92,7 @@ TEST_CASE("atoms that are seen through have no walls inside") {
         REQUIRE(drawn.film.has_alpha());
         return drawn.film.alpha_at(15, 15);
     };
-    const float covered = 1.0F - 0.75F * 0.75F; // in front and behind
+    const float covered = 1.0F - 0.75F * 0.75F; // by the front and the back surface
     CHECK(middle("1\n\nC 0 0 0\n") == Approx(covered));
     CHECK(middle("2\n\nC 0 0 0\nN 0 0 1\n") == Approx(covered));
     CHECK(middle("2\n\nC 0 0 0\nN 0 0 9\n") == Approx(1.0F - 0.75F * 0.75F * 0.75F * 0.75F));

@@ -52,10 +52,10 @@ TEST_CASE("extended XYZ has columns and a cell") {
     REQUIRE(frame.properties.size() == 2);
     CHECK(frame.properties[0].name == "id");
     CHECK(frame.properties[0].values == std::vector{7.0F, 8.0F});
-    CHECK(frame.properties[1].values == std::vector{5.0F, 2.0F}); // lengths
+    CHECK(frame.properties[1].values == std::vector{5.0F, 2.0F}); // lengths of the forces
 }
 
-TEST_CASE("what is no XYZ is told with its line") {
+TEST_CASE("an error in XYZ has its line") {
     CHECK(complaint(open_xyz, "x\n") ==
           "a:1:1: the number of atoms must be a whole number from 0 to 2147483647, got \"x\"");
     CHECK(complaint(open_xyz, "3\n\nC 0 0 0\nC 0 0 1\n") ==
@@ -103,7 +103,7 @@ TEST_CASE("GRO is read in columns of any width") {
     CHECK(complaint(open_gro, "a\n0\n1 1\n") == "a:3: must be the box, of 3 or 9 numbers, got 2");
 }
 
-TEST_CASE("LAMMPS' dumps have columns in any order, and scaled coordinates") {
+TEST_CASE("LAMMPS' dumps have columns in any order and scaled coordinates") {
     const std::string head = "ITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n2\n";
     const std::vector<Structure> all =
         frames(open_lammps_dump, head +
@@ -120,7 +120,7 @@ TEST_CASE("LAMMPS' dumps have columns in any order, and scaled coordinates") {
     CHECK(all[0].cell.origin == Vec3d(0, -5, 0));
     REQUIRE(all[0].properties.size() == 1);
     CHECK(all[0].properties[0].values == std::vector{0.5F, -1.0F});
-    // The bounds are those of what encloses a box of edges (10, 0, 0), (2, 10, 0), (0, 0, 10).
+    // The bounds enclose a box of edges (10, 0, 0), (2, 10, 0), (0, 0, 10).
     CHECK(elements_of(all[1]) == "Si O ");
     CHECK(all[1].cell.edges[0] == Vec3d(10, 0, 0));
     CHECK(all[1].positions == std::vector{Vec3f(6, 5, 5), Vec3f(2, 10, 0)});
@@ -134,7 +134,7 @@ TEST_CASE("LAMMPS' dumps have columns in any order, and scaled coordinates") {
     CHECK(complaint(open_lammps_dump, "3\n").starts_with("a:1: must begin with \"ITEM: \""));
 }
 
-TEST_CASE("extended XYZ may have a cell in brackets, and properties that were not computed") {
+TEST_CASE("extended XYZ may have a cell in brackets and properties that were not computed") {
     for (const std::string cell :
          {"\"5 0 0 0 6 0 0 0 7\"", "[[5,0,0],[0,6,0],[0,0,7]]", "[[5, 0, 0], [0, 6, 0], [0, 0, 7]]",
           "[5 0 0 0 6 0 0 0 7]", "[ [5, 0, 0], [0, 6, 0], [0, 0, 7] ]"}) {
@@ -150,7 +150,7 @@ TEST_CASE("extended XYZ may have a cell in brackets, and properties that were no
         CHECK(std::isnan(frame.properties[0].values.at(0)));
         CHECK(std::isnan(frame.properties[1].values.at(0)));
     }
-    // Other keys may come behind them, and behind an empty value.
+    // The cell may come behind a list in brackets and behind an empty value.
     for (const std::string before :
          {"name=\"\" ", "name='' ", "a=[[1,2],[3,4]] ", "a=[] ", "a= ", "a = b "}) {
         CAPTURE(before);
@@ -182,7 +182,7 @@ TEST_CASE("LAMMPS' XYZ has types or elements") {
     CHECK(elements_of(frames(open_xyz, "2\n\n1 0 0 0\n8 0 0 5\n").at(0)) == "H O ");
 }
 
-TEST_CASE("PDB has residues, bonds and models") {
+TEST_CASE("PDB has residues and bonds and models") {
     if (!has_gemmi()) return;
     const std::string text = "TITLE     SMALL\n"
                              "CRYST1   10.000   20.000   30.000  90.00  90.00  90.00 P 1\n"
@@ -211,7 +211,7 @@ TEST_CASE("PDB has residues, bonds and models") {
     CHECK(complaint(open_pdb, "REMARK\n") == "a: must have ATOM or HETATM records, got none");
 }
 
-TEST_CASE("places of an atom that exclude each other are one") {
+TEST_CASE("alternative places of an atom are read as one atom") {
     if (!has_gemmi()) return;
     std::string first = pdb_atom("ATOM", 1, " CB", "SER", 'A', 5, 1, 2, 3, "C"), second = first;
     first[16] = 'A';
@@ -219,7 +219,7 @@ TEST_CASE("places of an atom that exclude each other are one") {
     CHECK(frames(open_pdb, first + second)[0].size() == 1);
 }
 
-TEST_CASE("two residues of one number exclude each other, too") {
+TEST_CASE("alternative residues of one number are read as one residue") {
     if (!has_gemmi()) return;
     std::string serine = pdb_atom("ATOM", 1, " CB", "SER", 'A', 5, 1, 2, 3, "C"),
                 proline = pdb_atom("ATOM", 2, " CB", "PRO", 'A', 5, 1, 2, 4, "C");
@@ -230,7 +230,7 @@ TEST_CASE("two residues of one number exclude each other, too") {
           std::vector<std::string>{"CB", "CB"});
 }
 
-TEST_CASE("models of a PDB file may have one number, and bonds of their own") {
+TEST_CASE("models of a PDB file may have the same number and different bonds") {
     if (!has_gemmi()) return;
     const auto model = [](double x) {
         return "MODEL        1\n" + pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, x, 2, 3, "N") +
@@ -247,7 +247,7 @@ TEST_CASE("models of a PDB file may have one number, and bonds of their own") {
     CHECK(all[2].bonds.empty());
 }
 
-TEST_CASE("bonds are those of the models that END separates from others") {
+TEST_CASE("bonds belong to the models that END separates from others") {
     if (!has_gemmi()) return;
     const auto atoms = [](double x) {
         return pdb_atom("HETATM", 1, " C1", "LIG", 'A', 1, x, 2, 3, "C") +
@@ -269,7 +269,7 @@ TEST_CASE("bonds are those of the models that END separates from others") {
     CHECK(orders(models + bond + end + models + end) == "11--");
 }
 
-TEST_CASE("an entry behind END keeps the title before unless it has one") {
+TEST_CASE("an entry behind END keeps the previous title unless it has one") {
     if (!has_gemmi()) return;
     const std::string atom = pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N") + "END\n";
     std::string titles;
@@ -279,7 +279,7 @@ TEST_CASE("an entry behind END keeps the title before unless it has one") {
     CHECK(titles == "ONE ONE TWO ");
 }
 
-TEST_CASE("ENDROOT of PDBQT ends no model") {
+TEST_CASE("ENDROOT of PDBQT does not end a model") {
     if (!has_gemmi()) return;
     const std::string atom = pdb_atom("HETATM", 1, " C1", "LIG", 'A', 1, 1, 2, 3, "C");
     const std::vector<Structure> all =
@@ -289,7 +289,7 @@ TEST_CASE("ENDROOT of PDBQT ends no model") {
     CHECK(all[0].size() == 2);
 }
 
-TEST_CASE("a long title is not that of each of many models") {
+TEST_CASE("a long title is not kept whole for each of many models") {
     if (!has_gemmi()) return;
     std::string text;
     for (int i = 0; i < 10'000; ++i)
@@ -302,7 +302,7 @@ TEST_CASE("a long title is not that of each of many models") {
     CHECK(all[99].title.size() < 4096);
 }
 
-TEST_CASE("elements that a PDB file does not say follow from its columns or its names") {
+TEST_CASE("elements that a PDB file omits follow from its columns or its names") {
     if (!has_gemmi()) return;
     const auto elements = [](const std::string& text) {
         return elements_of(frames(open_pdb, text).at(0));
@@ -319,7 +319,7 @@ TEST_CASE("elements that a PDB file does not say follow from its columns or its 
                    atom(" NA ", "ION")) == "Na K Cl Na ");
 }
 
-TEST_CASE("a ligand whose names all begin in column 13 has elements by these") {
+TEST_CASE("names of a ligand give its elements if they all begin in column 13") {
     if (!has_gemmi()) return;
     const auto elements = [](const std::string& residue, const std::vector<const char*>& names) {
         std::string text = pdb_atom("ATOM", 1, " CA ", "ALA", 'A', 1, 1, 2, 3, "  ");
@@ -328,7 +328,7 @@ TEST_CASE("a ligand whose names all begin in column 13 has elements by these") {
         return elements_of(frames(open_pdb, text).at(0));
     };
     CHECK(elements("LIG", {"HO1 ", "CD1 ", "O1  ", "H12A", "CL1 "}) == "C H C O H Cl ");
-    CHECK(elements("LIG", {"HG  ", "CD1 ", " O1 "}) == "C Hg Cd O "); // names of some are not
+    CHECK(elements("LIG", {"HG  ", "CD1 ", " O1 "}) == "C Hg Cd O "); // one name begins later
     CHECK(elements("LIG", {"HG  ", "CD1 "}) == "C Hg Cd ");
 }
 
@@ -362,7 +362,7 @@ TEST_CASE("a table of a macromolecule's atoms needs coordinates alone") {
     CHECK(complaint(open_cif, "data_I\n_a 1\ndata_I\n_a 1\n") == "a: duplicate block name: I");
 }
 
-TEST_CASE("a residue of mmCIF goes on where its number comes again in the chain") {
+TEST_CASE("a residue of mmCIF continues where its number recurs in the chain") {
     if (!has_gemmi()) return;
     const std::string columns =
         "data_a\n_struct.title 'a b'\n_cell.length_a 9\n_cell.length_b 8\n_cell.length_c 7\n"
@@ -394,8 +394,8 @@ TEST_CASE("a residue of mmCIF goes on where its number comes again in the chain"
     CHECK(all[1].title == "a b");
 }
 
-TEST_CASE("coordinates are the floats nearest to what the file says") {
-    // Just below what is in the middle of two floats, which is the double nearest to it.
+TEST_CASE("coordinates are the floats nearest to the numbers of the file") {
+    // Just below the middle of two floats. The double nearest to the number is the middle.
     const auto x = [](const std::string& number) {
         return frames(open_xyz, "1\n\nC " + number + " 0 0\n").at(0).positions.at(0).x;
     };
@@ -409,7 +409,7 @@ TEST_CASE("coordinates are the floats nearest to what the file says") {
               .values.at(0) != 0.0F);
 }
 
-TEST_CASE("what fuzzers found is bad input, or left out") {
+TEST_CASE("inputs that fuzzers found are refused or ignored") {
     if (!has_gemmi()) return;
     CHECK(frames(open_pdb,
                  "LINK         O   GLY A  49                NA    NA A6001     1555   1555  n\n" +

@@ -32,7 +32,7 @@ Structure of_atoms(const std::vector<std::pair<const char*, Vec3f>>& atoms) {
     return structure;
 }
 
-/// Two residues of chain A, water in chain B.
+/// Returns two residues in chain A, and water in chain b.
 Structure peptide() {
     Structure structure = of_atoms({{"N", {0, 0, 0}},
                                     {"C", {1.4F, 0, 0}},
@@ -71,7 +71,7 @@ std::string xyz_of(int count) {
 
 } // namespace
 
-TEST_CASE("elements are told by symbols and masses") {
+TEST_CASE("elements follow from symbols and masses") {
     CHECK(element_of("Fe") == 26);
     CHECK(element_of("CL") == 17);
     CHECK(element_of("D") == 1);
@@ -85,7 +85,7 @@ TEST_CASE("elements are told by symbols and masses") {
     }
 }
 
-TEST_CASE("masses are those of elements if they are rounded, of isotopes, or of old tables") {
+TEST_CASE("rounded masses and masses of isotopes and of old tables give elements") {
     const auto symbol = [](double mass) {
         return std::string(data_of(element_of_mass(mass)).symbol);
     };
@@ -106,7 +106,7 @@ TEST_CASE("masses are those of elements if they are rounded, of isotopes, or of 
         CHECK(symbol(mass) == "X");
 }
 
-TEST_CASE("masses in reduced units are no elements") {
+TEST_CASE("masses in reduced units give no elements") {
     const auto symbols = [](const std::vector<double>& masses, MassUnits units) {
         std::string text;
         for (const Element element : elements_of_masses(masses, units))
@@ -140,7 +140,7 @@ TEST_CASE("shipped atoms have their bonds and fill their cell") {
     if (has_gemmi()) CHECK(elements_of(read("salt.cif", open_cif)) == "Na Na Na Na Cl Cl Cl Cl ");
 }
 
-TEST_CASE("bonds are those of all pairs that are near enough") {
+TEST_CASE("bonds are those of all pairs of atoms that are near enough") {
     Random random(20261125);
     for (const double size : {10.0, 20.0, 4000.0}) {
         std::vector<std::pair<const char*, Vec3f>> atoms;
@@ -150,7 +150,7 @@ TEST_CASE("bonds are those of all pairs that are near enough") {
                 symbols[random.integer(0, 5)],
                 raylane::core::convert<float>(random.cube(size) *
                                               raylane::core::Vec3d(1, 1, i % 3 == 0 ? 0 : 1)));
-        // As near as can be, and in one place.
+        // Atoms at the distance of a bond, and two at one point.
         atoms.emplace_back("O", Vec3f(0, 0, 0));
         atoms.emplace_back("H", Vec3f(0.96F, 0, 0));
         atoms.emplace_back("O", Vec3f(0, 0, 0));
@@ -174,7 +174,7 @@ TEST_CASE("bonds are those of all pairs that are near enough") {
     }
 }
 
-TEST_CASE("bonds that a file has keep their orders") {
+TEST_CASE("bonds of a file keep their orders") {
     Structure structure = of_atoms({{"C", {0, 0, 0}}, {"O", {1.2F, 0, 0}}, {"C", {9, 0, 0}}});
     structure.bonds = {{0, 2, 1}, {0, 1, 2}};
     std::vector<Bond> bonds = find_bonds(structure);
@@ -216,7 +216,7 @@ TEST_CASE("atoms are selected by words") {
     CHECK(selected(all, "within 5 of none") == "00000");
 }
 
-TEST_CASE("what selects no atoms in any words is told with its column") {
+TEST_CASE("an invalid selection is refused with its column") {
     const Structure all = peptide();
     CHECK(complaint(all, "") == "--select: column 1: must be what to select, got nothing");
     CHECK(complaint(all, "foo").starts_with("--select: column 1: must be one of "));
@@ -266,7 +266,7 @@ TEST_CASE("a remark has the column of a name in a list that matches nothing") {
     CHECK(told == unmatched("chain A foo"));
 }
 
-TEST_CASE("within finds what all distances do") {
+TEST_CASE("within finds the same atoms as the distances of all pairs") {
     Random random(7);
     std::vector<std::pair<const char*, Vec3f>> atoms;
     for (int i = 0; i < 500; ++i)
@@ -303,7 +303,7 @@ TEST_CASE("within takes no pairs of two dense crowds") {
           std::string(100'000, '1') + std::string(100'000, '0'));
 }
 
-TEST_CASE("lists of a selection end where the language goes on") {
+TEST_CASE("lists of a selection end at the next word of the language") {
     const Structure structure = peptide();
     CHECK(complaint(structure, "chain A an water") ==
           "--select: column 12: must be \"and\", \"or\" or the end, got \"water\"");
@@ -317,7 +317,7 @@ TEST_CASE("lists of a selection end where the language goes on") {
     CHECK(selected(structure, "not residue ALA HOH") == "00010");
 }
 
-TEST_CASE("atoms that are seen through are seen by the camera of others") {
+TEST_CASE("transparent atoms have the camera of opaque ones") {
     const auto camera_of = [](float opacity) {
         LoadOptions options;
         options.drawing.style = Style::balls;
@@ -361,7 +361,7 @@ TEST_CASE("styles have the shapes that they are named after") {
     CHECK(counts(Style::licorice) == std::pair<std::size_t, std::size_t>(4, 5));
 }
 
-TEST_CASE("atoms that are no balls are ellipsoids in the proportions of the style") {
+TEST_CASE("atoms that are not balls are ellipsoids in the proportions of the style") {
     using raylane::core::Ellipsoid, raylane::core::Sphere, raylane::core::Table;
     Structure structure = of_atoms({{"Xx", {0, 0, 0}}, {"Xx", {9, 0, 0}}});
     structure.radii = {4.0F, 1.0F};
@@ -387,7 +387,7 @@ TEST_CASE("atoms that are no balls are ellipsoids in the proportions of the styl
     CHECK(std::get<Table<Ellipsoid>>(drawn(Style::points).shapes()).size() == 0);
 }
 
-TEST_CASE("what cannot be drawn is said in a line") {
+TEST_CASE("options that cannot be drawn give an error of one line") {
     const auto error = [](const std::string& name, const std::string& text, const auto& change) {
         LoadOptions options;
         change(options);
@@ -418,7 +418,7 @@ TEST_CASE("what cannot be drawn is said in a line") {
           "--style: goes with a file of atoms, and a.json is a scene");
 }
 
-TEST_CASE("one atom, and atoms in one place, are seen") {
+TEST_CASE("one atom and atoms at one point can be drawn") {
     for (const char* text : {"1\n\nC 5 5 5\n", "2\n\nC 1e4 0 0\nN 1e4 0 0\n", "1\n\nXx 0 0 0\n"})
         for (const auto projection :
              {raylane::core::Projection::perspective, raylane::core::Projection::orthographic}) {
@@ -428,11 +428,11 @@ TEST_CASE("one atom, and atoms in one place, are seen") {
         }
 }
 
-TEST_CASE("files that gzip has compressed read as what they were") {
+TEST_CASE("files that gzip has compressed are read") {
     const std::string text = xyz_of(20'000);
     const raylane::tests::TemporaryDirectory directory;
     const std::filesystem::path path = directory.path() / "a.xyz.gz";
-    // In two pieces, as those have them that compress in blocks.
+    // In two pieces, as programs write that compress in blocks.
     for (const auto& part : {text.substr(0, 100'000), text.substr(100'000)}) {
         gzFile file = ::gzopen(path.c_str(), "ab");
         REQUIRE(::gzwrite(file, part.data(), static_cast<unsigned>(part.size())) > 0);
@@ -444,7 +444,7 @@ TEST_CASE("files that gzip has compressed read as what they were") {
           path.string() + ": must be whole: what is compressed ends too early");
 }
 
-TEST_CASE("Atoms on top of each other are drawn without bonds, and quickly") {
+TEST_CASE("Atoms on top of each other are drawn without bonds and quickly") {
     Structure structure = of_atoms({{"C", {0, 0, 0}}, {"O", {1.2F, 0, 0}}});
     constexpr int crowd = 300'000;
     for (int i = 0; i < crowd; ++i) {
@@ -468,7 +468,7 @@ TEST_CASE("Atoms on top of each other are drawn without bonds, and quickly") {
                          "bond's length: they are drawn without bonds"});
 }
 
-TEST_CASE("An atom with 24 neighbours has bonds, and an atom far away costs no more") {
+TEST_CASE("An atom with 24 neighbours has bonds and one with 25 has none") {
     std::vector<std::pair<const char*, Vec3f>> atoms = {{"U", {0, 0, 0}}};
     for (int i = 0; i < 24; ++i) {
         const float z = 1.0F - (2.0F * static_cast<float>(i) + 1.0F) / 24.0F;
