@@ -37,7 +37,7 @@ Reading read(const std::string& body, const TachyonShading& over = {}) {
     return {std::move(scene), remarks};
 }
 
-/// Of what says nothing on the side.
+/// Returns the scene of a body that is read without remarks.
 core::Scene scene_of(const std::string& body) {
     Reading reading = read(body);
     CHECK(reading.remarks == std::vector<std::string>());
@@ -59,7 +59,7 @@ std::string camera(const std::string& before, const std::string& zoom = "1") {
 
 } // namespace
 
-TEST_CASE("a Tachyon camera looks into a scene whose z is turned round") {
+TEST_CASE("a Tachyon camera is read with its z negated") {
     const core::Scene scene = scene_of(camera("") + "END_CAMERA");
     CHECK(scene.camera().from == Vec3f(1, 2, 6));
     CHECK(core::normalized(scene.camera().at - scene.camera().from) == Vec3f(0, 0, -1));
@@ -80,11 +80,11 @@ TEST_CASE("a Tachyon camera looks into a scene whose z is turned round") {
         scene_of(camera("PROJECTION PERSPECTIVE_DOF FOCALLENGTH 4 APERTURE 0.5") + "END_CAMERA");
     CHECK(lens.camera().lens_radius == 0.25F);
     CHECK(lens.camera().focus_distance == 1.0F);
-    // Without one it is at the origin.
+    // The default camera is at the origin.
     CHECK(scene_of("").camera().from == Vec3f(0.0F));
 }
 
-TEST_CASE("a Tachyon texture is a material, once") {
+TEST_CASE("a Tachyon texture becomes one material") {
     const std::string red = "TEXDEF red AMBIENT 0.1 DIFFUSE 0.5 SPECULAR 0.25 OPACITY 1 PHONG "
                             "PLASTIC 0.75 PHONG_SIZE 40 COLOR 1 0 0 TEXFUNC 0\nTEXALIAS r red\n";
     const core::Scene scene = scene_of(red +
@@ -105,7 +105,7 @@ TEST_CASE("a Tachyon texture is a material, once") {
     CHECK(scene.material_of(2).pattern.colors[0] == Color(1, 0.5F, 0.25F));
     CHECK(scene.material_of(2).specular == 0.0F);
 
-    // The first of a name counts.
+    // The first definition of a name counts.
     const std::string blue =
         "TEXDEF red AMBIENT 0 DIFFUSE 1 SPECULAR 0 OPACITY 1 COLOR 0 0 1 TEXFUNC 0\n";
     CHECK(scene_of(red + blue + "SPHERE CENTER 0 0 0 RAD 1 red").material_of(0).pattern.colors[0] ==
@@ -118,7 +118,7 @@ TEST_CASE("a Tachyon texture is a material, once") {
     CHECK(read(ball, over).scene.material_of(0).ambient == 1.0F);
 }
 
-TEST_CASE("a Tachyon surface is as see-through as its mode says") {
+TEST_CASE("a Tachyon surface is as transparent as its mode says") {
     const auto material = [](const std::string& mode, const std::string& opacity) {
         Reading reading = read("SHADER_MODE FULL " + mode +
                                " END_SHADER_MODE SPHERE CENTER 0 0 0 RAD 1 TEXTURE AMBIENT 0.25 "
@@ -130,7 +130,7 @@ TEST_CASE("a Tachyon surface is as see-through as its mode says") {
     const core::Material weighed = material("TRANS_VMD", "0.5");
     CHECK(weighed.opacity == 0.5F);
     CHECK(weighed.ambient == 0.25F);
-    // What is behind is added to 0.25: of 0.5 there is a half.
+    // TRANS_ORIG adds the light from behind to the whole 0.25, which is 0.5 at opacity 0.5.
     for (const char* const mode : {"", "TRANS_ORIG"}) {
         const core::Material added = material(mode, "0.5");
         CHECK(added.opacity == 0.5F);
@@ -162,7 +162,7 @@ TEST_CASE("a Tachyon surface is as see-through as its mode says") {
     CHECK(read("SHADER_MODE FULL SHADOW_FILTER_ON END_SHADER_MODE").remarks.empty());
 }
 
-TEST_CASE("the objects of Tachyon are shapes") {
+TEST_CASE("the objects of Tachyon become shapes") {
     const auto count = [&](const std::string& body) { return scene_of(body).shape_count(); };
     CHECK(count(ball) == 1);
     CHECK(count("CYLINDER CENTER 0 0 0 AXIS 0 1 0 RAD 1" + plain) == 1);
@@ -185,7 +185,7 @@ TEST_CASE("the objects of Tachyon are shapes") {
     CHECK(colored.remarks.size() == 1);
 }
 
-TEST_CASE("what has no extent in a Tachyon scene is left out, and that is said once") {
+TEST_CASE("objects without an extent in a Tachyon scene are left out with one remark") {
     const Reading reading =
         read("SPHERE CENTER 0 0 0 RAD 0" + plain + "TRI V0 0 0 0 V1 1 1 1 V2 2 2 2" + plain +
              "FCYLINDER BASE 1 1 1 APEX 1 1 1 RAD 1" + plain + ball);
@@ -198,12 +198,12 @@ TEST_CASE("a Tachyon clip group cuts each of its objects") {
         scene_of("START_CLIPGROUP NUMPLANES 2 1 0 0 0.5 0 0 2 6\n" + ball +
                  "TRI V0 0 0 0 V1 1 0 0 V2 0 1 0" + plain + "TRI V0 2 0 0 V1 3 0 0 V2 2 1 0" +
                  plain + "END_CLIPGROUP\n" + ball);
-    // A ball, half a triangle in two parts, nothing, a ball.
+    // A ball, half a triangle in two parts, an empty rest of a triangle, a ball.
     CHECK(scene.shape_count() == 4);
     CHECK(scene.solids().any());
 }
 
-TEST_CASE("Tachyon's lights and its sky give light") {
+TEST_CASE("Tachyon's lights and ambient occlusion become lights") {
     const core::Scene scene =
         scene_of("LIGHT CENTER 1 2 3 RAD 0 COLOR 0.5 0.25 1\nDIRECTIONAL_LIGHT DIRECTION 1 2 3 "
                  "COLOR 1 1 1\nLIGHT CENTER 0 0 1 RAD 0 ATTENUATION CONSTANT 2 LINEAR 0 QUADRATIC "
@@ -236,7 +236,7 @@ TEST_CASE("Tachyon's lights and its sky give light") {
     CHECK(overridden.lights()[1].color == Color(0.75F));
 }
 
-TEST_CASE("a Tachyon light on a surface shines from beside it") {
+TEST_CASE("a Tachyon light on a surface moves off the surface") {
     const Reading reading = read(ball + "LIGHT CENTER 1 2 3.5 RAD 0 COLOR 1 1 1\n");
     CHECK(reading.remarks ==
           std::vector<std::string>{"a.dat: LIGHT: on a surface, a light shines from beside it"});
@@ -244,7 +244,7 @@ TEST_CASE("a Tachyon light on a surface shines from beside it") {
     CHECK(reading.scene.lights().at(0).position.z == Approx(-3.5F).epsilon(0.01));
 }
 
-TEST_CASE("Tachyon's background and fog are what they can be") {
+TEST_CASE("Tachyon's background and fog are read or approximated with a remark") {
     CHECK(scene_of("BACKGROUND 0.1 0.2 0.3").background() == Color(0.1F, 0.2F, 0.3F));
     const std::string gradient = "BACKGROUND_GRADIENT SKY_SPHERE UPDIR 0 1 0 TOPVAL 1 BOTTOMVAL "
                                  "-1 TOPCOLOR 1 0 0 BOTTOMCOLOR 0 0 1";
@@ -272,7 +272,7 @@ TEST_CASE("Tachyon's background and fog are what they can be") {
         read(planar + camera("") + "END_CAMERA FOG EXP2 START 0 END 9 DENSITY 0.5 COLOR 1 1 1");
     CHECK(squared.scene.fog().kind == core::FogKind::linear_z);
     CHECK(squared.remarks.size() == 1);
-    // It is within 0.04 of the curve where that is neither nothing nor all.
+    // The line is within 0.04 of the curve where the curve is not close to 0 or 1.
     for (const float depth : {1.0F, 1.5F, 2.0F, 2.5F}) {
         const core::Fog& fog = squared.scene.fog();
         const float share = (6.0F - depth - fog.start) / (fog.end - fog.start);
@@ -280,7 +280,7 @@ TEST_CASE("Tachyon's background and fog are what they can be") {
     }
 }
 
-TEST_CASE("what a Tachyon scene has and others do not is told once each") {
+TEST_CASE("each unsupported feature of a Tachyon scene gives one remark") {
     const std::string image = " TEXTURE AMBIENT 0.1 DIFFUSE 0.8 SPECULAR 0 OPACITY 1 PHONG METAL "
                               "0.5 PHONG_SIZE 9 COLOR 1 1 1 TEXFUNC 9 a.ppm CENTER 0 0 0 ROTATE 0 "
                               "0 0 SCALE 1 1 1 UAXIS 1 0 0 VAXIS 0 1 0\n";
@@ -297,7 +297,7 @@ TEST_CASE("what a Tachyon scene has and others do not is told once each") {
               "a.dat:6: SCAPE: landscapes are not drawn"});
 }
 
-TEST_CASE("a Tachyon scene is known by its first word") {
+TEST_CASE("a Tachyon scene is recognised by its first word") {
     const std::string scene = "# by hand\n  Begin_Scene resolution 4 4 " + ball + "End_Scene";
     CHECK(parse_scene("a.dat", scene).shape_count() == 1);
     CHECK(parse_scene("standard input", scene).shape_count() == 1);
@@ -306,7 +306,7 @@ TEST_CASE("a Tachyon scene is known by its first word") {
           }).find("Tachyon's format (.dat)") != std::string::npos);
 }
 
-TEST_CASE("a Tachyon scene includes files that are beside it") {
+TEST_CASE("a Tachyon scene can include files in its folder") {
     const tests::TemporaryDirectory directory;
     directory.write("balls.dat", ball + ball + "SPHERE CENTER x");
     const std::filesystem::path path =
@@ -318,7 +318,7 @@ TEST_CASE("a Tachyon scene includes files that are beside it") {
           "balls.dat:1: INCLUDE: must not be included more than 16 deep");
     directory.write("balls.dat", ball);
     CHECK(load_scene(path).shape_count() == 1);
-    // Ten files of ten each, and so on: 1,000 are enough.
+    // Each file includes ten more, over several levels. The limit is 1,000.
     directory.write("deep.dat", "");
     for (const std::string name : {"d.dat", "c.dat", "b.dat", "balls.dat"}) {
         std::string text;
@@ -336,7 +336,7 @@ TEST_CASE("a Tachyon scene includes files that are beside it") {
           }).ends_with(": INCLUDE: must be one of at most 1000 included files"));
 }
 
-TEST_CASE("each mistake in a Tachyon scene has its line of error") {
+TEST_CASE("each mistake in a Tachyon scene gives an error with its line") {
     const std::vector<std::pair<std::string, std::string>> mistakes = {
         {"SPHERE CENTER 1 2\n3 RAD big",
          "a.dat:4: SPHERE of line 3: rad: must be a finite number, got \"big\""},
@@ -384,7 +384,7 @@ TEST_CASE("each mistake in a Tachyon scene has its line of error") {
           "a.dat: must end with END_SCENE, and is cut short");
 }
 
-TEST_CASE("a Tachyon scene that is cut short or damaged anywhere costs one line") {
+TEST_CASE("a Tachyon scene that is truncated or damaged anywhere gives at most one line of error") {
     for (const char* const name : {"vmd.dat", "named.dat"}) {
         const std::string text = tests::content_of(data(name));
         REQUIRE(!text.empty());
@@ -404,7 +404,7 @@ TEST_CASE("a Tachyon scene that is cut short or damaged anywhere costs one line"
     }
 }
 
-TEST_CASE("Tachyon scenes as VMD and others write them are read") {
+TEST_CASE("Tachyon scenes in the form of VMD and others are read") {
     LoadOptions options;
     std::vector<std::string> remarks;
     options.on_remark = [&](const std::string& remark) { remarks.push_back(remark); };
