@@ -26,7 +26,7 @@ void check(const std::vector<Case>& cases) {
 
 const std::string camera = R"("camera": {"from": [0, 0, 50], "at": [0, 0, 0]})";
 
-/// A scene of nothing, with another key.
+/// Returns a scene without objects and with another key.
 std::string with(const std::string& member) {
     return "{" + camera + R"(, "objects": [], )" + member + "}";
 }
@@ -35,7 +35,7 @@ std::string with_camera(const std::string& keys) {
     return R"({"objects": [], "camera": {)" + keys + "}}";
 }
 
-/// Names of all types of objects, as a complaint lists them.
+/// Returns the names of all types of objects, as an error lists them.
 std::string type_names() {
     std::string names;
     for (int kind = 0; kind < core::kind_count; ++kind) {
@@ -47,7 +47,7 @@ std::string type_names() {
            R"("sphereflake", "lattice", "union", "intersection", "difference", "clip", "lens", "group" or "instance")";
 }
 
-/// A clay object of this type at /objects/1.
+/// Returns a scene with a clay object of this type at /objects/1.
 std::string object(const std::string& type, const std::string& keys) {
     return with_objects(R"({"type": "sphere", "material": "clay", "center": [9, 9, 9], "radius": 1},
         {"type": ")" + type +
@@ -64,7 +64,7 @@ std::string pattern(const std::string& keys) {
 
 } // namespace
 
-TEST_CASE("complaints about the file") {
+TEST_CASE("a missing file and a directory are reported") {
     const TemporaryFile file("");
     std::filesystem::path gone = file.path();
     gone += ".gone";
@@ -73,7 +73,7 @@ TEST_CASE("complaints about the file") {
           "must be a file, got a directory");
 }
 
-TEST_CASE("complaints about keys") {
+TEST_CASE("unknown and missing and repeated keys are reported") {
     check({
         {"{}", "must have the key \"camera\"\nmust have the key \"objects\""},
         {"{" + camera + "}", R"(must have the key "objects")"},
@@ -110,7 +110,7 @@ TEST_CASE("complaints about keys") {
     });
 }
 
-TEST_CASE("complaints about solids name the shape, and there is an end to instances") {
+TEST_CASE("errors in solids name the shape and instances have a limit") {
     const std::string ball = R"({"type": "sphere", "center": [0, 0, 0], "radius": 1})";
     const std::string flat = R"({"type": "sphere", "center": [0, 0, 0], "radius": -1})";
     check({
@@ -156,7 +156,7 @@ TEST_CASE("shapes of instances and generators have a limit for the whole scene")
                          "lattices and sphereflakes in one scene"));
 }
 
-TEST_CASE("complaints about types") {
+TEST_CASE("values of a wrong JSON type are reported") {
     check({
         {"[]", "must be an object, got an array"},
         {"\"scene\"", "must be an object, got \"scene\""},
@@ -195,7 +195,7 @@ TEST_CASE("complaints about types") {
     });
 }
 
-TEST_CASE("complaints about words") {
+TEST_CASE("unknown words are reported with the known ones") {
     check({
         {object("spher", ""),
          "/objects/1/type: must be " + type_names() + R"(, got "spher", did you mean "sphere"?)"},
@@ -230,7 +230,7 @@ TEST_CASE("complaints about words") {
     });
 }
 
-TEST_CASE("complaints about numbers") {
+TEST_CASE("numbers out of range are reported") {
     check({
         {object("sphere", R"("center": [0, 0, 0], "radius": 1e39)"),
          "/objects/1/radius: must be a number from -1e30 to 1e30, got 1e+39"},
@@ -286,7 +286,7 @@ TEST_CASE("complaints about numbers") {
     });
 }
 
-TEST_CASE("complaints about geometry") {
+TEST_CASE("degenerate geometry is reported") {
     check({
         {object("cylinder", R"("base": [0, 0, 0], "axis": [0, 0, 0], "radius": 1)"),
          "/objects/1/axis: must not be the zero vector, got [0, 0, 0]"},
@@ -336,7 +336,7 @@ TEST_CASE("complaints about geometry") {
     });
 }
 
-TEST_CASE("a mistake in a material is none of the objects of it") {
+TEST_CASE("a mistake in a material is not reported for its objects") {
     const std::string balls =
         R"("objects": [{"type": "sphere", "material": "red", "center": [0, 0, 0], "radius": 1},
                        {"type": "sphere", "material": "red", "center": [3, 0, 0], "radius": 1}])";
@@ -347,7 +347,7 @@ TEST_CASE("a mistake in a material is none of the objects of it") {
            {"{" + camera + ", " + lights + ", " + balls + ", " + materials + "}", complaint}});
 }
 
-TEST_CASE("a light on a surface is told by the object, however many shapes that is") {
+TEST_CASE("a light on a surface is reported with the index of the object that contains the shape") {
     const std::string ball =
         R"({"type": "sphere", "material": "clay", "center": [0, 0, 0], "radius": 1}, )";
     const std::string flake =
@@ -372,7 +372,7 @@ TEST_CASE("a light on a surface is told by the object, however many shapes that 
     });
 }
 
-TEST_CASE("complaints about cameras, fogs and lights") {
+TEST_CASE("invalid cameras and fogs and lights are reported") {
     check({
         {with_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "up": [0, 0, 2])"),
          "/camera/up: must not be along the line of sight, got [0, 0, 2]"},
@@ -422,7 +422,7 @@ TEST_CASE("complaints about cameras, fogs and lights") {
     });
 }
 
-TEST_CASE("a list of lights that is empty is meant to be") {
+TEST_CASE("an empty list of lights adds no light") {
     const auto lights = [](const std::string& all) {
         return scene_of(
                    "{" + all +

@@ -1,7 +1,7 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/json_scenes.hpp"
 
-/// Where mistakes in JSON are said to be, and how many of them are told at once.
+/// Tests of the position of errors in JSON and of the number that is reported at once.
 using namespace raylane;
 using namespace raylane::tests;
 
@@ -32,7 +32,7 @@ std::vector<core::MaterialIndex> materials_of_shapes(const core::Scene& scene) {
 
 } // namespace
 
-TEST_CASE("a mistake is where its value begins") {
+TEST_CASE("an error's position is where its value begins") {
     const auto complaint = complaint_about_objects;
     CHECK(complaint(sphere("-1")) == "6:55: /objects/0/radius: must be positive, got -1");
     CHECK(complaint(sphere("/* \n */ -1 ")) == "7:5: /objects/0/radius: must be positive, got -1");
@@ -54,7 +54,7 @@ TEST_CASE("a mistake is where its value begins") {
     CHECK(complaint("{},\n[{}]").ends_with("7:1: /objects/1: must be an object, got an array"));
 }
 
-TEST_CASE("a missing key is where the object begins that lacks it") {
+TEST_CASE("a missing key's position is where the object begins") {
     CHECK(complaint_about_objects(R"(  {"type": "sphere", "center": [0, 0, 0], "radius": 1})") ==
           R"(6:7: /objects/0: must have the key "material")");
     CHECK(placed_complaint_about_text("\n {\"objects\": []}") ==
@@ -66,7 +66,7 @@ TEST_CASE("a missing key is where the object begins that lacks it") {
           "meant to be, got none");
 }
 
-TEST_CASE("a key that should not be there is where it begins") {
+TEST_CASE("an unexpected key's position is where the key begins") {
     CHECK(complaint_about_objects(R"({"raduis" : 1, "type": "sphere", "center": [0, 0, 0],
         "colour": 3, "material": "clay"})") ==
           "6:6: /objects/0: unknown key \"raduis\", did you mean \"radius\"?\n"
@@ -81,7 +81,7 @@ TEST_CASE("a key that should not be there is where it begins") {
           "6:15: /fog: must have the key \"type\"\n6:19: /materials: must be given only once");
 }
 
-TEST_CASE("mistakes of a scene as a whole have a place as well") {
+TEST_CASE("errors of a whole scene have a position") {
     const std::string camera = R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0],)";
     const auto complaint = placed_complaint_about_text;
     CHECK(complaint(camera + "\n \"up\": [0, 0, 1]}, \"objects\": []}") ==
@@ -107,7 +107,7 @@ TEST_CASE("mistakes of a scene as a whole have a place as well") {
           "3:39: /lights/1/position: must not be on a surface, got a point of /objects/0");
 }
 
-TEST_CASE("up to ten mistakes are told, in the order of the file") {
+TEST_CASE("up to ten errors are reported in the order of the file") {
     std::string objects, complaint;
     for (int i = 0; i < 10; ++i) {
         objects += (i == 0 ? "" : ",\n") + sphere("-1");
@@ -209,7 +209,7 @@ TEST_CASE("Errors that follow from a misspelt root key are not reported") {
               with_suggestion("material", "materials"));
 }
 
-TEST_CASE("A mistake is reported where it is, and not where it is used") {
+TEST_CASE("A mistake is reported where it is and not where it is used") {
     const std::string use = R"({"type": "instance", "of": "d"})";
     const std::string solid = R"({"type": "union", "material": "clay", "objects": [)";
     const std::string defined = R"("definitions": {"d": )";

@@ -19,7 +19,7 @@ core::Material material_of(const std::string& material) {
 
 } // namespace
 
-TEST_CASE("each shape is the floats of its file") {
+TEST_CASE("each shape has the numbers of its file") {
     core::for_each_shape_type([]<class Shape>(std::type_identity<Shape>) {
         CAPTURE(core::name_of(core::kind_of<Shape>));
         const core::Scene scene =
@@ -31,7 +31,7 @@ TEST_CASE("each shape is the floats of its file") {
     });
 }
 
-TEST_CASE("what a file need not say of a shape has defaults") {
+TEST_CASE("optional keys of a shape have defaults") {
     const core::Scene scene = scene_of(with_objects(R"(
         {"type": "box", "material": "clay", "min": [-0.1, 0.2, 1], "max": [0.3, 0.7, 1.5]},
         {"type": "cone", "material": "clay", "base": [1, 2, 3], "axis": [0, 5, 0], "base_radius": 0.9},
@@ -44,7 +44,7 @@ TEST_CASE("what a file need not say of a shape has defaults") {
                                              0.5});
     CHECK(numbers_of(shape<core::CappedCone>(scene, 1)) ==
           core::Numbers<core::InDouble<core::CappedCone>>{1, 2, 3, 0, 5, 0, 0.9, 0});
-    // center; xx, yy, zz, xy, xz, yz, x, y, z, one; lower, upper
+    // center; xx, yy, zz, xy, xz, yz, x, y, z, one; lower; upper
     CHECK(numbers_of(shape<core::Quadric>(scene, 2)) ==
           core::Numbers<core::QuadricOf<double>>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, -0.1, -1, -2,
                                                  -3, 1, 2, 3});
@@ -52,7 +52,7 @@ TEST_CASE("what a file need not say of a shape has defaults") {
         CHECK(scene.material_of(id).transmission == 0.0F);
 }
 
-TEST_CASE("shapes' numbers become the nearest doubles, tiny ones the nearest floats") {
+TEST_CASE("numbers of shapes become the nearest doubles and tiny ones the nearest floats") {
     const auto radius = [](const std::string& digits) {
         return shape<core::Sphere>(
                    scene_of(with_objects(
@@ -78,13 +78,13 @@ TEST_CASE("other numbers become the nearest floats") {
     const auto index = [](const std::string& digits) {
         return material_of(R"({"index": )" + digits + "}").index;
     };
-    // Nearer to 1 + 2^-23 than to 1, though the nearest double is half-way and would go to 1.
+    // Nearer to 1 + 2^-23 than to 1. The nearest double is half-way and would round to 1.
     CHECK(index("1.000000059604644775390626") == 1.0F + 0x1p-23F);
     CHECK(index("1.000000059604644775390625") == 1.0F);
     CHECK(index("1e-45") == std::numeric_limits<float>::denorm_min());
 }
 
-TEST_CASE("materials have defaults, and every key of theirs counts") {
+TEST_CASE("materials have defaults and every key has an effect") {
     const core::Material plain = material_of("{}");
     const core::Material defaults;
     CHECK(plain.pattern.kind == core::PatternKind::solid);
@@ -117,7 +117,7 @@ TEST_CASE("materials have defaults, and every key of theirs counts") {
     CHECK(material_of(R"({"visible": "both"})").visible == core::Visible::both);
 }
 
-TEST_CASE("patterns land in the material") {
+TEST_CASE("a material has the pattern of its file") {
     const core::Pattern checker =
         material_of(
             R"({"pattern": {"type": "checker", "colors": [[1, 0, 0], [0, 1, 0]], "size": 0.3, "axes": "xyz"}})")

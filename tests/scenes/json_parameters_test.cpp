@@ -13,7 +13,7 @@ using namespace raylane::tests;
 
 namespace {
 
-/// A ball of radius $r, with more keys in the outermost object behind it.
+/// Returns a scene with a ball of this radius, with `keys` at the end of the root object.
 std::string ball_of_radius(const std::string& radius, const std::string& keys = "") {
     std::string text = with_objects(
         R"({"type": "sphere", "material": "clay", "center": [0, 0, "-$x"], "radius": )" + radius +
@@ -42,23 +42,23 @@ std::string complaint(const std::string& text, const std::map<std::string, doubl
 
 } // namespace
 
-TEST_CASE("a parameter is its value from the command line, or else the file's") {
+TEST_CASE("a parameter has its value from the command line or the default of the file") {
     const std::string defaults = R"("parameters": {"r": 0.1, "x": 3})";
     const std::string text = ball_of_radius(R"("$r")", defaults);
     CHECK(ball(set(text, {})).radius == 0.1);
     CHECK(ball(set(text, {})).center.z == -3.0);
     CHECK(ball(set(text, {{"r", 0.3}})).radius == 0.3);
     CHECK(ball(set(text, {{"r", 0.3}})).center.z == -3.0);
-    // They may come before what refers to them, too, and need no default.
+    // Parameters may also come before their uses, and need no default.
     std::string before = text;
     before = "{" + defaults + ", " + ball_of_radius(R"("$r")").substr(1);
     CHECK(ball(set(before, {})).radius == 0.1);
     CHECK(ball(set(ball_of_radius(R"("$r")"), {{"r", 2.0}, {"x", 1.0}})).radius == 2.0);
-    // The same bits as the number itself.
+    // The value has the same bits as the number.
     CHECK(ball(set(text, {{"r", 1.0 / 3.0}})).radius == 1.0 / 3.0);
 }
 
-TEST_CASE("a parameter without a value, or without a use, costs a line") {
+TEST_CASE("a parameter without a value or without a use is an error") {
     CHECK(
         complaint(ball_of_radius("1"), {}) ==
         "scene.json:4:84: /objects/0/center/2: must have a value, by \"parameters\" or --set, got "
@@ -73,12 +73,12 @@ TEST_CASE("a parameter without a value, or without a use, costs a line") {
               .find("letters, digits and underscores") != std::string::npos);
     CHECK(complaint(ball_of_radius("1", R"("parameters": {"x": "one"})"), {})
               .find("/parameters/x: must be a number, got \"one\"") != std::string::npos);
-    // A mistake elsewhere is told as well.
+    // Errors elsewhere are still reported.
     CHECK(complaint(ball_of_radius("0", R"("parameters": {"x": 1})"), {})
               .find("must be positive, got 0") != std::string::npos);
 }
 
-TEST_CASE("of several values of a parameter the first that is read counts, but in one file") {
+TEST_CASE("the first value of a parameter counts and a second one in the same file is an error") {
     CHECK(complaint(ball_of_radius(R"("$r")", R"("parameters": {"x": 1, "r": 1, "r": 2})"), {})
               .find("/parameters/r: must be given only once") != std::string::npos);
     CHECK(complaint(ball_of_radius("1", R"("parameters": {"x": "$x"})"), {})
@@ -96,13 +96,13 @@ TEST_CASE("of several values of a parameter the first that is read counts, but i
             .radius;
     };
     const std::string include = R"("include": ["numbers.json"])", own = R"("parameters": {"r": 3})";
-    // Both come behind what refers to them.
+    // Both come behind the uses of the parameter.
     CHECK(radius(include) == 2.0);
     CHECK(radius(include + ", " + own) == 2.0);
     CHECK(radius(own + ", " + include) == 3.0);
 }
 
-TEST_CASE("what is wrong behind a late parameter of an included file is told by its place") {
+TEST_CASE("an error behind a late parameter of an included file has its position") {
     const TemporaryDirectory directory;
     directory.write("numbers.json",
                     "{\"parameters\": {\"r\": 2, \"x\": 5}, \"include\": [\"scene.json\"]}");
@@ -113,7 +113,7 @@ TEST_CASE("what is wrong behind a late parameter of an included file is told by 
               ":1:46: /include/0: must not include what it is included by, got \"scene.json\"");
 }
 
-TEST_CASE("a late parameter is not late in a pipe that cannot be read again") {
+TEST_CASE("a parameter behind its use is refused in a pipe") {
     const TemporaryDirectory directory;
     const std::filesystem::path pipe = directory.path() / "pipe.json";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
@@ -136,7 +136,7 @@ TEST_CASE("parameters are for scenes in JSON") {
           }).find("only JSON may") != std::string::npos);
 }
 
-TEST_CASE("files are included, by where the file is that says so") {
+TEST_CASE("included files are relative to the including file") {
     const TemporaryDirectory directory;
     std::filesystem::create_directory(directory.path() / "parts");
     directory.write("parts/materials.json",
@@ -154,7 +154,7 @@ TEST_CASE("files are included, by where the file is that says so") {
     CHECK(scene.shape_count() == 2);
     CHECK(ball(scene).radius == 2.0);
     CHECK(scene.lights().size() == 1);
-    // The camera is the file's own.
+    // The camera is that of the including file.
     CHECK(scene.camera().from == core::Vec3f(0, 0, 9));
     CHECK(scene.material_of(1).pattern.colors[0] == core::Color(1, 0, 0));
 
@@ -178,7 +178,7 @@ TEST_CASE("files are included, by where the file is that says so") {
           std::string::npos);
 }
 
-TEST_CASE("a light on a surface is told by its own file and the object's") {
+TEST_CASE("a light on a surface is reported with its file and the object's file") {
     const TemporaryDirectory directory;
     directory.write("balls.json", R"({"objects": [
         {"type": "sphere", "material": {}, "center": [9, 0, 0], "radius": 1},
@@ -195,7 +195,7 @@ TEST_CASE("a light on a surface is told by its own file and the object's") {
           std::string::npos);
 }
 
-TEST_CASE("a preset says what a material's other keys do not") {
+TEST_CASE("a preset gives the values that a material's other keys do not") {
     const auto material = [](const std::string& keys) {
         return scene_of(with_objects(R"({"type": "sphere", "center": [0, 0, 0], "radius": 1,
                                          "material": {)" +
@@ -213,7 +213,7 @@ TEST_CASE("a preset says what a material's other keys do not") {
     CHECK(material(R"("preset": "matte")").diffuse == material("").diffuse);
 }
 
-TEST_CASE("a camera that finds its place by itself has light, too") {
+TEST_CASE("a camera of type auto brings lights if the scene has no list of them") {
     const std::string objects =
         R"("objects": [{"type": "sphere", "material": {}, "center": [5, 0, 0], "radius": 1}])";
     const core::Scene scene = scene_of(R"({"camera": "auto", )" + objects + "}");

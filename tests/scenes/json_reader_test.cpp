@@ -27,7 +27,7 @@ core::Color background_of(const std::string& color) {
 
 } // namespace
 
-TEST_CASE("a scene of a camera alone is a picture of the background, with defaults") {
+TEST_CASE("a scene with only a camera has defaults for everything else") {
     const core::Scene scene =
         scene_of(R"({"camera": {"from": [0, 0, 1], "at": [0, 0, 0]}, "objects": []})");
     CHECK(scene.shape_count() == 0);
@@ -47,7 +47,7 @@ TEST_CASE("a scene of a camera alone is a picture of the background, with defaul
     CHECK(scene.camera().field_of_view == 45.0F);
 }
 
-TEST_CASE("everything around the objects lands in the scene") {
+TEST_CASE("the scene has every value of the root keys") {
     const core::Scene scene = scene_of(R"(
         // a comment before, with "quotes" and { braces
         {
@@ -119,7 +119,7 @@ TEST_CASE("colours in hexadecimal are sRGB") {
     CHECK(color.z == Approx(0.2158605).epsilon(1e-6));
 }
 
-TEST_CASE("materials may come behind the objects, and objects keep their order") {
+TEST_CASE("materials may come behind the objects and objects keep their order") {
     const core::Scene scene = scene_of(R"({
         "objects": [
             {"type": "sphere", "material": "late", "center": [0, 0, 0], "radius": 1},
@@ -134,7 +134,7 @@ TEST_CASE("materials may come behind the objects, and objects keep their order")
     CHECK(scene.material_of(1).diffuse == 0.25F);
 }
 
-TEST_CASE("a scene names generators as objects") {
+TEST_CASE("generators are objects of a scene") {
     const core::Scene flake = scene_of(with_objects(
         R"({"type": "sphereflake", "material": "clay", "center": [1, 2, 3], "radius": 2, "depth": 2, "up": [0, 1, 0]})"));
     CHECK(flake.shape_count() == 91);
@@ -154,7 +154,7 @@ TEST_CASE("a scene names generators as objects") {
     CHECK(alike.material_of(19).transmission == 1.0F);
 }
 
-TEST_CASE("a file may begin with a byte order mark, and end without a line's end") {
+TEST_CASE("a file may begin with a byte order mark and end without a line break") {
     CHECK(complaint_about_text("\xEF\xBB\xBF" + with_objects("")) == "");
     CHECK(complaint_about_text(with_objects("") + "\r\n// the end") == "");
 }

@@ -10,15 +10,15 @@
 
 namespace raylane::tests {
 
-/// The scene that this text is.
+/// Returns the scene of a JSON text.
 inline core::Scene scene_of(const std::string& text) {
     const TemporaryFile written(text);
     scenes::InputFile file(written.path());
     return scenes::read_json(file);
 }
 
-/// Complaint about a file that is no scene, without its name in front of each line: "3:14: ...". ""
-/// if it is one.
+/// Returns the errors of a scene file, each line without the file's name ("3:14: ..."), or "" if
+/// the file is valid.
 inline std::string placed_complaint_about(const std::filesystem::path& path) {
     try {
         scenes::InputFile file(path);
@@ -36,7 +36,7 @@ inline std::string placed_complaint_about(const std::filesystem::path& path) {
     return "";
 }
 
-/// The same without line and column.
+/// Returns the errors without line and column.
 inline std::string complaint_about(const std::filesystem::path& path) {
     std::string complaint;
     std::istringstream lines(placed_complaint_about(path));
@@ -54,7 +54,7 @@ inline std::string placed_complaint_about_text(const std::string& text) {
     return placed_complaint_about(TemporaryFile(text).path());
 }
 
-/// A scene but for what is inside of its list of objects.
+/// Returns the text of a scene with these elements in its list of objects.
 inline std::string with_objects(const std::string& objects) {
     return R"({"camera": {"from": [0, 0, 50], "at": [0, 0, 0]},
                "lights": [{"type": "point", "position": [30, 30, 30]}],
@@ -63,12 +63,12 @@ inline std::string with_objects(const std::string& objects) {
            objects + "]}";
 }
 
-/// Text of an object: of what makes up a shape, with a material.
+/// Returns the text of an object with a shape's keys and a material.
 inline std::string object_text(const std::string& shape, const std::string& material) {
     return "{" + shape + R"(, "material": )" + material + "}";
 }
 
-/// The shape with this id.
+/// Returns the shape with this id. Throws std::out_of_range if no shape of this kind has it.
 template <class Shape>
 core::InDouble<Shape> shape(const core::Scene& scene, core::ShapeId id) {
     const auto& table = std::get<core::Table<Shape>>(scene.shapes());

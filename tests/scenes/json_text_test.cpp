@@ -12,10 +12,10 @@ using namespace raylane::tests;
 
 namespace {
 
-/// In MiB. Sanitizers keep what is freed, for a while.
+/// In MiB. Sanitizers keep freed memory for a while.
 constexpr long little_memory = sanitized ? 1024 : 64;
 
-/// The most memory that this program ever had, in MiB.
+/// Returns the peak memory of this process, in MiB.
 long peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -24,7 +24,7 @@ long peak_memory() {
 
 } // namespace
 
-TEST_CASE("what is not JSON is placed by line and column") {
+TEST_CASE("a syntax error in JSON has a line and a column") {
     const auto complaint = placed_complaint_about_text;
     CHECK(complaint("") == "1:1: must be a scene, got an empty file");
     CHECK(complaint(" \n\t// nothing\n") == "3:1: must be a scene, got an empty file");
@@ -109,7 +109,7 @@ TEST_CASE("one item cannot fill the memory") {
           "1:12: /camera: must not hold more than 4096 values or 1048576 bytes of text");
 }
 
-TEST_CASE("a line of 200 MB gets one short line in answer") {
+TEST_CASE("a line of 200 MB gives an error of one short line") {
     static constexpr std::uintmax_t huge = 200'000'000;
     static const std::string forty_a(40, 'a'), forty_ones(40, '1');
     struct Case {
@@ -131,7 +131,7 @@ TEST_CASE("a line of 200 MB gets one short line in answer") {
     std::string complaint;
     {
         const TemporaryFile file(c.start);
-        // A file of zeros takes no space; others are written in pieces.
+        // A file of zeros takes no disk space. The others are written in pieces.
         if (c.filling != '\0') {
             std::ofstream stream(file.path(), std::ios::binary | std::ios::app);
             const std::string piece(1 << 20, c.filling);

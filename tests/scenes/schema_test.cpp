@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-// The schema's own verdicts on the same corpus are schema_test.py's.
+// schema_test.py checks the schema's verdicts on the same corpus.
 
 using namespace raylane::tests;
 
@@ -26,7 +26,7 @@ std::string complaint_about_json(const json& scene) {
     return complaint_about_text(scene.dump());
 }
 
-/// The entry's keys in place of the base's; null removes one.
+/// Returns the base with the entry's keys in place of its keys. null removes a key.
 json scene_of(json base, const json& entry) {
     for (const auto& [key, value] : entry.items()) {
         if (value.is_null())
@@ -37,7 +37,7 @@ json scene_of(json base, const json& entry) {
     return base;
 }
 
-/// A key that is near to none, so that the reader tells all that it knows.
+/// A key that resembles no known one, so that the reader lists all known keys.
 const std::string unknown_key = "0123456789";
 
 Keys keys_told_by(const std::string& complaint) {
@@ -65,7 +65,7 @@ const json& definition(const json& schema, const json& reference) {
     return schema.at(json::json_pointer(reference.at("$ref").get<std::string>().substr(1)));
 }
 
-/// For each "type" among the alternatives, the keys that objects of it may have.
+/// Returns, for each "type" among the alternatives, the keys that its objects may have.
 std::map<std::string, Keys> keys_by_type(const json& schema, const json& alternatives) {
     std::map<std::string, Keys> keys;
     for (const json& alternative : alternatives) {
@@ -86,7 +86,7 @@ std::map<std::string, Keys> keys_by_type(const json& schema, const json& alterna
 
 } // namespace
 
-TEST_CASE("the reader judges the schema's corpus as it should") {
+TEST_CASE("the reader accepts the good scenes of the schema's corpus and refuses the bad ones") {
     const json corpus = read("tests/scenes/schema_corpus.json");
     for (const json& entry : corpus.at("good")) {
         INFO(entry);

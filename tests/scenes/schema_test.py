@@ -1,4 +1,4 @@
-"""Holds the JSON Schema against every shipped scene and against the corpus that the reader is held to.
+"""Checks the JSON Schema against every shipped scene and against the corpus that tests the reader, too.
 
 usage: schema_test.py SOURCE_DIRECTORY
 Exit code 77 where python3-jsonschema is missing.
@@ -15,7 +15,7 @@ except ImportError:
     print("skipped: there is no python3-jsonschema")
     sys.exit(77)
 
-# Strings are matched first, so that what looks like a comment in one stays.
+# Strings are matched first, so that text like a comment inside of a string stays.
 STRING_OR_COMMENT = re.compile(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 
@@ -24,7 +24,7 @@ def without_comments(text):
 
 
 def scene_of(base, entry):
-    """The base with the entry's keys in place of its own; null removes one."""
+    """Returns the base with the entry's keys in place of its keys. null removes a key."""
     return {key: value for key, value in {**base, **entry}.items() if value is not None}
 
 
@@ -40,7 +40,7 @@ def strings_in(value):
 
 
 def words_of_schema(value):
-    """All strings that the schema knows as values."""
+    """Yields all strings that the schema knows as values."""
     if isinstance(value, dict):
         yield from (word for word in value.get("enum", []) if isinstance(word, str))
         yield from (word for word in [value.get("const")] if isinstance(word, str))
