@@ -16,7 +16,7 @@
 #include <random>
 #include <string>
 
-/// Scenes that are written as they are in memory.
+/// Tests of built files (.rl), which hold a scene in its memory layout.
 using namespace raylane;
 using namespace raylane::scenes;
 
@@ -58,7 +58,8 @@ void check_same(const core::Scene& again, const core::Scene& scene) {
         CHECK(picture_of(again, precision) == picture_of(scene, precision));
 }
 
-/// Spheres of three materials, as many as are packed or fewer; and of everything else some.
+/// Returns a scene of spheres in three materials, with some cylinders, boxes in double, polygons
+/// and a plane. The spheres are packed if there are at least `pack_from`.
 core::Scene mixture(int spheres, std::size_t pack_from) {
     std::mt19937 engine(4);
     std::uniform_real_distribution<float> coordinate(30.0F, 50.0F);
@@ -105,7 +106,7 @@ std::string complaint(const std::filesystem::path& path) {
 
 } // namespace
 
-TEST_CASE("all shipped scenes are the same ones as built files, or are refused as solids") {
+TEST_CASE("a built file keeps every shipped scene unchanged or refuses its solids") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path built = directory.path() / "a.rl";
     int same = 0, solids = 0;
@@ -128,8 +129,7 @@ TEST_CASE("all shipped scenes are the same ones as built files, or are refused a
     CHECK(solids >= 1);
 }
 
-TEST_CASE(
-    "built files of packed spheres and others, and of atoms with their camera, are the same") {
+TEST_CASE("a built file keeps packed spheres and atoms with an automatic camera unchanged") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path built = directory.path() / "a.rl";
     const core::Scene packed = mixture(3000, 0), plain = mixture(3000, 1'000'000);
@@ -157,13 +157,13 @@ TEST_CASE(
     check_same(load_scene(built), empty);
 }
 
-TEST_CASE("shapes stay in a built file, whatever becomes of its name") {
+TEST_CASE("a loaded scene stays valid when its built file is replaced or removed") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path built = directory.path() / "a.rl";
     const core::Scene scene = mixture(3000, 0);
     export_scene(built, scene);
     const core::Scene first = load_scene(built);
-    const core::Scene copy = first; // has the same ones
+    const core::Scene copy = first; // shares the arrays
     CHECK(copy.hierarchy().nodes.data() == first.hierarchy().nodes.data());
     export_scene(built, mixture(10, 0));
     std::filesystem::remove(built);
@@ -171,7 +171,7 @@ TEST_CASE("shapes stay in a built file, whatever becomes of its name") {
     check_same(copy, scene);
 }
 
-TEST_CASE("a built file that is compressed, or comes by a name without an ending, is read") {
+TEST_CASE("a built file is read if it is compressed or its name has no ending") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path built = directory.path() / "a.rl", other = directory.path() / "b";
     const core::Scene scene = mixture(100, 0);
@@ -182,7 +182,7 @@ TEST_CASE("a built file that is compressed, or comes by a name without an ending
     check_same(load_scene(built.string() + ".gz"), scene);
 }
 
-TEST_CASE("a built file that is cut off is refused, and so is one of another version") {
+TEST_CASE("a truncated built file or one of another version is refused") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path built = directory.path() / "a.rl";
     export_scene(built, mixture(40, 0));
@@ -235,7 +235,7 @@ TEST_CASE("a built file includes no other file") {
 
 namespace {
 
-/// Traces and draws whatever it is.
+/// Renders the scene and traces rays through it.
 void use(const core::Scene& scene) {
     picture_of(scene, core::Precision::exact, 4);
     const std::vector<float> zero(8, 0.5F), one(8, 1.0F);
@@ -252,7 +252,7 @@ void use(const core::Scene& scene) {
         .nearest(rays, {t.data(), {x.data(), y.data(), z.data()}, shape.data(), entering.data()});
 }
 
-/// Has what is read after a change, if it is read.
+/// Returns whether a built file with this content is read, and uses the scene if so.
 bool is_read(const tests::TemporaryDirectory& directory, const std::string& content) {
     const std::filesystem::path path = directory.write("a.rl", content);
     try {
@@ -266,7 +266,7 @@ bool is_read(const tests::TemporaryDirectory& directory, const std::string& cont
 
 } // namespace
 
-TEST_CASE("a built file with any byte changed is refused, and behind that so is what is no scene") {
+TEST_CASE("a built file with a changed byte is refused and does no harm with a valid checksum") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path built = directory.path() / "a.rl";
     std::mt19937 engine(9);
@@ -287,7 +287,7 @@ TEST_CASE("a built file with any byte changed is refused, and behind that so is 
             case 1:
                 other[at] = static_cast<char>(engine());
                 break;
-            default: // a number, or what it counts
+            default: // an aligned number of four bytes, such as a count
                 for (std::size_t i = at / 4 * 4; i < std::min(other.size(), at / 4 * 4 + 4); ++i)
                     other[i] = engine() % 2 == 0 ? '\xFF' : '\0';
             }
@@ -303,7 +303,7 @@ TEST_CASE("a built file with any byte changed is refused, and behind that so is 
 
 namespace {
 
-/// Copies of an array have the same elements: this one has others like them.
+/// Returns a deep copy of an array. A plain copy shares the elements.
 template <class T>
 core::BigArray<T> with_own(const core::BigArray<T>& all) {
     core::BigArray<T> own(all.size());
@@ -313,7 +313,7 @@ core::BigArray<T> with_own(const core::BigArray<T>& all) {
 
 } // namespace
 
-TEST_CASE("what a built file says of its shapes is held to what a builder makes") {
+TEST_CASE("the check of a built file's shapes refuses inconsistent ones") {
     core::Workers alone;
     const auto shapes_of = [](const core::Scene& scene) {
         core::BuiltShapes shapes;
@@ -349,7 +349,7 @@ TEST_CASE("what a built file says of its shapes is held to what a builder makes"
               REQUIRE(node != all.end());
               node->lower[2][last] = -1.0F;
           }) == "a shape outside of its bounds");
-    // A filter met it: there was no shape to be exact about.
+    // A plane in an unused lane: filters would report it, but no shape has its id.
     CHECK(refused([](auto& shapes) {
               auto& planes = std::get<core::Table<core::Plane>>(shapes.tables);
               core::Blocks<core::Plane> blocks;

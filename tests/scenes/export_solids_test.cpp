@@ -14,7 +14,7 @@ using namespace raylane::scenes;
 using tests::complaint;
 using tests::picture_of;
 
-TEST_CASE("solids are written as deep as they are read") {
+TEST_CASE("export accepts solids exactly as deep as the readers do") {
     const tests::TemporaryDirectory directory;
     const auto nested = [](const core::Solid& innermost, int depth) {
         core::Solid solid = innermost;
@@ -96,7 +96,7 @@ const std::string solids = R"({"camera": {"from": [4, 5, 6], "at": [0, 0, 0]},
 
 } // namespace
 
-TEST_CASE("solids of others are written as they were, and stay the same picture") {
+TEST_CASE("an exported solid reads back with the same nodes and image") {
     const tests::TemporaryDirectory directory;
     const core::Scene scene = tests::scene_of(solids);
     const std::filesystem::path path = directory.path() / "solids.json";
@@ -124,7 +124,7 @@ TEST_CASE("solids of others are written as they were, and stay the same picture"
 
 namespace {
 
-/// What is not the same for POV-Ray, and its file.
+/// Returns the warnings of an export to POV-Ray, one a line, and the file's content.
 std::pair<std::string, std::string> for_povray(const std::string& materials,
                                                const std::string& objects) {
     const tests::TemporaryDirectory directory;
@@ -147,7 +147,7 @@ const std::string two_balls = R"("objects": [
 
 } // namespace
 
-TEST_CASE("unions that are seen through have no walls inside for POV-Ray") {
+TEST_CASE("transparent unions are merges without inner walls in POV-Ray") {
     for (const std::string& objects : {R"({"type": "union", "material": "m", )" + two_balls,
                                        R"({"type": "union", )" + painted_balls}) {
         CAPTURE(objects);
@@ -184,7 +184,8 @@ TEST_CASE("fog fills panes and no glass for POV-Ray") {
             .second.find("hollow") == std::string::npos);
 }
 
-TEST_CASE("what lenses share, and opaque solids around the camera, is told for POV-Ray") {
+TEST_CASE(
+    "POV-Ray export warns of surfaces shared by lenses and of opaque solids around the camera") {
     const auto lenses = [](const std::string& material, const std::string& first,
                            const std::string& second) {
         const std::string start =
@@ -201,7 +202,7 @@ TEST_CASE("what lenses share, and opaque solids around the camera, is told for P
         !lenses(glass, crown, R"("vertex": [10.5, 0, 0], "radii": [-2.5, -9], "thickness": 0.5)"));
     CHECK(
         !lenses(glass, crown, R"("vertex": [10.625, 0, 0], "radii": [-3, -9], "thickness": 0.5)"));
-    // A flat surface, and one of a conic, from both sides.
+    // A flat surface and a conic one, each shared by two lenses.
     CHECK(lenses(glass, R"("vertex": [9, 0, 0], "radii": [4, 0], "thickness": 1.5)",
                  R"("vertex": [10.5, 0, 0], "radii": [0, -9], "thickness": 0.5)"));
     CHECK(lenses(glass, crown + R"(, "conics": [0, -0.5])", flint + R"(, "conics": [-0.5, 0])"));
@@ -217,7 +218,7 @@ TEST_CASE("what lenses share, and opaque solids around the camera, is told for P
 
 namespace {
 
-/// By id: kind and material, which say where in the order each part is.
+/// Returns the kind and material of each shape, by id. They identify the part.
 std::vector<std::pair<core::Kind, core::MaterialIndex>> parts_of(const core::Scene& scene) {
     std::vector<std::pair<core::Kind, core::MaterialIndex>> parts;
     for (core::ShapeId id = 0; id < scene.shape_count(); ++id)
@@ -228,7 +229,7 @@ std::vector<std::pair<core::Kind, core::MaterialIndex>> parts_of(const core::Sce
 
 } // namespace
 
-TEST_CASE("parts of solids keep their order, and what clips may be of any form") {
+TEST_CASE("export keeps the order of a solid's parts and clips by any form of solid") {
     const std::string ball = R"({"type": "sphere", "center": [0, 0, 1], "radius": 1})",
                       plane = R"({"type": "plane", "point": [0, 0, 0], "normal": [1, 0, 0]})",
                       box = R"({"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]})";
@@ -273,7 +274,7 @@ TEST_CASE("parts of solids keep their order, and what clips may be of any form")
             CAPTURE(name, tests::content_of(path));
             const core::Scene again = load_scene(path);
             REQUIRE(again.shape_count() == scene.shape_count());
-            if (path.extension() == ".pov") continue; // has other words for lights and shades
+            if (path.extension() == ".pov") continue; // describes lights and shading differently
             CHECK(parts_of(again) == parts_of(scene));
             CHECK(again.solids().nodes().size() == scene.solids().nodes().size());
             CHECK((picture_of(again) == picture_of(scene)));

@@ -15,7 +15,7 @@ using tests::picture_of;
 
 namespace {
 
-/// All of a view but what a projection does not ask for, or a light that is nowhere.
+/// Returns all numbers of a view that its projection uses. A sky light has no position.
 std::vector<float> view_of(const core::Scene& scene) {
     std::vector<float> all;
     const auto add = [&](const core::Vec3f& v) { all.insert(all.end(), {v.x, v.y, v.z}); };
@@ -38,7 +38,7 @@ std::vector<float> view_of(const core::Scene& scene) {
     return all;
 }
 
-/// As the tool has it by --view.
+/// Returns the scene as the tool's --view shows it.
 core::Scene seen_from(core::Scene scene, const core::Vec3f& direction) {
     core::Staging staging = scene.staging();
     if (!staging.framing) staging.framing = core::framing_of(scene.camera());
@@ -48,7 +48,7 @@ core::Scene seen_from(core::Scene scene, const core::Vec3f& direction) {
     return std::move(scene).seen(staging, view);
 }
 
-/// By a camera that has its place.
+/// Returns the scene as seen by a camera with a fixed position.
 core::Scene seen_by(core::Scene scene, const core::Camera& camera) {
     core::Staging staging = scene.staging();
     staging.framing.reset();
@@ -78,7 +78,7 @@ core::Scene water() {
 
 } // namespace
 
-TEST_CASE("what goes with a camera goes with it in JSON, to the bit") {
+TEST_CASE("JSON keeps the camera's framing and the lights and fog that follow it to the bit") {
     const std::string camera_lights = R"("lights": [{"type": "camera"}], )";
     const std::string both = R"("lights": [{"type": "point", "position": [9, 9, 9]},
                                            {"type": "camera"}], )";
@@ -118,7 +118,7 @@ TEST_CASE("what goes with a camera goes with it in JSON, to the bit") {
         CHECK(picture_of(again) == picture_of(scenes[i]));
         CHECK(view_of(seen_by(again, aside)) == view_of(seen_by(scenes[i], aside)));
         for (const core::Vec3f& direction : directions) {
-            // Whichever comes first.
+            // A change of the view and the export commute.
             const core::Scene seen = seen_from(scenes[i], direction);
             CHECK(view_of(seen_from(again, direction)) == view_of(seen));
             CHECK(view_of(written(seen)) == view_of(seen));
@@ -128,7 +128,7 @@ TEST_CASE("what goes with a camera goes with it in JSON, to the bit") {
     }
 }
 
-TEST_CASE("what JSON cannot say of a camera is told, and looks as it did") {
+TEST_CASE("JSON export reports lost camera features and keeps the image") {
     const tests::TemporaryDirectory directory;
     const core::Scene scene = water();
     const auto check = [&](const core::Scene& seen, const std::vector<std::string>& expected) {

@@ -38,7 +38,7 @@ std::vector<std::filesystem::path> all_shipped() {
     return paths;
 }
 
-/// All floats of all shapes, in order.
+/// Returns kind and numbers of all shapes as floats, by id.
 std::vector<float> floats_in(const core::Scene& scene) {
     std::vector<float> all;
     for_each_by_id(scene, [&](const auto& shape, core::ShapeId) {
@@ -56,7 +56,7 @@ std::string text_of(const std::filesystem::path& path) {
 
 } // namespace
 
-TEST_CASE("a scene that is written as JSON is the same scene") {
+TEST_CASE("a scene survives a JSON export unchanged") {
     const tests::TemporaryDirectory directory;
     for (const std::filesystem::path& path : all_shipped()) {
         CAPTURE(path.filename());
@@ -92,7 +92,7 @@ TEST_CASE("zeros keep their signs in JSON") {
     CHECK(signs(spheres.get({0, 0}).center) == std::array{true, false, true});
 }
 
-TEST_CASE("every value of a scene goes into JSON") {
+TEST_CASE("JSON export writes every value of a scene") {
     const tests::TemporaryDirectory directory;
     const core::Scene scene = tests::scene_of(R"({
         "camera": {"type": "orthographic", "from": [0.1, 2, 9], "at": [0, 1, 0], "up": [0, 1, 0.2],
@@ -138,7 +138,7 @@ TEST_CASE("every value of a scene goes into JSON") {
     const core::Scene again = load_scene(copy);
     CHECK(floats_in(again) == floats_in(scene));
     CHECK(picture_of(again) == picture_of(scene));
-    // And once more, which would show a value that is lost on the way.
+    // A second export would show a value that was lost in the first.
     const std::filesystem::path twice = directory.path() / "twice.json";
     export_scene(twice, again);
     CHECK(text_of(twice) == text_of(copy));
@@ -168,7 +168,7 @@ TEST_CASE("every value of a scene goes into JSON") {
     }
 }
 
-TEST_CASE("NFF takes the shapes that it has, and tells what it leaves out") {
+TEST_CASE("NFF export keeps the supported shapes and reports the omitted features") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path path = directory.path() / "scene.nff";
     const core::Scene scene = load_scene(shipped("lattice"));
@@ -185,7 +185,7 @@ TEST_CASE("NFF takes the shapes that it has, and tells what it leaves out") {
     CHECK(again.lights().size() == scene.lights().size());
     CHECK(again.settings().width == scene.settings().width);
 
-    // Six faces, whose fronts look outwards: the box is lit from outside.
+    // Six faces whose fronts point outwards, so that the box is lit from outside.
     const core::Scene box = tests::scene_of(tests::with_objects(
         R"({"type": "box", "material": "clay", "corner": [1, 2, 3],
             "edges": [[0, 1, 0], [1, 0, 0], [0, 0, 1]]})"));
@@ -201,7 +201,7 @@ TEST_CASE("NFF takes the shapes that it has, and tells what it leaves out") {
 
     CHECK(complaint(path, load_scene(shipped("quadric"))) ==
           path.string() + ": has no word for a quadric: .pov and .json have");
-    CHECK(load_scene(path).shape_count() == 12); // which has stayed
+    CHECK(load_scene(path).shape_count() == 12); // the old file
 }
 
 TEST_CASE("Materials keep their names from JSON to JSON") {
@@ -217,7 +217,7 @@ TEST_CASE("Materials keep their names from JSON to JSON") {
                     {"type": "difference", "material": "clay", "objects": [
                       {"type": "sphere", "center": [6, 0, 0], "radius": 1},
                       {"type": "sphere", "material": "0", "center": [6, 0, 1], "radius": 1}]}]})";
-    std::string late = text; // a name before its material
+    std::string late = text; // names come before their materials
     const std::string materials = late.substr(
         late.find("\"materials\""), late.find("\"definitions\"") - late.find("\"materials\""));
     late.erase(late.find(materials), materials.size());
@@ -246,7 +246,7 @@ TEST_CASE("Materials keep their names from JSON to JSON") {
     CHECK(written["objects"][2]["material"] == "5");
 }
 
-TEST_CASE("Materials with equal names, and without names, differ in JSON") {
+TEST_CASE("Materials with equal names or without names differ in JSON") {
     core::SceneBuilder builder;
     builder.staging.framing.emplace();
     builder.wants_light = false;
@@ -297,7 +297,7 @@ TEST_CASE("Materials keep their names in POV-Ray's language where it has these")
           std::vector<std::string>{"m_red", "Clay", "m_red_2"});
 }
 
-TEST_CASE("POV-Ray is told every shape and material") {
+TEST_CASE("POV-Ray export writes every shape and reports the approximated features") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path path = directory.path() / "scene.pov";
     CHECK(export_scene(path, load_scene(shipped("birthday"))) ==
@@ -323,7 +323,7 @@ TEST_CASE("POV-Ray is told every shape and material") {
     CHECK(count("{") == count("}"));
 }
 
-TEST_CASE("lines that are not there keep their colour, and NFF says what it lacks") {
+TEST_CASE("an outline of width 0 keeps its colour in JSON and NFF export reports a missing light") {
     const tests::TemporaryDirectory directory;
     core::SceneBuilder builder;
     builder.wants_light = false;
@@ -341,7 +341,7 @@ TEST_CASE("lines that are not there keep their colour, and NFF says what it lack
           told.end());
 }
 
-TEST_CASE("glass is lit in POV-Ray as here, and what cannot be is told") {
+TEST_CASE("POV-Ray export lights glass as raylane does or reports the difference") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path path = directory.path() / "scene.pov";
     const auto told = [&](core::Material material, const auto& shape) {
@@ -372,7 +372,7 @@ TEST_CASE("glass is lit in POV-Ray as here, and what cannot be is told") {
     glass.transmission = 0.0F;
     CHECK(told(glass, bowl).empty());
 
-    // What weighs a pigment there weighs no highlight.
+    // POV-Ray's transmit weighs the pigment but not the highlight.
     core::Material film;
     film.specular = 0.5F;
     film.opacity = 0.25F;
@@ -382,12 +382,12 @@ TEST_CASE("glass is lit in POV-Ray as here, and what cannot be is told") {
         CAPTURE(part);
         CHECK(text_of(path).find(part) != std::string::npos);
     }
-    CHECK(text_of(path).find("ior") == std::string::npos); // by which it would be a body
+    CHECK(text_of(path).find("ior") == std::string::npos); // an ior would make it a body
     film.transmission = 0.5F;
     CHECK(has(told(film, ball), "opacity of what transmits"));
 }
 
-TEST_CASE("the camera is in no medium of POV-Ray's but where that is told") {
+TEST_CASE("POV-Ray export warns if the camera gets into a medium that raylane does not have") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path path = directory.path() / "scene.pov";
     const auto is_misled = [&](const auto& shape, const core::Material& material) {
@@ -413,19 +413,19 @@ TEST_CASE("the camera is in no medium of POV-Ray's but where that is told") {
     CHECK(is_misled(sky, material));
     CHECK(is_misled(ceiling, material));
     CHECK(!is_misled(ball, material));
-    CHECK(has_index()); // by which it reflects
+    CHECK(has_index()); // its reflection needs the index
     CHECK(!is_misled(floor, material));
     material.transmission = 1.0F;
-    CHECK(!is_misled(sky, material)); // it is in that here, too
+    CHECK(!is_misled(sky, material)); // the camera is in the medium in raylane, too
     CHECK(has_index());
 }
 
-TEST_CASE("an ending that is no format's is refused") {
+TEST_CASE("export refuses an unknown ending") {
     CHECK(complaint("scene.obj", tests::scene_of(tests::with_objects(""))) ==
           "scene.obj: must end in .json, .nff, .pov or .rl");
 }
 
-TEST_CASE("endings of scenes count in any case, as those of pictures do") {
+TEST_CASE("endings of scene files may have upper and lower case letters") {
     const tests::TemporaryDirectory directory;
     const core::Scene scene = load_scene(shipped("sphere"));
     for (const char* name : {"a.JSON", "a.Rl", "a.Pov"}) {
@@ -435,7 +435,7 @@ TEST_CASE("endings of scenes count in any case, as those of pictures do") {
     }
 }
 
-TEST_CASE("which triangles make a polygon is told where a format does not keep it") {
+TEST_CASE("export reports formats that lose which triangles make a polygon") {
     const tests::TemporaryDirectory directory;
     core::SceneBuilder builder;
     const std::array<core::Triangle, 2> halves = {
@@ -453,7 +453,7 @@ TEST_CASE("which triangles make a polygon is told where a format does not keep i
     }
 }
 
-TEST_CASE("NFF says that it has no light where it has a word for none") {
+TEST_CASE("NFF export reports that no light is left if NFF supports none of them") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path path = directory.path() / "a.nff";
     for (const core::LightKind kind : {core::LightKind::sky, core::LightKind::directional,

@@ -11,7 +11,7 @@
 
 namespace raylane::tests {
 
-/// A small picture of a scene, by its own settings.
+/// Returns the pixels of a small image of a scene, by the scene's settings.
 inline std::vector<core::Color> picture_of(const core::Scene& scene) {
     core::Settings settings = scene.settings();
     settings.height = 48 * settings.height / settings.width;
@@ -20,7 +20,7 @@ inline std::vector<core::Color> picture_of(const core::Scene& scene) {
     return simd::render(scene, settings, {}).film.pixels();
 }
 
-/// Complaint about a scene that cannot be written so; "" if it has been.
+/// Returns the error of an export, or "" if the scene was written.
 inline std::string complaint(const std::filesystem::path& path, const core::Scene& scene) {
     try {
         scenes::export_scene(path, scene);
