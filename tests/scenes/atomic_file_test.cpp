@@ -26,7 +26,7 @@ void write(const std::filesystem::path& path, int size = 4) {
     file.commit(core::Film(size, size), core::Transfer::srgb);
 }
 
-/// The message of a refusal to write, without the directory.
+/// Returns the error of writing an image to `path`, without the directory.
 std::string refusal_of(const std::filesystem::path& path, int size = 4) {
     return tests::message_in<scenes::SystemRefused>(path.parent_path(), [&] { write(path, size); });
 }
@@ -41,7 +41,7 @@ bool is_picture(const std::filesystem::path& path) {
     return scenes::read_image(path).width == 4;
 }
 
-/// True if `test` is true in a process of its own, whose limits and user it may change.
+/// Returns true if `test` does in a child process, whose limits and user it may change.
 bool holds_in_child(const std::function<bool()>& test) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -57,7 +57,7 @@ bool holds_in_child(const std::function<bool()>& test) {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// Root may write everywhere; anybody else will do.
+/// Becomes an unprivileged user if the process runs as root, who may write everywhere.
 void become_nobody() {
     constexpr unsigned nobody = 65534;
     if (::geteuid() != 0) return;
@@ -66,7 +66,7 @@ void become_nobody() {
 
 } // namespace
 
-TEST_CASE("a picture's format follows its file's ending") {
+TEST_CASE("the ending of a file name selects the image format") {
     const TemporaryDirectory directory;
     const auto error_of = [&](const char* name) {
         return tests::message_in<scenes::BadInput>(
@@ -87,7 +87,7 @@ TEST_CASE("an output file appears whole or not at all") {
     {
         const scenes::OutputFile file(path);
         CHECK(content_of(path) == "old");
-        // Nothing else is to be seen of it, so nothing is left if the process is killed.
+        // The temporary file has no name, so a killed process leaves nothing behind.
         CHECK(directory.names() == std::vector<std::string>{"out.png"});
     }
     CHECK(content_of(path) == "old");
@@ -95,13 +95,13 @@ TEST_CASE("an output file appears whole or not at all") {
     write(path);
     CHECK(is_picture(path));
     CHECK(directory.file_count() == 1);
-    // The longest name that there may be.
+    // The longest file name that the system accepts.
     const auto longest = directory.path() / (std::string(251, 'a') + ".png");
     write(longest);
     CHECK(is_picture(longest));
 }
 
-TEST_CASE("where files must have names, a temporary stands beside the output") {
+TEST_CASE("a temporary with a name stands beside the output until it is committed") {
     const TemporaryDirectory directory;
     const auto path = directory.write("out.png", "old");
     for (const char* content : {"", "new", "newer"}) {
@@ -135,7 +135,7 @@ TEST_CASE("all temporaries with names can be removed at once") {
     }
     scenes::remove_temporaries();
     CHECK(directory.names() == std::vector<std::string>{"done.png", "one"});
-    // More at a time than are known to the handler, and more one after the other.
+    // More temporaries at a time than the handler's table holds, and more in sequence.
     for (int i = 0; i < 3; ++i) {
         std::vector<std::unique_ptr<scenes::AtomicFile>> files;
         for (int k = 0; k < 20; ++k)
@@ -148,7 +148,7 @@ TEST_CASE("all temporaries with names can be removed at once") {
     CHECK(directory.file_count() == 2);
 }
 
-TEST_CASE("what cannot be written is refused before there is a picture") {
+TEST_CASE("a path that cannot be written is refused when it is opened") {
     const TemporaryDirectory directory;
     directory.write("file", "");
     std::filesystem::create_directory(directory.path() / "directory.png");
@@ -185,7 +185,7 @@ TEST_CASE("a directory or file that may not be written is refused") {
     CHECK(directory.file_count() == 1);
 }
 
-TEST_CASE("a symbolic link stays one, and its target is replaced") {
+TEST_CASE("a symbolic link stays a link and its target is replaced") {
     const TemporaryDirectory directory;
     std::filesystem::create_directory(directory.path() / "far");
     const auto target = directory.write("far/target.png", "old");
@@ -196,7 +196,7 @@ TEST_CASE("a symbolic link stays one, and its target is replaced") {
     CHECK(std::filesystem::is_symlink(link));
     CHECK(std::filesystem::is_symlink(directory.path() / "far/second.png"));
     CHECK(is_picture(target));
-    // One that leads to nothing yet.
+    // A link whose target does not exist yet.
     const auto dangling = directory.path() / "dangling.png";
     std::filesystem::create_symlink(directory.path() / "far/new.png", dangling);
     write(dangling);
@@ -204,7 +204,7 @@ TEST_CASE("a symbolic link stays one, and its target is replaced") {
     CHECK(is_picture(directory.path() / "far/new.png"));
 }
 
-TEST_CASE("permissions are the target's, or those that the umask gives") {
+TEST_CASE("a new file has the umask's permissions and a replaced one keeps its own") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "out.png";
     CHECK(holds_in_child([&] {
@@ -229,7 +229,7 @@ TEST_CASE("a full disk is an error and leaves nothing behind") {
         CHECK(std::filesystem::is_symlink(full));
     }
     CHECK(directory.file_count() == 3);
-    // A size that is known before.
+    // A size that is known in advance.
     CHECK(holds_in_child([&] {
         const rlimit file_size{1000, 1000};
         ::setrlimit(RLIMIT_FSIZE, &file_size);
@@ -243,7 +243,7 @@ TEST_CASE("a full disk is an error and leaves nothing behind") {
         return false;
     }));
     CHECK(directory.file_count() == 3);
-    // Limits that are met at the start, in the middle, and in the last block.
+    // Limits that are reached at the start, in the middle and in the last block.
     for (const rlim_t limit : {10, 100000, 1080000})
         CHECK(holds_in_child([&] {
             const rlimit file_size{limit, limit};
@@ -255,7 +255,7 @@ TEST_CASE("a full disk is an error and leaves nothing behind") {
     CHECK(directory.file_count() == 3);
 }
 
-TEST_CASE("what is no regular file is written directly") {
+TEST_CASE("a file that is not a regular one is written directly") {
     const TemporaryDirectory directory;
     const auto null = directory.path() / "null.pfm";
     std::filesystem::create_symlink("/dev/null", null);
@@ -275,7 +275,7 @@ TEST_CASE("what is no regular file is written directly") {
     CHECK(::read(reader, text, sizeof text) == 24);
     CHECK(std::string_view(text, 12) == "PF\n1 1\n-1.0\n");
 
-    // Somebody who stops reading.
+    // A reader that closes the pipe.
     const auto previous = std::signal(SIGPIPE, SIG_IGN);
     {
         scenes::OutputFile file(pipe);
@@ -287,7 +287,7 @@ TEST_CASE("what is no regular file is written directly") {
     CHECK(directory.file_count() == 2);
 }
 
-TEST_CASE("a file that is open already is written from where it stands") {
+TEST_CASE("a path of an open descriptor is written from its current offset") {
     const TemporaryDirectory directory;
     const auto path = directory.write("log", "");
     const int log = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
@@ -330,7 +330,7 @@ TEST_CASE("a dash is standard output") {
     CHECK(directory.file_count() == 1);
 }
 
-TEST_CASE("an owner keeps his file") {
+TEST_CASE("a replaced file keeps its owner and permissions") {
     const TemporaryDirectory directory;
     const auto owner_of = [](const std::filesystem::path& path) {
         struct stat status {};
@@ -346,7 +346,7 @@ TEST_CASE("an owner keeps his file") {
     CHECK(owner_of(path) == owner);
     CHECK(mode_of(path) == 0640);
 
-    // Somebody who may write it, but not give files away.
+    // A user who may write the file but not change its owner.
     const auto shared = directory.write("shared.png", std::string(100000, 'x'));
     std::filesystem::permissions(shared, std::filesystem::perms(0666));
     std::filesystem::permissions(directory.path(), std::filesystem::perms(0777));

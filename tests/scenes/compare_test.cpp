@@ -67,7 +67,7 @@ TEST_CASE("one code of 255 is 48.13 dB") {
     CHECK(scenes::compare(a, b, 0.0F).psnr == Approx(48.1308).epsilon(1e-6));
 }
 
-TEST_CASE("an alpha is compared, and colors as they are seen") {
+TEST_CASE("alpha is compared and colors are compared as alpha weighs them") {
     const Image a = image_of({0, 0, 0, 0.5F, 0, 0}, 2, {0, 0.5F});
     const Image opaque = image_of({0, 0, 0, 0.5F, 0, 0}, 2);
     CHECK(scenes::compare(a, a, 0.0F).differing == 0);
@@ -80,7 +80,7 @@ TEST_CASE("an alpha is compared, and colors as they are seen") {
         CHECK(film.at(0, 0) == core::Color(1.0F));
         CHECK(film.at(1, 0) == core::Color(0.5F));
     }
-    // Codes are not multiplied yet: what cannot be seen is no difference.
+    // Codes are not multiplied by alpha yet. Invisible colors make no difference.
     Image b = image_of({1, 1, 1, 0.5F, 0, 0}, 2, {0, 0.5F});
     Image c = image_of({0, 0, 0, 0.75F, 0, 0}, 2, {0, 0.5F});
     b.linear_float = c.linear_float = false;
@@ -88,7 +88,7 @@ TEST_CASE("an alpha is compared, and colors as they are seen") {
     CHECK(scenes::compare(b, c, 0.0F).largest == 0.125);
 }
 
-TEST_CASE("NaN and infinity differ from all else, beyond any tolerance") {
+TEST_CASE("NaN and infinity differ from other values beyond any tolerance") {
     const Image a = image_of({0, 0, 0, 0, infinity, 0, 0.5F, 0, 0}, 3);
     const Image b = image_of({0, not_a_number, 0, 0, -infinity, 0, 0, 0, 0}, 3);
     const Comparison result = scenes::compare(a, b, 1e30F);

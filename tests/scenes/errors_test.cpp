@@ -3,7 +3,7 @@
 
 using namespace raylane::scenes;
 
-TEST_CASE("what a message quotes fits on one line") {
+TEST_CASE("a quotation in a message fits on one line") {
     CHECK(printable("plain") == "plain");
     CHECK(printable("a\nb\x7F\x01") == "a\\x0Ab\\x7F\\x01");
     CHECK(printable("gr\xC3\xBC\xC3\x9F") == "gr\xC3\xBC\xC3\x9F");
@@ -11,13 +11,13 @@ TEST_CASE("what a message quotes fits on one line") {
     CHECK(printable(std::string(200, 'a')) == std::string(40, 'a') + "...");
 }
 
-TEST_CASE("an unknown word brings the nearest known one") {
+TEST_CASE("an unknown word suggests the nearest known one") {
     CHECK(suggestion("raduis", {"center", "radius"}) == ", did you mean \"radius\"?");
     CHECK(suggestion("colour", {"color", "center"}) == ", did you mean \"color\"?");
     CHECK(suggestion("zzz", {"color", "center"}).empty());
     CHECK(suggestion("srbg", {"linear", "srgb"}) == ", did you mean \"srgb\"?");
     CHECK(suggestion("chane", {"element", "chain"}) == ", did you mean \"chain\"?");
-    // What has few letters in common is another word, and a number is not misspelled.
+    // Words with few letters in common do not match, and a number is never misspelled.
     for (const char* other : {"box", "top", "not", "fog", "form"}) {
         CAPTURE(other);
         CHECK(suggestion("foo", {other}).empty() == (std::string(other) != "fog"));
@@ -27,7 +27,7 @@ TEST_CASE("an unknown word brings the nearest known one") {
     CHECK(suggestion("anything", {}).empty());
     CHECK(suggestion("sise", {"size", "spp"}, "--") == ", did you mean \"--size\"?");
     CHECK(suggestion("zzz", {"size"}, "--").empty());
-    // What other programs call it.
+    // Names that other programs use.
     CHECK(suggestion("fov", {"from", "field_of_view"}) == ", did you mean \"field_of_view\"?");
     CHECK(suggestion("spp", {"image", "sampling"}) == ", did you mean \"sampling\"?");
     CHECK(suggestion("ior", {"color", "index"}) == ", did you mean \"index\"?");
@@ -44,7 +44,7 @@ TEST_CASE("alternatives read as in a sentence") {
     CHECK(alternatives({"a", "b", "c"}) == "a, b or c");
 }
 
-TEST_CASE("errors read as file, place, message") {
+TEST_CASE("an error reads as file and place and message") {
     CHECK(std::string(BadInput("a.json", "/objects/3/radius", "must be positive, got -1").what()) ==
           "a.json: /objects/3/radius: must be positive, got -1");
     CHECK(std::string(BadInput("a.json", "", "no such file").what()) == "a.json: no such file");
@@ -52,7 +52,7 @@ TEST_CASE("errors read as file, place, message") {
     CHECK(text_of({"a.nff", {3, 0}, "", "must be"}) == "a.nff:3: must be");
 }
 
-TEST_CASE("ten errors are collected, and that there were more") {
+TEST_CASE("ten errors are collected and a note that there were more") {
     InputErrors errors;
     CHECK_NOTHROW(errors.report());
     for (std::size_t line = 10; line > 0; --line)

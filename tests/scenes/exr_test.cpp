@@ -25,7 +25,7 @@ core::Film little_film() {
 
 } // namespace
 
-TEST_CASE("what cannot write OpenEXR says so") {
+TEST_CASE("an output file without an EXR encoder refuses the ending .exr") {
     const TemporaryDirectory directory;
     CHECK_THROWS_AS(scenes::OutputFile(directory.path() / "a.exr"), scenes::BadInput);
     CHECK(directory.names().empty());
@@ -41,7 +41,7 @@ TEST_CASE("what cannot write OpenEXR says so") {
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
-TEST_CASE("an EXR holds the film's floats, or halves of them") {
+TEST_CASE("an EXR holds the film's floats or the nearest halves") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "out.exr";
     const core::Film film = little_film();
@@ -56,7 +56,7 @@ TEST_CASE("an EXR holds the film's floats, or halves of them") {
             const float meant = film.pixels()[i / 3][static_cast<int>(i % 3)];
             if (bits == 32)
                 CHECK(image.rgb[i] == meant);
-            else // what is beyond them is their largest
+            else // values beyond the range of half become its largest
                 CHECK(std::abs(image.rgb[i] - std::clamp(meant, -65504.0F, 65504.0F)) <=
                       0x1p-11F * std::abs(meant));
         }
@@ -64,7 +64,7 @@ TEST_CASE("an EXR holds the film's floats, or halves of them") {
     CHECK(directory.file_count() == 1);
 }
 
-TEST_CASE("an EXR has a film's alpha, and colors that are multiplied by it") {
+TEST_CASE("an EXR has a film's alpha and colors multiplied by it") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "out.exr";
     core::Film film(2, 1, /*with_alpha=*/true);
@@ -82,13 +82,13 @@ TEST_CASE("an EXR has a film's alpha, and colors that are multiplied by it") {
     }
 }
 
-TEST_CASE("an EXR has layers and what it is told") {
+TEST_CASE("an EXR has the layers and the resolution and texts of the options") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "out.exr";
     core::Layers layers(3, 2);
     layers.depth[4] = 2.5F;
     layers.normal[4] = {0.0F, 0.6F, -0.8F};
-    layers.shape[4] = 16'777'217; // no float
+    layers.shape[4] = 16'777'217; // not a float
     layers.material[4] = 7;
     layers.samples[4] = 16;
     scenes::PictureOptions options;
@@ -130,7 +130,7 @@ TEST_CASE("an EXR has layers and what it is told") {
     CHECK(samples == layers.samples);
 }
 
-TEST_CASE("An EXR with attributes or channels that raylane does not write is not its own") {
+TEST_CASE("An EXR with attributes or channels that raylane does not write is refused as foreign") {
     const TemporaryDirectory directory;
     const auto own = directory.path() / "own.exr", path = directory.path() / "a.exr";
     const core::Layers layers(3, 2);
@@ -161,7 +161,7 @@ TEST_CASE("An EXR with attributes or channels that raylane does not write is not
     CHECK(complaint([](Header& header) { Imf::addWhiteLuminance(header, 80.0F); }) == refused);
     CHECK(complaint([](Header& header) { header.pixelAspectRatio() = 2.0F; }) == refused);
     CHECK(complaint([](Header& header) { header.displayWindow().max.x = 1; }) == refused);
-    // Another channel, which a copy of pixels cannot have.
+    // Another channel, which a copy of the pixels cannot add.
     Header header(3, 2);
     for (const char* name : {"R", "G", "B", "left.R"})
         header.channels().insert(name, Imf::Channel(Imf::FLOAT));
@@ -177,8 +177,7 @@ TEST_CASE("An EXR with attributes or channels that raylane does not write is not
     CHECK(tests::message_of<scenes::BadInput>([&] { scenes::read_own_exr(path); }) == refused);
 }
 
-TEST_CASE(
-    "an EXR without colors, or with fewer samples than pixels, is refused before it is read") {
+TEST_CASE("an EXR without colors or with fewer samples than pixels is refused before it is read") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "a.exr";
     const auto complaint = [&](const char* name, int sampling) {
@@ -226,7 +225,7 @@ TEST_CASE("a damaged EXR is bad input") {
     CHECK(read(whole) == "no error");
     for (std::size_t size = 4; size + 1 < whole.size(); size += 7)
         CHECK(read(whole.substr(0, size)) == damaged);
-    // OpenEXR makes room for what a text claims.
+    // OpenEXR allocates the length that a string attribute claims.
     std::string claims = whole;
     const std::string text("\0string\0", 8);
     claims.replace(claims.find(text) + text.size(), 4, std::string("\x00\x00\x00\x7E", 4));
@@ -240,7 +239,7 @@ TEST_CASE("a damaged EXR is bad input") {
         std::string mutated = whole;
         for (int k = 0; k < 1 + i % 3; ++k)
             mutated[4 + random() % (mutated.size() - 4)] = static_cast<char>(random());
-        const std::string message = read(mutated); // and nothing else is thrown
+        const std::string message = read(mutated); // throws no other exception
         CHECK((message == "no error" || message.starts_with("a.exr: must be a")));
     }
 }

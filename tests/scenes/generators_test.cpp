@@ -82,7 +82,7 @@ TEST_CASE("a sphereflake is the balls of the Standard Procedural Databases") {
     REQUIRE(expected.size() == 7381);
     REQUIRE(spheres.size() == expected.size());
 
-    // Each of them takes the one next to it: no two are as close as 1e-5.
+    // Matches each sphere with the expected one near it. No two are as close as 1e-5.
     std::sort(expected.begin(), expected.end());
     std::vector<bool> taken(expected.size());
     for (const core::Sphere& sphere : spheres) {
@@ -106,7 +106,7 @@ TEST_CASE("a sphereflake is the balls of the Standard Procedural Databases") {
     }
 }
 
-TEST_CASE("the spheres of a sphereflake touch the one that bears them, whatever is up") {
+TEST_CASE("the spheres of a sphereflake touch their parent for any direction up") {
     const Vec3f up = GENERATE(Vec3f(0, 0, 1), Vec3f(0, 0, -3), Vec3f(0, 2, 0), Vec3f(1, -2, -0.5F),
                               Vec3f(1e-20F, 0, -1));
     const auto spheres =
@@ -179,7 +179,7 @@ TEST_CASE("a lattice of one node has no struts") {
     CHECK(builder.shape_count() == 1);
 }
 
-TEST_CASE("generators refuse what they cannot grow") {
+TEST_CASE("generators refuse parameters out of range") {
     const Vec3f origin(0.0F);
     CHECK(refusal_of(scenes::Sphereflake{origin, 1, -1}) == "depth: must be from 0 to 8, got -1");
     CHECK(refusal_of(scenes::Sphereflake{origin, 1, 9}) == "depth: must be from 0 to 8, got 9");

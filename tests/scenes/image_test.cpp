@@ -22,7 +22,8 @@ using tests::TemporaryDirectory;
 
 namespace {
 
-/// Values from 0 to 1, smooth enough for runs and rough enough for none.
+/// Returns a film with values from 0 to 1: parts are smooth enough for run lengths, parts too
+/// rough.
 core::Film film_of(int width, int height) {
     core::Film film(width, height);
     std::mt19937 random(4);
@@ -71,7 +72,7 @@ std::string chunk(const std::string& type, const std::string& content) {
            big_endian(static_cast<std::uint32_t>(checksum));
 }
 
-/// An RGB picture of rows that have their filter in front, whatever their size.
+/// Returns an RGB PNG of `rows`, each with its filter byte in front. Their size is not checked.
 std::string png_of(std::uint32_t width, std::uint32_t height, char bits, const std::string& rows) {
     uLongf size = ::compressBound(static_cast<uLong>(rows.size()));
     std::string compressed(size, '\0');
@@ -97,7 +98,7 @@ const std::string grey_png = bytes(
 
 } // namespace
 
-TEST_CASE("a PNG holds the transfer curve's codes") {
+TEST_CASE("a PNG holds the codes of the transfer curve") {
     const TemporaryDirectory directory;
     const core::Film film = film_of(37, 21);
     for (const Transfer transfer : {Transfer::srgb, Transfer::linear}) {
@@ -118,7 +119,7 @@ TEST_CASE("a PNG holds the transfer curve's codes") {
     CHECK(directory.file_count() == 1);
 }
 
-TEST_CASE("a PNG has 16 bits if it is to") {
+TEST_CASE("a PNG has 16 bits on request") {
     const TemporaryDirectory directory;
     const core::Film film = film_of(37, 21);
     const auto path = directory.path() / "out.png";
@@ -134,7 +135,7 @@ TEST_CASE("a PNG has 16 bits if it is to") {
     CHECK(same_bits(scenes::read_image(path).rgb, codes));
 }
 
-TEST_CASE("a PNG has a film's alpha, and colors that are not multiplied by it") {
+TEST_CASE("a PNG has a film's alpha and colors not multiplied by it") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "out.png";
     core::Film film(4, 1, /*with_alpha=*/true);
@@ -142,8 +143,8 @@ TEST_CASE("a PNG has a film's alpha, and colors that are not multiplied by it") 
     film.alpha_at(0, 0) = 0.5F;
     film.at(1, 0) = core::Color(0.3F);
     film.alpha_at(1, 0) = 1.0F;
-    film.at(2, 0) = core::Color(0.25F); // more than is covered: a highlight
-    film.alpha_at(2, 0) = 0.125F;       // and nothing at all
+    film.at(2, 0) = core::Color(0.25F); // a highlight: more than its alpha
+    film.alpha_at(2, 0) = 0.125F;       // the last pixel stays empty
     for (const int bits : {8, 16}) {
         scenes::PictureOptions options;
         options.bits = bits;
@@ -165,7 +166,7 @@ TEST_CASE("a PNG has a film's alpha, and colors that are not multiplied by it") 
     }
 }
 
-TEST_CASE("a PNG says what it is told to") {
+TEST_CASE("a PNG has the resolution and texts of the options and no time stamp") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "out.png";
     const auto written = [&](const scenes::PictureOptions& options) {
@@ -190,14 +191,14 @@ TEST_CASE("a PNG says what it is told to") {
     CHECK(told == written(options));
 }
 
-TEST_CASE("a film's PNG is the same every time") {
+TEST_CASE("two PNGs of equal films have equal bytes") {
     const TemporaryDirectory directory;
     write(directory.path() / "a.png", film_of(200, 100), Transfer::srgb);
     write(directory.path() / "b.PNG", film_of(200, 100), Transfer::srgb);
     CHECK(content_of(directory.path() / "a.png") == content_of(directory.path() / "b.PNG"));
 }
 
-TEST_CASE("an HDR picture is right to a part in 128 of each pixel's largest component") {
+TEST_CASE("an HDR image is right to 1/128 of each pixel's largest component") {
     const TemporaryDirectory directory;
     for (const int width : {1, 7, 8, 300}) { // run lengths from 8 on
         core::Film film = film_of(width, 5);
@@ -212,7 +213,7 @@ TEST_CASE("an HDR picture is right to a part in 128 of each pixel's largest comp
         REQUIRE(image.rgb.size() == film.pixels().size() * 3);
         CHECK(image.linear_float);
 
-        const float largest = 0x1.FFFFFEp126F; // what the format can hold
+        const float largest = 0x1.FFFFFEp126F; // of the format
         film.at(0, 2).y = largest;
         film.at(0, 3) = {0.0F, 0.0F, 2.0F};
         film.at(0, 4).x = largest;
@@ -228,7 +229,7 @@ TEST_CASE("an HDR picture is right to a part in 128 of each pixel's largest comp
     }
 }
 
-TEST_CASE("a PFM holds the film's own floats") {
+TEST_CASE("a PFM holds the film's floats unchanged") {
     const TemporaryDirectory directory;
     core::Film film = film_of(9, 4);
     film.at(0, 0) = {-1.5F, 1e-45F, -0.0F};
@@ -250,12 +251,12 @@ TEST_CASE("a PFM holds the film's own floats") {
                 "\x00\x00\x80\x3F\x00\x00\x00\x00\x00\x00\x00\x00"));
 }
 
-TEST_CASE("pictures of other programs are read") {
+TEST_CASE("images of other programs are read") {
     const TemporaryDirectory directory;
     const Image sixteen = scenes::read_image(directory.write("a.png", sixteen_bit_png));
     CHECK(same_bits(sixteen.rgb,
                     {0.0F, 1.0F, 257 / 65535.0F, 1 / 65535.0F, 2 / 65535.0F, 32768 / 65535.0F}));
-    // The content tells the format, not the ending.
+    // The content determines the format, not the ending.
     const Image grey = scenes::read_image(directory.write("b.hdr", grey_png));
     CHECK(same_bits(grey.rgb, {0.0F, 0.0F, 0.0F, 0.2F, 0.2F, 0.2F}));
     CHECK(same_bits(grey.alpha, {1.0F, 128 / 255.0F}));
@@ -272,7 +273,7 @@ TEST_CASE("pictures of other programs are read") {
     CHECK(same_bits(radiance.rgb, {1.0F, 0.5F, 0.0F, 0.0F, 0.0F, 0.0F}));
 }
 
-TEST_CASE("what is no picture is bad input") {
+TEST_CASE("a file that is not an image is bad input") {
     const TemporaryDirectory directory;
     const auto error_of = [&](const std::string& content) {
         return error_of_reading(directory.write("a.png", content));
@@ -287,7 +288,7 @@ TEST_CASE("what is no picture is bad input") {
     CHECK(error_of("PF\n1 1\n0\nabcdabcdabcd") == damaged + "PFM");
     CHECK(error_of("#?RADIANCE\n\n-Y 1 +X 1\nabcd") == damaged + "HDR");
     CHECK(error_of("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+X 1 -Y 1\nabcd") == damaged + "HDR");
-    // stb_image reads runs of no bytes for ever.
+    // stb_image loops for ever on runs of zero length.
     const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n";
     CHECK(error_of(header + bytes("\x02\x02\x00\x08\x00\x00\x00\x00")) == damaged + "HDR");
     CHECK(error_of(header + bytes("\x02\x02\x00\x08\x89\x00")) == damaged + "HDR");
@@ -304,7 +305,7 @@ TEST_CASE("what is no picture is bad input") {
     CHECK(error_of_reading(directory.path() / "none.png") == "none.png: no such file");
 }
 
-TEST_CASE("a PNG ends where its picture does") {
+TEST_CASE("a PNG with bytes behind its image or too few rows is damaged") {
     const TemporaryDirectory directory;
     const auto error_of = [&](const std::string& content) {
         return error_of_reading(directory.write("a.png", content));
@@ -317,7 +318,7 @@ TEST_CASE("a PNG ends where its picture does") {
     CHECK(error_of(png_of(1, 2, 8, pixel)) == damaged);
 }
 
-TEST_CASE("a PNG takes the memory of its codes, and says so if there is none", "[native]") {
+TEST_CASE("a PNG takes the memory of its codes and reports if the system refuses it", "[native]") {
     const TemporaryDirectory directory;
     constexpr std::uint32_t side = 4096;
     std::string rows;
@@ -331,7 +332,7 @@ TEST_CASE("a PNG takes the memory of its codes, and says so if there is none", "
     CHECK(tests::within(60, reads) == tests::Ended::refused_by_the_system);
 }
 
-TEST_CASE("a picture cut short is bad input, a damaged one at worst another picture") {
+TEST_CASE("a truncated image is bad input and a damaged PNG is always noticed") {
     const TemporaryDirectory directory;
     std::mt19937 random(6);
     for (const char* name : {"a.png", "a.hdr", "a.pfm"}) {

@@ -34,7 +34,7 @@ bool same(const core::Layers& a, const core::Layers& b) {
            a.material == b.material && a.samples == b.samples;
 }
 
-/// A rendering with a journal.
+/// A scene with the options of its rendering, which a journal may record.
 struct Drawing {
     const core::Scene& scene;
     core::Settings settings;
@@ -59,7 +59,7 @@ struct Drawing {
     TileRecords records() const { return {settings, options}; }
 };
 
-/// No file of this process can be longer, as if the disk were full, as long as this lives.
+/// Limits the size of this process's files during its lifetime, as if the disk were full.
 class Fullness {
   public:
     explicit Fullness(std::uintmax_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
@@ -79,7 +79,7 @@ class Fullness {
     rlimit before_{};
 };
 
-/// A journal of a picture of 20 x 12 in tiles of 8, of which bytes can be noted that mean nothing.
+/// The journal of an image of 20 x 12 pixels in tiles of 8. Its tiles are arbitrary bytes.
 struct Notes {
     core::Scene scene = scene_of(text);
     tests::TemporaryDirectory directory{};
@@ -90,7 +90,7 @@ struct Notes {
     std::string bytes(std::size_t number) const {
         return std::string(drawing.records().bytes(number), static_cast<char>('a' + number));
     }
-    /// How many tiles are found by who comes next.
+    /// Returns the number of tiles that the next journal of this subject finds.
     int found() const {
         const Journal journal(drawing.path, drawing.subject(), drawing.records());
         int count = 0;
@@ -102,7 +102,7 @@ struct Notes {
 
 } // namespace
 
-TEST_CASE("a journal that ends at any byte gives the picture its bits, and so does a damaged one") {
+TEST_CASE("a journal that is truncated or damaged at any byte does not change the image") {
     const core::Scene scene = scene_of(text);
     const tests::TemporaryDirectory directory;
     Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
@@ -142,12 +142,12 @@ TEST_CASE("a journal that ends at any byte gives the picture its bits, and so do
         before = pixels;
         std::string damaged = content;
         damaged[end] ^= 0x10;
-        if (end < 16) continue; // it is none of ours then
+        if (end < 16) continue; // a damaged start makes it a foreign file
         static_cast<void>(goes_on(damaged, 240));
     }
 }
 
-TEST_CASE("what is damaged of a journal is one tile, and what is another's is none of its") {
+TEST_CASE("a damaged byte costs a journal one tile and records of another journal are ignored") {
     const core::Scene scene = scene_of(text);
     const tests::TemporaryDirectory directory;
     Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
@@ -168,7 +168,7 @@ TEST_CASE("what is damaged of a journal is one tile, and what is another's is no
     std::string damaged = content;
     damaged[head + 100] ^= 0x10; // in the first tile's pixels
     CHECK(pixels_of(damaged, drawing.subject()) == 20 * 12 - 8 * 8);
-    // Records that another picture's journal has left behind this one's head.
+    // Records of another image's journal behind this journal's head.
     const scenes::JournalSubject other{drawing.subject().scene, "others"};
     std::string mixed = content;
     mixed.replace(mixed.find("options options"), 15, "options others");
@@ -185,7 +185,7 @@ TEST_CASE("any damaged byte of a tile's record costs that tile alone") {
         REQUIRE(journal.keep());
     }
     const std::string content = tests::content_of(notes.path);
-    const std::size_t begin = content.find("\n\n") + 2 + 16 + records.bytes(0), // of the second
+    const std::size_t begin = content.find("\n\n") + 2 + 16 + records.bytes(0), // the second tile
         end = begin + 16 + records.bytes(1);
     for (const char bits : {'\x01', '\x10', '\xff'})
         for (std::size_t at = begin; at < end; ++at) {
@@ -201,7 +201,7 @@ TEST_CASE("any damaged byte of a tile's record costs that tile alone") {
             REQUIRE(std::filesystem::file_size(notes.path) == content.size());
             put(content[at]);
         }
-    // Likewise if bytes are missing, or too many; and what is behind the last one goes.
+    // The same holds for missing or additional bytes. Bytes behind the last record are removed.
     notes.directory.write("picture.part", std::string(content).erase(begin + 5, 100));
     CHECK(notes.found() == 5);
     notes.directory.write("picture.part", std::string(content).insert(begin + 5, 100, '\0'));
@@ -211,7 +211,7 @@ TEST_CASE("any damaged byte of a tile's record costs that tile alone") {
     CHECK(std::filesystem::file_size(notes.path) == content.size());
 }
 
-TEST_CASE("what a full disk does not take is written when there is room again") {
+TEST_CASE("tiles that a full disk refuses are written when it has space again") {
     const Notes notes;
     std::vector<std::string> told;
     Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records(),
@@ -219,7 +219,7 @@ TEST_CASE("what a full disk does not take is written when there is room again") 
     const std::string problem = notes.path.string() + ": cannot write: File too large";
     journal.note(0, notes.bytes(0));
     {
-        const Fullness full(100); // there is no file yet
+        const Fullness full(100); // before the file exists
         CHECK(!journal.keep());
         CHECK(!std::filesystem::exists(notes.path));
         CHECK(journal.problem() == problem);
@@ -235,18 +235,18 @@ TEST_CASE("what a full disk does not take is written when there is room again") 
         journal.note(4, notes.bytes(4));
         CHECK(journal.problem() == problem);
     }
-    // By itself.
+    // The journal tries again by itself.
     CHECK(tests::comes_true([&] { return journal.problem().empty(); }));
     journal.note(5, notes.bytes(5));
     CHECK(journal.keep());
     CHECK(told == std::vector{problem});
     const std::string content = tests::content_of(notes.path);
     notes.directory.write("picture.part.part", content);
-    std::filesystem::rename(notes.path.string() + ".part", notes.path); // the other one is locked
+    std::filesystem::rename(notes.path.string() + ".part", notes.path); // the original is locked
     CHECK(notes.found() == 6);
 }
 
-TEST_CASE("Journals of other options, scenes and versions stay until the picture is complete") {
+TEST_CASE("Journals of other options or scenes or versions stay until the image is complete") {
     const Notes notes;
     const TileRecords records = notes.drawing.records();
     const scenes::JournalSubject subject = notes.drawing.subject();
@@ -299,7 +299,7 @@ TEST_CASE("Journals of other options, scenes and versions stay until the picture
     CHECK(notes.found() == 0);
 }
 
-TEST_CASE("A picture without a journal yet removes those of other options when it is complete") {
+TEST_CASE("A complete image without a journal removes the journals of other options") {
     const Notes notes;
     notes.directory.write("picture.part", "raylane journal 0\nscene 0\noptions 0\n\nmuch");
     notes.directory.write("picture", "drawn");
@@ -311,7 +311,7 @@ TEST_CASE("A picture without a journal yet removes those of other options when i
     CHECK(!std::filesystem::exists(journal.path()));
 }
 
-TEST_CASE("A journal that was cut off gives way as soon as there is room for the new one") {
+TEST_CASE("A truncated journal is replaced as soon as the disk has space for the new one") {
     const Notes notes;
     notes.directory.write("picture.part", "raylane jour");
     Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
@@ -332,7 +332,7 @@ TEST_CASE("A journal that was cut off gives way as soon as there is room for the
     CHECK(notes.found() == 1);
 }
 
-TEST_CASE("A journal that was cut off is written from the first tile on, and removed") {
+TEST_CASE("A truncated journal is written from the first tile on and removed") {
     const Notes notes;
     notes.directory.write("picture.part", "");
     Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
@@ -344,7 +344,7 @@ TEST_CASE("A journal that was cut off is written from the first tile on, and rem
     CHECK(!std::filesystem::exists(notes.path));
 }
 
-TEST_CASE("a journal that has given its room, or is done with, takes no more") {
+TEST_CASE("a journal that has given up its space or was removed accepts no more tiles") {
     const Notes notes;
     {
         Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
@@ -370,7 +370,7 @@ TEST_CASE("a journal that has given its room, or is done with, takes no more") {
     CHECK(!std::filesystem::exists(notes.path));
 }
 
-TEST_CASE("a journal goes on with the same scene, options and tiles alone") {
+TEST_CASE("a journal continues only for the same scene and options and tiles") {
     const core::Scene scene = scene_of(text);
     const tests::TemporaryDirectory directory;
     Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
@@ -403,7 +403,7 @@ TEST_CASE("a journal goes on with the same scene, options and tiles alone") {
     }
 }
 
-TEST_CASE("scenes that show something else have other fingerprints") {
+TEST_CASE("scenes that look different have different fingerprints") {
     const std::string own = scenes::fingerprint_of(scene_of(text));
     CHECK(own.size() == 32);
     CHECK(scenes::fingerprint_of(scene_of(text)) == own);
@@ -423,8 +423,8 @@ TEST_CASE("scenes that show something else have other fingerprints") {
         other.replace(other.find(from), from.size(), to);
         CHECK(scenes::fingerprint_of(scene_of(other)) != own);
     }
-    // The settings are told by themselves.
-    std::string renamed = text; // names change nothing that is seen
+    // The settings are no part of the fingerprint.
+    std::string renamed = text; // names do not change the image
     for (std::size_t at = 0; (at = renamed.find("\"red\"", at)) != std::string::npos;)
         renamed.replace(at, 5, "\"blue\"");
     REQUIRE(scene_of(renamed).material_name(0) == "blue");

@@ -13,7 +13,7 @@ namespace raylane::tests {
 
 enum class Ended { well, badly, refused_by_the_system, as_bad_input, otherwise };
 
-/// The address space that this process has.
+/// Returns the address space of this process, in MiB.
 inline rlim_t used_megabytes() {
     std::ifstream file("/proc/self/statm");
     rlim_t pages = 0;
@@ -21,13 +21,13 @@ inline rlim_t used_megabytes() {
     return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) >> 20;
 }
 
-/// How `run`, which says whether all is well, ends in a process of its own that may have so much
-/// more memory. Not for sanitizers, which reserve all that there is.
+/// Calls `run` in a child process that may have this much more memory, and returns how it ends:
+/// well if `run` returns true. Not for sanitizers, which reserve the whole address space.
 template <class Run>
 Ended within(rlim_t megabytes, const Run& run) {
     const pid_t child = ::fork();
     if (child == 0) {
-        ::malloc_trim(0); // other tests leave room in the heap
+        ::malloc_trim(0); // other tests leave free memory in the heap
         rlimit limit{};
         ::getrlimit(RLIMIT_AS, &limit);
         limit.rlim_cur = (used_megabytes() + megabytes) << 20;

@@ -10,7 +10,8 @@ using namespace raylane;
 
 namespace {
 
-/// The middle of a scene's own picture, with the hierarchy and by testing every shape.
+/// Checks that the middle of a scene's image is the same with the hierarchy and by testing every
+/// shape.
 template <class Real>
 void check_crop(const std::filesystem::path& path, int size) {
     const core::Scene scene = scenes::load_scene(path);
@@ -28,7 +29,7 @@ void check_crop(const std::filesystem::path& path, int size) {
     CAPTURE(path.filename());
     CHECK(std::memcmp(with.pixels().data(), without.pixels().data(),
                       with.pixels().size() * sizeof(core::Color)) == 0);
-    // Of the same rays: a lost hit would have led to fewer.
+    // Both traced as many rays: a lost hit would lead to fewer.
     CHECK(by_hierarchy.counters().rays() == by_trying.counters().rays());
     CHECK(by_hierarchy.counters().rays() > by_hierarchy.counters().primary);
     CHECK(by_hierarchy.counters().shapes < by_trying.counters().shapes / 10);
@@ -50,18 +51,18 @@ void check_shared(const std::string& name) {
 
 } // namespace
 
-TEST_CASE("the hierarchy loses nothing of the sphereflake") {
+TEST_CASE("the hierarchy loses no hit of the sphereflake") {
     check(RAYLANE_SOURCE_DIR "/scenes/sphereflake.json");
 }
 
-TEST_CASE("the hierarchy loses nothing of the databases' balls") {
+TEST_CASE("the hierarchy loses no hit of the databases' balls") {
     check_shared("balls.nff");
 }
 
-TEST_CASE("the hierarchy loses nothing of the databases' rings") {
+TEST_CASE("the hierarchy loses no hit of the databases' rings") {
     check_shared("rings.nff");
 }
 
-TEST_CASE("the hierarchy loses nothing of the databases' tree") {
+TEST_CASE("the hierarchy loses no hit of the databases' tree") {
     check_shared("tree.nff");
 }

@@ -20,8 +20,8 @@
 #include <unistd.h>
 #include <utility>
 
-/// In a program of its own: it counts what is asked of the heap, without what is given back of
-/// that.
+/// Tests of memory use, in a separate program. They count the bytes that are allocated, less those
+/// that are returned to the system.
 namespace {
 
 std::atomic<std::size_t> live = 0, peak = 0;
@@ -34,7 +34,7 @@ void* counted(std::size_t bytes, std::size_t alignment) {
     return memory;
 }
 
-/// What was given back to the system of memory that is still there.
+/// A part of a live allocation that was returned to the system.
 struct GivenBack {
     const char* first = nullptr;
     std::size_t bytes = 0;
@@ -57,7 +57,7 @@ void discounted(void* memory) {
 
 } // namespace
 
-/// In place of the C library's.
+/// Replaces the C library's.
 extern "C" int madvise(void* memory, std::size_t bytes, int advice) noexcept {
     if (advice == MADV_DONTNEED) {
         const std::lock_guard lock(giving_back);
@@ -93,8 +93,8 @@ using namespace raylane;
 
 namespace {
 
-/// Bytes that a finished scene may take for each sphere, and that building it may; and of so many
-/// spheres that they are packed, all that a tracer has of them, and building them.
+/// Limits in bytes for each sphere: for a finished scene, and for the peak while it is built. The
+/// second pair is for packed spheres: for all that a tracer holds, and for the peak.
 constexpr double most_bytes = 40.0, most_at_peak = 2.5 * most_bytes;
 constexpr double most_packed_bytes = 20.0, most_at_packed_peak = 60.0;
 
@@ -113,8 +113,8 @@ void check_memory(const Fill& fill) {
     CAPTURE(scene.shape_count(), each(scene.bytes()), each(live - before), each(peak - before));
     CHECK(each(scene.bytes()) <= most_bytes);
     CHECK(each(peak - before) <= most_at_peak);
-    // What the scene says of itself is what it holds, but for what does not grow with it: mostly
-    // what the heap spends on aligning huge pages.
+    // The reported bytes are those that the scene holds, but for an overhead that does not grow
+    // with it: mostly memory that the heap spends on aligning huge pages.
     constexpr std::size_t overhead = std::size_t{3} << 20;
     CHECK(scene.bytes() <= live - before);
     CHECK(live - before <= scene.bytes() + overhead);
@@ -130,8 +130,8 @@ void add_uniform(core::SceneBuilder& builder, int count) {
     }
 }
 
-/// Atoms of six elements around the origin, a little off the places of a crystal, in the order of a
-/// file.
+/// Adds atoms of six elements around the origin, in a file's order. They are a little off the sites
+/// of a crystal.
 void add_atoms(core::SceneBuilder& builder, int side) {
     constexpr float radii[] = {1.7F, 1.55F, 1.52F, 1.1F, 1.8F, 2.0F};
     std::mt19937 engine(2);
@@ -174,7 +174,7 @@ void check_packed_memory(const Fill& fill) {
 
 } // namespace
 
-TEST_CASE("JSON takes no more memory where objects come before the materials") {
+TEST_CASE("JSON takes no more memory if objects come before the materials") {
     constexpr std::size_t count = 200'000;
     const std::string objects = [] {
         std::string text = R"("objects": [)";
@@ -204,7 +204,7 @@ TEST_CASE("JSON takes no more memory where objects come before the materials") {
     }
 }
 
-TEST_CASE("a sphere takes 40 bytes, and 100 while the scene is built") {
+TEST_CASE("a sphere takes at most 40 bytes and 100 while the scene is built") {
     for (const int count : {20'000, 200'000, 1'000'000})
         check_memory([&](core::SceneBuilder& builder) { add_uniform(builder, count); });
     for (const int depth : {5, 6})
@@ -213,9 +213,9 @@ TEST_CASE("a sphere takes 40 bytes, and 100 while the scene is built") {
         });
 }
 
-TEST_CASE("of four million spheres that are packed each takes 20 bytes, with all that drawing "
-          "them needs") {
-    // Of each table, what its last huge page has more than it holds is chance: 2 MiB at most.
+TEST_CASE("each of four million packed spheres takes at "
+          "most 20 bytes with all that rendering needs") {
+    // The unused rest of each table's last huge page is random: 2 MiB at most.
     check_packed_memory([&](core::SceneBuilder& builder) { add_uniform(builder, 4'000'000); });
     check_packed_memory([&](core::SceneBuilder& builder) { add_atoms(builder, 160); });
 }
@@ -229,11 +229,11 @@ std::string repeated(int times, const std::string& text) {
     return all;
 }
 
-/// A line of the table in SECURITY.md, and a file to try it with.
+/// A row of the table in SECURITY.md, and a file to test it with.
 struct Budget {
     std::string name, text; ///< of a file
     double bytes_for_each;
-    double megabytes = 16; ///< besides
+    double megabytes = 16; ///< in addition
 };
 
 void check_budget(const Budget& file) {
@@ -255,7 +255,7 @@ void check_budget(const Budget& file) {
 
 } // namespace
 
-TEST_CASE("to read a file takes no more memory than SECURITY.md says") {
+TEST_CASE("reading a file takes no more memory than SECURITY.md states") {
     constexpr int many = 30'000;
     const std::string json = R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "lights": [],
         "materials": {"m": {}}, "objects": [)";

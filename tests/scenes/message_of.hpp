@@ -7,7 +7,7 @@
 
 namespace raylane::tests {
 
-/// Message that an act is refused with; "no error" if it is not.
+/// Returns the message of the Error that `act` throws, or "no error" if it throws none.
 template <class Error = std::exception, class Act>
 std::string message_of(const Act& act) {
     try {
@@ -18,7 +18,8 @@ std::string message_of(const Act& act) {
     return "no error";
 }
 
-/// The same where that names a file in the directory: from its name on.
+/// Returns the same for a message that begins with the path of a file in the directory, from the
+/// file's name on.
 template <class Error, class Act>
 std::string message_in(const std::filesystem::path& directory, const Act& act) {
     try {
@@ -29,8 +30,8 @@ std::string message_in(const std::filesystem::path& directory, const Act& act) {
     return "no error";
 }
 
-/// A message on a file with its line in words, "a.nff: line 9: ..." for "a.nff:9: ...", and without
-/// line and column where both are there, for tests of what is said rather than where.
+/// Returns a message on a file with its line in words, "a.nff: line 9: ..." for "a.nff:9: ...".
+/// Omits line and column where the message has both, for tests of the text and not of the place.
 inline std::string in_words(const std::string& message) {
     static const std::regex line_and_column("^((raylane: )?[^:]*):[0-9]+:[0-9]+: ");
     static const std::regex line("^((raylane: )?[^:]*):([0-9]+): ");

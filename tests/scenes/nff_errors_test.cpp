@@ -14,10 +14,10 @@ struct Mistake {
 
 } // namespace
 
-TEST_CASE("each mistake in an NFF file has its line of error") {
+TEST_CASE("each mistake in an NFF file gives an error of one line") {
     const std::string& v = view_and_light; // 8 lines
     const std::vector<Mistake> mistakes = {
-        // What is not an NFF file
+        // Files that are not NFF
         {"", "must have a v entity, got none"},
         {"# nothing else\n", "must have a v entity, got none"},
         {"b 0 0 0\n", "must have a v entity, got none"},
@@ -28,7 +28,7 @@ TEST_CASE("each mistake in an NFF file has its line of error") {
         {std::string(300, 'x'),
          "line 1: must have words shorter than 256 bytes, got \"" + std::string(40, 'x') + "...\""},
         {v + "k 1 2 3\n", "line 9: must be one of v, b, l, f, s, c, p and pp, got \"k\""},
-        {"v near", // and no line feed: the word is the last
+        {"v near", // without a line feed: the word ends with the file
          "line 1: v: must go on with each of from, at, up, angle, hither, resolution, got "
          "\"near\""},
         // The view
@@ -139,12 +139,12 @@ TEST_CASE("each mistake in an NFF file has its line of error") {
          "line 11: pp of line 9: vertex 2 of 3: normal: must not be the zero vector, got 0 0 0"},
         {v + "pp 3\n0 0 0 0 0 1\n1 0 0\n", "line 11: pp of line 9: vertex 2 of 3: normal: must be "
                                            "a finite number, got the end of the file"},
-        // The order
+        // Order
         {"s 0 0 0 1\n" + v, "line 1: s: must come after the v entity, got it before"},
         {v + "p 3 0 0 0 1 0 0 0 1 0\n" + view,
          "line 10: v: must come before the objects, got it after them"},
         {v + "s 0 0 0 1\nl 1 2 3\n", "line 10: l: must come before the objects, got it after them"},
-        // What only the whole scene shows
+        // The whole scene
         {view + "s 0 0 0 1\n",
          "lights: must have at least one light where there are objects, got none"},
     };
@@ -154,8 +154,8 @@ TEST_CASE("each mistake in an NFF file has its line of error") {
     }
 }
 
-TEST_CASE("a long line ends in a line of error, and not in memory") {
-    // Words that would be read on and on, blanks, a comment, and one word.
+TEST_CASE("a line that is too long gives an error and is not kept in memory") {
+    // Numbers of an endless polygon, blanks, a comment, and one word.
     const std::string polygon = view_and_light + "p 9999999 ";
     std::string numbers;
     while (numbers.size() < 2 << 20)
@@ -169,7 +169,7 @@ TEST_CASE("a long line ends in a line of error, and not in memory") {
     CHECK(
         error_of(std::string(2 << 20, '\0'))
             .starts_with("scene.nff: line 1: must have words shorter than 256 bytes, got \"\\x00"));
-    // One byte less is none too many, wherever the buffer ends.
+    // A line of one byte less is accepted, wherever the buffer ends.
     std::string comment(1 << 20, 'x');
     comment[0] = '#';
     CHECK(error_of(comment + "\n" + view) ==

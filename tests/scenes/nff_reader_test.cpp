@@ -14,7 +14,7 @@ using tests::view_and_light;
 
 namespace {
 
-/// The shapes of one kind by their id.
+/// Returns the shapes of one kind by their id.
 template <class Shape>
 std::map<core::ShapeId, Shape> shapes_of(const core::Scene& scene) {
     std::map<core::ShapeId, Shape> shapes;
@@ -45,7 +45,7 @@ TEST_CASE("an NFF view becomes the camera") {
           Approx(2.0 * half_view * 180.0 / std::numbers::pi).epsilon(1e-7));
 }
 
-TEST_CASE("an NFF view may have its parts in any order and on any lines, and one row") {
+TEST_CASE("an NFF view may have its parts in any order and on any lines and have one row") {
     const core::Scene scene = scene_of("v resolution 3 1 angle\n45 up 0 0 1 # comment\n"
                                        "hither\n\n0.5 at 0 1 0 from\n 0 -5 0 # end\nl 0 0 9");
     CHECK(scene.camera().field_of_view == 45.0F);
@@ -115,7 +115,7 @@ TEST_CASE("an NFF fill becomes a material") {
     CHECK(scene.material_index_of(4) == scene.material_index_of(1));
 }
 
-TEST_CASE("NFF spheres, cylinders and cones are their floats") {
+TEST_CASE("NFF spheres and cylinders and cones have the floats of the file") {
     const core::Scene scene = scene_of(view_and_light + "f 1 1 1 1 0 1 0 1\n"
                                                         "s 0.1 -2.55836e-17 +3 .5\n"
                                                         "s 1 2 3 -0.25\n"
@@ -157,7 +157,7 @@ TEST_CASE("NFF spheres, cylinders and cones are their floats") {
     CHECK(scene.materials().size() == 2);
 }
 
-TEST_CASE("NFF polygons and patches are flat sets of triangles") {
+TEST_CASE("NFF polygons and patches become coplanar triangles") {
     const core::Scene scene = scene_of(view_and_light + "p 3\n0 0 0\n1 0 0\n0 1 0\n"
                                                         "p 4 0 0 5 1 0 5 1 1 5 0 1 5\n"
                                                         "pp 4\n"
@@ -177,7 +177,7 @@ TEST_CASE("NFF polygons and patches are flat sets of triangles") {
     const auto smooth = shapes_of<core::SmoothTriangle>(scene);
     REQUIRE(smooth.size() == 2);
     CHECK(scene.coplanar_with(3).last == 4);
-    for (const auto& [id, t] : smooth) { // each corner with its normal, the reflex one in both
+    for (const auto& [id, t] : smooth) { // both triangles have the reflex corner and its normal
         int reflex_corners = 0;
         const core::Vec3f corners[3] = {t.a, t.b, t.c};
         const core::Vec3f normals[3] = {t.normal_a, t.normal_b, t.normal_c};
@@ -190,7 +190,7 @@ TEST_CASE("NFF polygons and patches are flat sets of triangles") {
     }
 }
 
-TEST_CASE("NFF may have comments, blank lines and any line ends") {
+TEST_CASE("NFF may have comments and blank lines and any line ends") {
     const std::string text = "# a comment\r\n\r\n   # another\n" + view +
                              "l 4 3 20 # colourless\n" + "\ts 0 0 0\t1 # 5\n\n\ns#c\n1#2\n1 1 1";
     const core::Scene scene = scene_of(text);
@@ -200,13 +200,13 @@ TEST_CASE("NFF may have comments, blank lines and any line ends") {
     CHECK(spheres.at(1).center == core::Vec3f(1.0F));
 }
 
-TEST_CASE("NFF without objects is a picture of the background") {
+TEST_CASE("NFF without objects is a scene without shapes") {
     CHECK(scene_of(view).shape_count() == 0);
     CHECK(scene_of(view_and_light).lights().size() == 1);
 }
 
-TEST_CASE("an NFF file is the same whatever parts it is read in") {
-    // Longer than the buffers are, and words at every place of their ends.
+TEST_CASE("an NFF file is read correctly wherever its buffers end") {
+    // Longer than the buffers, with buffers that end at every position of a word.
     std::string text = view_and_light;
     std::vector<float> radii;
     for (int i = 0; i < 100000; ++i) {
@@ -224,7 +224,7 @@ TEST_CASE("an NFF file is the same whatever parts it is read in") {
     CHECK(same);
 }
 
-TEST_CASE("an NFF light on a surface shines from beside it") {
+TEST_CASE("an NFF light on a surface moves off the surface") {
     raylane::scenes::InputFile file("a.nff",
                                     view + "l 5 5 5\nl 0 0 1\nf 1 1 1 1 0 0 0 1\ns 0 0 0 1\n");
     std::string remarks;

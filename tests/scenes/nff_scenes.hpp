@@ -5,7 +5,7 @@
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
-/// NFF texts, and what becomes of them.
+/// NFF texts, and functions for their scenes and errors.
 namespace raylane::tests {
 
 inline const std::string view = "v\n"
@@ -23,7 +23,7 @@ inline core::Scene scene_of(std::string_view text) {
     return scenes::read_nff(file);
 }
 
-/// The message without the file's directory, and with the line in words.
+/// Returns the error without the file's directory, and with the line in words.
 inline std::string error_of(std::string_view text) {
     const TemporaryDirectory directory;
     scenes::InputFile file(directory.write("scene.nff", text));

@@ -42,7 +42,7 @@ TEST_CASE("a decimal number is the nearest float") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a number too small for a float is 0, one too large is none") {
+TEST_CASE("a number too small for a float is 0 and one too large is refused") {
     for (const char* small : {"1e-50", "7e-46", "0.01e-44", "1000e-60", "1e-400",
                               "1e-99999999999999999999", "0.0000000000000000000000000000001e-20"})
         CHECK(to_float(small) == 0.0F);
@@ -54,7 +54,7 @@ TEST_CASE("a number too small for a float is 0, one too large is none") {
         CHECK_FALSE(to_float(large));
 }
 
-TEST_CASE("what is not all of a number is none") {
+TEST_CASE("a text that is not wholly a number is refused") {
     for (const char* text : {"", "-", "+", ".", "-.", "1e", "1e+", "--1", "+-1", "1,5", "0x10",
                              "1.2.3", "12a", "a12", " 1", "1 ", "1e5.0", "1f"})
         CHECK_FALSE(to_float(text));
@@ -65,7 +65,7 @@ TEST_CASE("what is not all of a number is none") {
         CHECK_FALSE(to_int(text));
 }
 
-TEST_CASE("a float's text is the shortest that means it") {
+TEST_CASE("a float's text is the shortest that reads as this float") {
     CHECK(to_text(0.1F) == "0.1");
     CHECK(to_text(-2.0F) == "-2");
     CHECK(to_text(1e30F) == "1e+30");

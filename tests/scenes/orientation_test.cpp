@@ -7,7 +7,7 @@ using namespace raylane;
 using scenes::PlanePoint;
 
 TEST_CASE("orientation is never wrong") {
-    // Multiples of one small number near 1, where the rounded determinant is noise.
+    // Points near 1 on a lattice of 2^-23, where the rounded determinant is noise.
     std::mt19937 random(3);
     std::uniform_int_distribution<int> small(-3, 3);
     int wrong = 0;
@@ -23,7 +23,7 @@ TEST_CASE("orientation is never wrong") {
         if (scenes::orientation(q[0], q[1], q[2]) != (turn_of > 0) - (turn_of < 0)) ++wrong;
     }
     CHECK(wrong == 0);
-    // Differences that no double holds.
+    // Differences that are not doubles.
     const double tiny = 0x1p-140;
     CHECK(scenes::orientation({-0x1p100, 0}, {0x1p100, 0}, {0, tiny}) == 1);
     CHECK(scenes::orientation({1, 1}, {0x1p100, 0x1p100}, {tiny, tiny}) == 0);

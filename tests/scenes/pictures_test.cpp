@@ -11,7 +11,8 @@
 #include <cmath>
 #include <filesystem>
 
-/// Whole pictures by the vector engine: the reference's, and the same whatever makes them.
+/// Tests of whole images by the vector engine. They equal the reference's, up to a few pixels, and
+/// do not depend on the instruction set, the tiles or the threads.
 using namespace raylane;
 
 namespace {
@@ -28,7 +29,7 @@ core::Film picture_of(const core::Scene& scene, const core::Settings& settings,
     return simd::render(scene, settings, options).film;
 }
 
-/// The largest difference of two colours on the 8-bit scale of the picture.
+/// Returns the largest difference of two colours, in 8-bit codes.
 int difference(const core::Color& a, const core::Color& b, core::Transfer transfer) {
     int largest = 0;
     for (int channel = 0; channel < 3; ++channel)
@@ -37,7 +38,7 @@ int difference(const core::Color& a, const core::Color& b, core::Transfer transf
     return largest;
 }
 
-/// Contrast of a picture about a pixel.
+/// Returns the contrast of an image around a pixel, in 8-bit codes.
 int contrast(const core::Film& film, int x, int y, core::Transfer transfer) {
     int largest = 0;
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, film.height() - 1); ++v)
@@ -89,7 +90,7 @@ void check_shared(const std::string& name) {
 
 } // namespace
 
-TEST_CASE("the vector engine draws what the reference draws", "[native]") {
+TEST_CASE("the vector engine draws the shipped scenes as the reference does", "[native]") {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(RAYLANE_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".json" ||

@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <string>
 
-/// Whole pictures by the precisions that are not certified: the same bits whatever makes them, and
-/// but for a few pixels the same picture as that of the one that is.
+/// Tests of whole images by the precisions that are not certified. Each gives the same bits with
+/// every instruction set, tile and number of threads, and but for a few pixels the certified image.
 using namespace raylane;
 
 namespace {
@@ -24,7 +24,7 @@ core::Settings small_settings(const core::Scene& scene) {
     return settings;
 }
 
-/// Pixels that differ by more than one step of 8 bits.
+/// Returns the number of pixels that differ by more than one step of 8 bits.
 int differing(const core::Film& a, const core::Film& b, core::Transfer transfer) {
     int count = 0;
     for (std::size_t i = 0; i < a.pixels().size(); ++i) {
@@ -37,8 +37,8 @@ int differing(const core::Film& a, const core::Film& b, core::Transfer transfer)
     return count;
 }
 
-/// Number of pixels in 10,000 that may differ: about half as many again as were measured at 160 to
-/// 200 pixels across. Between mirrors that curve, every rounding grows from one to the next.
+/// Returns how many pixels in 10,000 may differ: about 1.5 times as many as were measured at 160 to
+/// 200 pixels across. Between curved mirrors, every rounding error grows from one to the next.
 double allowed(const std::string& scene, core::Precision precision) {
     if (precision == core::Precision::plain_double) return 0.0;
     const bool fast = precision == core::Precision::fast;
@@ -53,16 +53,16 @@ void check(const std::filesystem::path& path, core::Precision precision) {
     CAPTURE(name, std::string(core::name_of(precision)));
     const core::Scene scene = scenes::load_scene(path);
     core::Settings settings = small_settings(scene);
-    settings.quality = 0.0F; // it takes its time
+    settings.quality = 0.0F; // saves time
     simd::RenderOptions options;
     const core::Film exact = simd::render(scene, settings, options).film;
     options.precision = precision;
     const core::Film film = simd::render(scene, settings, options).film;
-    // Of a small picture, one pixel is a large share.
+    // In a small image, one pixel is a large share.
     const double most =
         1.0 + allowed(name, precision) * 1e-4 * static_cast<double>(film.pixels().size());
     CHECK(differing(film, exact, settings.transfer) <= most);
-    // Solids that are made of others are drawn exactly, whatever is asked.
+    // Solids that are made of others are rendered exactly with every precision.
     if (core::is_single(precision) || scene.solids().any())
         CHECK((film.pixels() == exact.pixels()) == scene.solids().any());
 
@@ -80,7 +80,7 @@ void check(const std::filesystem::path& path, core::Precision precision) {
 
 } // namespace
 
-TEST_CASE("no precision draws a picture that depends on who draws it, nor one far from exact") {
+TEST_CASE("an image of each precision is reproducible and close to the exact one") {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(RAYLANE_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".json" ||
@@ -94,7 +94,7 @@ TEST_CASE("no precision draws a picture that depends on who draws it, nor one fa
     CHECK(scenes >= 14);
 }
 
-TEST_CASE("Every pixel is finite, however large the numbers of a scene are") {
+TEST_CASE("Every pixel is finite however large the numbers of a scene are") {
     const std::string scenes[] = {
         R"("camera": {"from": [0, 0, 0], "at": [0, 0, 1]}, "lights": [], "materials": {"m": {
             "pattern": {"type": "gradient", "colors": ["#000000", "#ffffff"], "from": [0, 0, 0],

@@ -20,13 +20,13 @@ using scenes::SharedWork;
 
 namespace {
 
-/// What threads share that play the ranks of a job.
+/// Shared state of the threads that play the ranks of a job.
 struct Room {
     explicit Room(int count) : size(count) {}
 
     const int size;
     std::atomic<std::uint64_t> counter = 0, mark = 0;
-    std::mutex mutex; // of what follows
+    std::mutex mutex; // of the members below
     std::condition_variable changed;
     std::deque<std::string> messages;
     std::string broadcasted;
@@ -95,7 +95,7 @@ class ThreadRanks : public scenes::Ranks {
     int rank_;
 };
 
-/// Calls as_rank(ranks) for each of so many ranks, all at a time.
+/// Calls as_rank(ranks) for each of `count` ranks, all at a time.
 void as_ranks(int count, const std::function<void(ThreadRanks&)>& as_rank) {
     Room room(count);
     std::vector<std::thread> ranks;
@@ -112,7 +112,7 @@ std::string result_of(std::size_t piece) {
     return std::string(piece % 1000, static_cast<char>('a' + piece % 26));
 }
 
-/// On so many threads: what next() gives, as long as it gives anything.
+/// Calls `visit` with each piece that next() gives, on several threads, until it gives none.
 void for_each_piece(SharedWork& work, int threads,
                     const std::function<void(SharedWork::Piece)>& visit) {
     std::vector<std::thread> all;
@@ -127,7 +127,7 @@ void for_each_piece(SharedWork& work, int threads,
 
 } // namespace
 
-TEST_CASE("ranks do each piece of their work once, and the first one gets all of it") {
+TEST_CASE("ranks do each piece of their work once and the first rank gets all results") {
     for (const int ranks : {1, 2, 5})
         for (const std::size_t count : {0, 1, 7, 3000}) {
             CAPTURE(ranks, count);
@@ -161,7 +161,7 @@ TEST_CASE("ranks do each piece of their work once, and the first one gets all of
 
 namespace {
 
-/// Pieces that are begun in any order.
+/// Records the largest number of the pieces that are begun, in any order.
 class Begun {
   public:
     void begin(std::size_t number) {
@@ -190,7 +190,7 @@ class Begun {
 
 } // namespace
 
-TEST_CASE("no piece is begun that is a window ahead of one that takes long") {
+TEST_CASE("no piece is begun a window or more ahead of a slow one") {
     constexpr std::size_t count = 2000, window = 24;
     const tests::TemporaryDirectory directory;
     std::string all;
@@ -213,7 +213,7 @@ TEST_CASE("no piece is begun that is a window ahead of one that takes long") {
                     if (!piece.is_done) {
                         begun.begin(piece.number);
                         if (piece.number == slow) {
-                            // The others do not wait sooner than they have to.
+                            // The others do not wait earlier than they have to.
                             others_go_on = begun.wait_for(slow + window / 2);
                             begun.tempt();
                             max_ahead = begun.max() - slow;
@@ -235,7 +235,7 @@ TEST_CASE("no piece is begun that is a window ahead of one that takes long") {
         }
 }
 
-TEST_CASE("threads alone begin no piece either that is a window ahead") {
+TEST_CASE("threads without ranks begin no piece a window or more ahead") {
     constexpr std::size_t count = 2000, window = 10;
     const tests::TemporaryDirectory directory;
     scenes::AtomicFile file(directory.path() / "a");
@@ -263,7 +263,7 @@ TEST_CASE("threads alone begin no piece either that is a window ahead") {
     for (std::size_t piece = 0; piece < count; ++piece)
         all += result_of(piece);
     CHECK(tests::content_of(directory.path() / "a") == all);
-    // One that fails instead of being added.
+    // A piece that fails instead of being added.
     std::atomic<bool> may_begin = true;
     std::thread waits([&] { may_begin = output.wait_for(count + window); });
     output.cancel();
@@ -271,7 +271,7 @@ TEST_CASE("threads alone begin no piece either that is a window ahead") {
     CHECK_FALSE(may_begin);
 }
 
-TEST_CASE("ranks that wait for what will never be written end with a stop") {
+TEST_CASE("a stop ends ranks that wait for pieces that are never written") {
     std::atomic<int> begun = 0;
     as_ranks(3, [&](ThreadRanks& own) {
         std::atomic<bool> stop = false;
@@ -281,14 +281,14 @@ TEST_CASE("ranks that wait for what will never be written end with a stop") {
                 ++begun;
                 work.done(piece.number, {});
             }
-            if (own.rank() == 0 && begun == 24) stop = true; // none is ever written
+            if (own.rank() == 0 && begun == 24) stop = true; // no piece is ever written
         });
         work.finish();
     });
     CHECK(begun < 1000);
 }
 
-TEST_CASE("if one rank is told to stop, all do, and what has been done arrives") {
+TEST_CASE("a stop of one rank stops all ranks and every finished piece arrives") {
     for (const int who : {0, 1, 2}) {
         constexpr std::size_t count = 100'000'000;
         std::mutex mutex;
@@ -312,13 +312,13 @@ TEST_CASE("if one rank is told to stop, all do, and what has been done arrives")
                 arrived.insert(piece.number);
             if (own.rank() == 0) stopped_first = stop ? 1 : 0;
         });
-        CHECK(done.size() < count / 10); // or they would have gone on
+        CHECK(done.size() < count / 10); // all have stopped
         CHECK(arrived == done);
         CHECK(stopped_first == 1);
     }
 }
 
-TEST_CASE("a thread that fails leaves none waiting") {
+TEST_CASE("a thread that fails leaves no thread waiting") {
     as_ranks(2, [](ThreadRanks& own) {
         std::atomic<bool> stop = false;
         SharedWork work(own, 1000, 2, stop);
@@ -332,7 +332,7 @@ TEST_CASE("a thread that fails leaves none waiting") {
             fails.join();
         } else {
             while (work.next()) {
-            } // never done: rank 0 waits for it
+            } // never marked as done: rank 0 waits for it
         }
     });
     SUCCEED();

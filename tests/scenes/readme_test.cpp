@@ -7,7 +7,7 @@
 
 using namespace raylane;
 
-TEST_CASE("the README's scenes are some") {
+TEST_CASE("README scene examples parse") {
     const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
     const std::string opening = "```json\n";
     const tests::TemporaryDirectory directory;

@@ -6,7 +6,8 @@
 
 namespace raylane::tests {
 
-/// A picture of no more than `longest` pixels a side, in whole parts of the one wanted.
+/// Returns the settings of an image of at most `longest` pixels a side: both sides are divided by
+/// one whole number.
 inline core::Settings scaled_down(core::Settings settings, int longest) {
     const int divisor = (std::max(settings.width, settings.height) + longest - 1) / longest;
     settings.width /= divisor;

@@ -10,8 +10,8 @@
 #include <cstring>
 #include <filesystem>
 
-/// No number in either engine has a scale of its own: a scene a power of two larger or smaller
-/// makes the same picture, to the bit, and leaves as much in doubt on the way.
+/// Tests that no number in either engine has an absolute scale: a scene scaled by a power of two
+/// gives the same image, to the bit, and as many doubtful rays.
 using namespace raylane;
 
 namespace {
@@ -36,7 +36,7 @@ void check(const std::filesystem::path& path, simd::Engine engine, int longest) 
     core::Settings settings = test_settings(scene, longest);
     simd::RenderOptions options;
     options.engine = engine;
-    if (engine == simd::Engine::reference) settings.quality = 0.0F; // it takes its time
+    if (engine == simd::Engine::reference) settings.quality = 0.0F; // saves time
     const simd::Rendering expected = simd::render(scene, settings, options);
     for (const float factor : {0x1p-20F, 0x1p-3F, 0x1p7F, 0x1p20F}) {
         CAPTURE(factor);
@@ -62,10 +62,10 @@ void for_each_scene(const Visit& visit) {
 
 } // namespace
 
-TEST_CASE("the vector engine's pictures have no scale", "[native]") {
+TEST_CASE("the vector engine's images do not depend on the scale", "[native]") {
     for_each_scene([](const auto& path) { check(path, simd::Engine::vector, 200); });
 }
 
-TEST_CASE("the reference's pictures have no scale") {
+TEST_CASE("the reference's images do not depend on the scale") {
     for_each_scene([](const auto& path) { check(path, simd::Engine::reference, 80); });
 }

@@ -35,7 +35,7 @@ TEST_CASE("a scene's format follows the ending") {
     CHECK_THROWS_AS(distance_in(json, ".nff"), BadInput);
 }
 
-TEST_CASE("a scene's format follows the content where the ending says nothing") {
+TEST_CASE("a scene's format follows the content if the ending is unknown") {
     const std::string ending = GENERATE("", ".txt", ".json.bak");
     CHECK(distance_in(json, ending) == 9.0F);
     CHECK(distance_in("\xEF\xBB\xBF\r\n\t " + json, ending) == 9.0F);
@@ -44,8 +44,8 @@ TEST_CASE("a scene's format follows the content where the ending says nothing") 
     CHECK(distance_in("# a comment {\n\n" + nff, ending) == 7.0F);
 }
 
-TEST_CASE("lines end as on any system, and a byte order mark may come first") {
-    // One that is longer than what is read at once, in lines of all lengths.
+TEST_CASE("lines may end as on any system and a byte order mark may come first") {
+    // A file that is longer than the read buffer, in lines of all lengths.
     std::string balls = nff + "l 0 9 0\n";
     for (int i = 0; i < 20'000; ++i)
         balls += std::string(static_cast<std::size_t>(i % 7), ' ') + "s 0 0 0 1\n";
@@ -83,7 +83,7 @@ TEST_CASE("lines end as on any system, and a byte order mark may come first") {
           }).starts_with("a.nff:4: "));
 }
 
-TEST_CASE("a file of another kind is told from a scene with a mistake") {
+TEST_CASE("a file of another kind is distinguished from a scene with a mistake") {
     const auto error_of = [](const std::string& text, const std::string& ending) {
         return raylane::tests::message_of<BadInput>([&] { parse_scene("a" + ending, text); });
     };
@@ -98,7 +98,7 @@ TEST_CASE("a file of another kind is told from a scene with a mistake") {
     CHECK(error_of(obj, ".obj") == "a.obj" + neither);
     CHECK(error_of("3\n\nC 0 0 0\n", ".txt") == "a.txt:4: must be atom 2 of 3, and the file ends");
     CHECK(error_of("s one\n", "") == "a" + neither);
-    // Here it is clear what was meant.
+    // Here the intended format is clear.
     CHECK(error_of(pdb, ".nff").starts_with("a.nff:1: "));
     CHECK(error_of("# nothing\n\nv\nfrom 0 0 no\n", "").starts_with("a:4: "));
 }
@@ -116,7 +116,7 @@ TEST_CASE("A scene of any format without objects gives a remark") {
     }
 }
 
-TEST_CASE("a file that changes while it is read is no shorter scene") {
+TEST_CASE("a file that changes while it is read is refused") {
     std::string text = nff;
     while (text.size() < 300'000)
         text += "s 0 0 0 1\n";
@@ -136,7 +136,7 @@ TEST_CASE("a file that changes while it is read is no shorter scene") {
     }
 }
 
-TEST_CASE("Scenes of each format include regular files, and not too many") {
+TEST_CASE("Scenes of each format include regular files alone and have a limit of their number") {
     struct Including {
         const char *name, *start, *before, *behind, *end;
     };
@@ -157,11 +157,11 @@ TEST_CASE("Scenes of each format include regular files, and not too many") {
             const auto path = directory.write(name, text + format.end);
             return tests::message_of<BadInput>([&] { load_scene(path); });
         };
-        // Nobody writes into it.
+        // No process writes into the pipe.
         REQUIRE(::mkfifo((directory.path() / "pipe").c_str(), 0600) == 0);
         CHECK(complaint({"pipe"}).find("must be") != std::string::npos);
         CHECK(complaint({"pipe"}).find("\"pipe\"") != std::string::npos);
-        if (std::string(name) != "a.pov") { // which looks for files in several folders
+        if (std::string(name) != "a.pov") { // POV-Ray's includes are looked for in several folders
             const std::string folder = directory.path().string();
             CHECK(complaint({"pipe"}).ends_with(", and " + folder + "/pipe is a pipe"));
             CHECK(complaint({"."}).ends_with(", and " + folder + "/. is a directory"));

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-// Pixels by the shading equation, as README.md and the schema's "material" have it.
+// Tests of pixels against the shading equation in README.md and in the schema's "material".
 
 using namespace raylane;
 using Vector = core::Vec3d;
@@ -96,7 +96,7 @@ const Vector background(0.5, 0.75, 1.0);
 
 } // namespace
 
-TEST_CASE("Ambient, diffuse and specular light add up as the shading equation says") {
+TEST_CASE("Ambient and diffuse and specular light add up as the shading equation says") {
     const Surface surface{{0.5, 0.25, 1.0}, 0.125, 0.75, 0.625, 8.0};
     const std::string material =
         R"({"color": [0.5, 0.25, 1], "ambient": 0.125, "diffuse": 0.75, "specular": 0.625,
@@ -115,7 +115,7 @@ TEST_CASE("Ambient, diffuse and specular light add up as the shading equation sa
                           {{{0.6, 0.8, 0.0}, {2.0, 1.0, 0.5}}, {up, {0.25, 0.5, 1.0}}}));
 }
 
-TEST_CASE("Reflected light is added in full, and a color may exceed 1") {
+TEST_CASE("Reflected light is added in full and a color may exceed 1") {
     const Surface surface{Vector(1.0), static_cast<double>(0.1F), static_cast<double>(0.8F), 0.0,
                           32.0};
     const Vector up(0.0, 1.0, 0.0), to_viewer(0.0, 0.6, 0.8);
@@ -158,7 +158,7 @@ TEST_CASE("Each surface of a glass block follows the shading equation") {
     }
 }
 
-TEST_CASE("Total internal reflection weighs 1, and rays beyond the depth limit add nothing") {
+TEST_CASE("Total internal reflection weighs 1 and rays beyond the depth limit add nothing") {
     const double own = 0.25;
     const auto left = [](double length) { return std::exp(-0.125 * length); };
     // Inside of a block: two total reflections, then a face that lets light out, and reflects.

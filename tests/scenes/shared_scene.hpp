@@ -9,8 +9,8 @@
 
 namespace raylane::tests {
 
-/// The path of a scene that is not the project's to ship. Without, a test skips itself; it has been
-/// said why.
+/// Returns the path of a scene that the project may not ship. If it is missing, warns and returns
+/// nothing, and the test skips itself.
 inline std::optional<std::filesystem::path> shared_scene(const std::string& name) {
     std::filesystem::path path = RAYLANE_SHARED_SCENES "/" + name;
     if (std::filesystem::exists(path)) return path;

@@ -14,7 +14,7 @@
 
 namespace raylane::tests {
 
-/// A directory of a test's own, gone with all that is in it when the test ends.
+/// Owns a new directory, and removes it with its content at the end.
 class TemporaryDirectory {
   public:
     TemporaryDirectory() {
@@ -39,7 +39,7 @@ class TemporaryDirectory {
     }
 
     std::ptrdiff_t file_count() const { return std::ssize(names()); }
-    /// In alphabetical order.
+    /// Returns the names of all entries, in alphabetical order.
     std::vector<std::string> names() const {
         std::vector<std::string> names;
         for (const auto& entry : std::filesystem::directory_iterator(path_))
@@ -52,7 +52,7 @@ class TemporaryDirectory {
     std::filesystem::path path_;
 };
 
-/// A file of a test's own.
+/// Owns a new file in a temporary directory.
 class TemporaryFile {
   public:
     explicit TemporaryFile(std::string_view content, const std::string& ending = ".json")

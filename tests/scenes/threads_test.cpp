@@ -11,12 +11,12 @@
 #include <thread>
 #include <vector>
 
-/// What several threads do at a time, for a sanitizer of threads to look at.
+/// Tests of several threads at a time, for ThreadSanitizer.
 using namespace raylane;
 
 namespace {
 
-/// Calls it on so many threads at once, with their numbers.
+/// Calls `body` on this many threads at once, with the thread's number.
 template <class Body>
 void on_threads(int count, const Body& body) {
     std::vector<std::thread> threads;
@@ -30,7 +30,7 @@ struct Input {
     std::string name, text;
 };
 
-/// One of each format, and mistakes.
+/// Returns scenes of all formats, and files with mistakes.
 std::vector<Input> inputs() {
     const std::filesystem::path root(RAYLANE_SOURCE_DIR), seeds = root / "tests/fuzz/seeds";
     std::vector<Input> all = {
@@ -52,7 +52,7 @@ std::vector<Input> inputs() {
     return all;
 }
 
-/// What is read, or what is said of it.
+/// Returns the fingerprint of the scene that is read, or the error.
 std::string outcome_of(const Input& input) {
     try {
         scenes::LoadOptions options;
@@ -83,7 +83,7 @@ struct Drawing {
 
 } // namespace
 
-TEST_CASE("scenes are read by several threads at a time") {
+TEST_CASE("several threads can read scenes at a time") {
     const std::vector<Input> all = inputs();
     std::vector<std::string> alone;
     for (const Input& input : all)
@@ -98,7 +98,7 @@ TEST_CASE("scenes are read by several threads at a time") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a journal takes what several threads draw until another stops them, and gives it back") {
+TEST_CASE("a journal records tiles of several threads until another stops them and restores them") {
     const tests::TemporaryDirectory directory;
     Drawing drawing;
     const simd::Rendering whole = simd::render(drawing.scene, drawing.settings, drawing.options);
@@ -128,7 +128,7 @@ TEST_CASE("a journal takes what several threads draw until another stops them, a
     CHECK(rest.counters.rays() == whole.counters.rays());
 }
 
-TEST_CASE("several renderings are abandoned while they draw") {
+TEST_CASE("several renderings can be abandoned at a time") {
     const Drawing drawing;
     core::Settings hours = drawing.settings;
     hours.grid = 256;

@@ -34,7 +34,7 @@ int winding_number(const Polygon& polygon, const PlanePoint& p) {
     return winding;
 }
 
-/// Number of the triangles that, without their edges, contain p; -1 if p is on an edge.
+/// Returns how many triangles contain p inside of their edges, or -1 if p is on an edge.
 int coverage(const Polygon& polygon, std::span<const Triangulator::Corners> triangles,
              const PlanePoint& p) {
     int count = 0;
@@ -48,8 +48,8 @@ int coverage(const Polygon& polygon, std::span<const Triangulator::Corners> tria
     return count;
 }
 
-/// The triangles have their front where the polygon has it, exactly its area, and at random points
-/// cover what is inside once, and nothing outside.
+/// Returns true if the triangles face as the polygon does, have exactly its area, and cover random
+/// points once if they are inside and not at all if they are outside.
 bool tiles(const Polygon& polygon, std::span<const Triangulator::Corners> triangles,
            std::size_t points) {
     ExactSum area;
@@ -71,7 +71,7 @@ bool tiles(const Polygon& polygon, std::span<const Triangulator::Corners> triang
     std::uniform_real_distribution<double> x(bounds.lower.x, bounds.upper.x);
     std::uniform_real_distribution<double> y(bounds.lower.y, bounds.upper.y);
     for (std::size_t i = 0; i < points; ++i) {
-        // A float, which is what exact orientation takes.
+        // Rounds to floats, for which the orientation is exact.
         const PlanePoint p{static_cast<double>(static_cast<float>(x(random))),
                            static_cast<double>(static_cast<float>(y(random)))};
         const int count = coverage(polygon, triangles, p);
@@ -98,7 +98,7 @@ Polygon star(int tips, double inner) {
     return polygon;
 }
 
-/// A band that turns `turns` times.
+/// Returns a band that turns `turns` times.
 Polygon spiral(int points, double turns) {
     Polygon polygon;
     for (int i = 0; i < points; ++i)
@@ -116,7 +116,7 @@ Polygon comb(int teeth) {
     return polygon;
 }
 
-/// Two rows of corners, each in one line.
+/// Returns a strip with two rows of corners, each row in one line.
 Polygon strip(int length) {
     Polygon polygon;
     for (int i = 0; i < length; ++i)
@@ -126,7 +126,7 @@ Polygon strip(int length) {
     return polygon;
 }
 
-/// All corners but three are reflex.
+/// Returns a polygon with all corners but three reflex.
 Polygon below_a_bowl(int corners) {
     Polygon polygon = {{0.0F, -5.0F, 0.0F}};
     for (int i = corners; i >= 0; --i) {
@@ -147,7 +147,7 @@ int turn(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
 
 using GridTriangle = std::array<GridPoint, 3>;
 
-/// True if the triangles have no inner point in common: an edge of one separates them.
+/// Returns true if the triangles have no inner point in common: an edge of one separates them.
 bool apart(const GridTriangle& s, const GridTriangle& t) {
     const auto separates = [](const GridTriangle& by, const GridTriangle& other) {
         for (int i = 0; i < 3; ++i)
@@ -160,8 +160,8 @@ bool apart(const GridTriangle& s, const GridTriangle& t) {
     return separates(s, t) || separates(t, s);
 }
 
-/// The outline of triangles that are glued to each other edge by edge, like leaves of a tree,
-/// without overlapping. It does not cross itself, but on so small a grid it touches itself
+/// Returns the outline of triangles that are glued to each other edge by edge, like leaves of a
+/// tree, without overlapping. It does not cross itself. On so small a grid, it touches itself
 /// everywhere, encloses holes, and runs along itself.
 Polygon glued_triangles(std::mt19937& random, int triangles, int grid) {
     std::uniform_int_distribution<int> coordinate(0, grid - 1);
@@ -193,7 +193,7 @@ Polygon glued_triangles(std::mt19937& random, int triangles, int grid) {
 
 } // namespace
 
-TEST_CASE("convex, concave and winding polygons are tiled") {
+TEST_CASE("convex and concave and winding polygons are tiled") {
     CHECK(triangulates({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     CHECK(triangulates({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
     CHECK(triangulates({{0, 0, 0}, {2, 0, 0}, {0.5F, 0.5F, 0}, {0, 2, 0}}));
@@ -217,7 +217,7 @@ TEST_CASE("every vertex on a straight edge becomes a corner") {
     CHECK(tiles(square, triangles, 200));
 }
 
-TEST_CASE("repeated vertices and spikes are no part of the area") {
+TEST_CASE("repeated vertices and spikes do not belong to the area") {
     CHECK(triangulates({{0, 0, 0}, {0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {2, 2, 0}, {2, 2, 0}}));
     CHECK(triangulates({{0, 0, 0}, {2, 0, 0}, {5, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}));
     CHECK(triangulates({{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {1, 1, 0}, {3, 3, 0}, {0, 3, 0}}));
@@ -268,7 +268,7 @@ TEST_CASE("polygons that touch themselves are tiled") {
     CHECK(failed == 0);
 }
 
-TEST_CASE("triangles face where the polygon does, in any plane") {
+TEST_CASE("triangles face as the polygon does in any plane") {
     const Polygon concave = {{0, 0, 0}, {2, 0, 0}, {0.5F, 0.5F, 0}, {0, 2, 0}};
     const auto faces = [](const Polygon& polygon, const core::Vec3f& normal) {
         Triangulator triangulator;
@@ -293,20 +293,20 @@ TEST_CASE("triangles face where the polygon does, in any plane") {
         CHECK(faces(turned, normal));
         std::reverse(turned.begin(), turned.end());
         CHECK(faces(turned, -normal));
-        // Whichever vertex is the first, the reflex one included.
+        // For any first vertex, the reflex one included.
         std::rotate(turned.begin(), turned.begin() + 1, turned.end());
         CHECK(faces(turned, -normal));
     }
 }
 
-TEST_CASE("what has no area has no triangles") {
+TEST_CASE("a polygon without an area has no triangles") {
     Triangulator triangulator;
     CHECK(triangulator.triangulate(Polygon{}).empty());
     CHECK(triangulator.triangulate(Polygon{{0, 0, 0}, {1, 0, 0}}).empty());
     CHECK(triangulator.triangulate(Polygon{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}).empty());
     CHECK(triangulator.triangulate(Polygon{{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {3, 6, 9}}).empty());
     CHECK(triangulator.triangulate(Polygon{{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}}).empty());
-    // A sliver one ulp high has.
+    // A sliver one ulp high has an area.
     CHECK(triangulator.triangulate(Polygon{{1, 1, 0}, {2, 1, 0}, {3, 1.0000001F, 0}}).size() == 1);
 }
 
@@ -328,11 +328,11 @@ TEST_CASE("a polygon that crosses itself always gets the same triangles") {
     CHECK(std::equal(triangles.begin(), triangles.end(), third.begin(), third.end()));
 }
 
-TEST_CASE("large polygons take no minutes") {
+TEST_CASE("large polygons do not take minutes") {
     CHECK(triangulates(star(50000, 0.5), 5));
     CHECK(triangulates(spiral(50000, 20), 5));
     CHECK(triangulates(comb(10000), 5));
-    // Squared, their corners would be minutes.
+    // Time quadratic in their corners would be minutes.
     CHECK(triangulates(strip(100'000), 5));
     CHECK(triangulates(below_a_bowl(200'000), 5));
 }
