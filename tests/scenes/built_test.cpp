@@ -349,7 +349,7 @@ TEST_CASE("the check of a built file's shapes refuses inconsistent ones") {
               REQUIRE(node != all.end());
               node->lower[2][last] = -1.0F;
           }) == "a shape outside of its bounds");
-    // A plane in an unused lane: filters would report it, but no shape has its id.
+    // A plane in an unused lane, which has no id: filters would report a shape that does not exist.
     CHECK(refused([](auto& shapes) {
               auto& planes = std::get<core::Table<core::Plane>>(shapes.tables);
               core::Blocks<core::Plane> blocks;

@@ -38,7 +38,7 @@ TEST_CASE("equal pictures have no difference") {
     CHECK(film.at(1, 0) == core::Color(0.0F));
 }
 
-TEST_CASE("differences are measured") {
+TEST_CASE("compare measures RMSE and PSNR and the largest difference") {
     const Image a = image_of({0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1}, 2);
     const Image b = image_of({0, 0, 0, 0.125F, 0, 0, 0, 0.5F, 0, 0.5F, 1, 0.75F}, 2);
     const Comparison result = scenes::compare(a, b, 0.125F);
@@ -46,7 +46,7 @@ TEST_CASE("differences are measured") {
     CHECK(result.rmse == Approx(std::sqrt(mean_square)).epsilon(1e-14));
     CHECK(result.psnr == Approx(10.0 * std::log10(1.0 / mean_square)).epsilon(1e-14));
     CHECK(result.largest == 0.5);
-    CHECK(result.x == 0); // the first of two
+    CHECK(result.x == 0); // the first of two equal differences
     CHECK(result.y == 1);
     CHECK(result.differing == 2); // 0.125 is not above the tolerance
     CHECK(result.pixels == 4);

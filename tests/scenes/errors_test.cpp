@@ -52,7 +52,7 @@ TEST_CASE("an error reads as file and place and message") {
     CHECK(text_of({"a.nff", {3, 0}, "", "must be"}) == "a.nff:3: must be");
 }
 
-TEST_CASE("ten errors are collected and a note that there were more") {
+TEST_CASE("ten errors are collected with a note that there were more") {
     InputErrors errors;
     CHECK_NOTHROW(errors.report());
     for (std::size_t line = 10; line > 0; --line)

@@ -218,7 +218,7 @@ TEST_CASE(
 
 namespace {
 
-/// Returns the kind and material of each shape, by id. They identify the part.
+/// Returns the kind and material of each shape, by id. They identify the parts.
 std::vector<std::pair<core::Kind, core::MaterialIndex>> parts_of(const core::Scene& scene) {
     std::vector<std::pair<core::Kind, core::MaterialIndex>> parts;
     for (core::ShapeId id = 0; id < scene.shape_count(); ++id)

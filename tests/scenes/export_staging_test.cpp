@@ -78,7 +78,7 @@ core::Scene water() {
 
 } // namespace
 
-TEST_CASE("JSON keeps the camera's framing and the lights and fog that follow it to the bit") {
+TEST_CASE("JSON keeps to the bit the camera's framing and the lights and fog that follow it") {
     const std::string camera_lights = R"("lights": [{"type": "camera"}], )";
     const std::string both = R"("lights": [{"type": "point", "position": [9, 9, 9]},
                                            {"type": "camera"}], )";
@@ -118,7 +118,7 @@ TEST_CASE("JSON keeps the camera's framing and the lights and fog that follow it
         CHECK(picture_of(again) == picture_of(scenes[i]));
         CHECK(view_of(seen_by(again, aside)) == view_of(seen_by(scenes[i], aside)));
         for (const core::Vec3f& direction : directions) {
-            // A change of the view and the export commute.
+            // A change of the view and an export give the same in either order.
             const core::Scene seen = seen_from(scenes[i], direction);
             CHECK(view_of(seen_from(again, direction)) == view_of(seen));
             CHECK(view_of(written(seen)) == view_of(seen));

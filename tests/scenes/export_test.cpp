@@ -201,7 +201,7 @@ TEST_CASE("NFF export keeps the supported shapes and reports the omitted feature
 
     CHECK(complaint(path, load_scene(shipped("quadric"))) ==
           path.string() + ": has no word for a quadric: .pov and .json have");
-    CHECK(load_scene(path).shape_count() == 12); // the old file
+    CHECK(load_scene(path).shape_count() == 12); // the old file stays
 }
 
 TEST_CASE("Materials keep their names from JSON to JSON") {
@@ -268,7 +268,7 @@ TEST_CASE("Materials with equal names or without names differ in JSON") {
     CHECK(written["materials"].size() == names.size());
 }
 
-TEST_CASE("Materials keep their names in POV-Ray's language where it has these") {
+TEST_CASE("Materials keep the names that are valid in POV-Ray's language") {
     const auto written = [](const std::vector<const char*>& names) {
         core::SceneBuilder builder;
         builder.staging.framing.emplace();

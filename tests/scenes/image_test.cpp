@@ -200,7 +200,7 @@ TEST_CASE("two PNGs of equal films have equal bytes") {
 
 TEST_CASE("an HDR image is right to 1/128 of each pixel's largest component") {
     const TemporaryDirectory directory;
-    for (const int width : {1, 7, 8, 300}) { // run lengths from 8 on
+    for (const int width : {1, 7, 8, 300}) { // run lengths are used from 8 on
         core::Film film = film_of(width, 5);
         film.at(0, 0) = {1e-40F, 0.0F, 0.0F};
         film.at(0, 1) = {1000.0F, 1.0F, 3e-5F};
@@ -318,7 +318,7 @@ TEST_CASE("a PNG with bytes behind its image or too few rows is damaged") {
     CHECK(error_of(png_of(1, 2, 8, pixel)) == damaged);
 }
 
-TEST_CASE("a PNG takes the memory of its codes and reports if the system refuses it", "[native]") {
+TEST_CASE("a PNG takes the memory of its codes and a lack of memory is reported", "[native]") {
     const TemporaryDirectory directory;
     constexpr std::uint32_t side = 4096;
     std::string rows;
@@ -352,6 +352,6 @@ TEST_CASE("a truncated image is bad input and a damaged PNG is always noticed") 
             directory.write(name, damaged);
             if (damaged != whole && error_of_reading(path) == "no error") ++accepted;
         }
-        if (path.extension() == ".png") CHECK(accepted == 0); // it has checksums
+        if (path.extension() == ".png") CHECK(accepted == 0); // PNG has checksums
     }
 }

@@ -317,12 +317,12 @@ TEST_CASE("A truncated journal is replaced as soon as the disk has space for the
     Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
     CHECK(journal.found() == Journal::Found::cut_off);
     {
-        const Fullness full(20); // in the head
+        const Fullness full(20); // the space ends in the head
         journal.note(0, notes.bytes(0));
         CHECK(!journal.keep());
     }
     {
-        const Fullness full(300); // in the tile
+        const Fullness full(300); // the space ends in the tile
         CHECK(!journal.keep());
     }
     CHECK(journal.keep());
@@ -365,7 +365,7 @@ TEST_CASE("a journal that has given up its space or was removed accepts no more 
     }
     Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
     journal.note(0, notes.bytes(0));
-    journal.remove(); // before there was a file
+    journal.remove(); // before the file exists
     CHECK(!journal.keep());
     CHECK(!std::filesystem::exists(notes.path));
 }
@@ -423,7 +423,7 @@ TEST_CASE("scenes that look different have different fingerprints") {
         other.replace(other.find(from), from.size(), to);
         CHECK(scenes::fingerprint_of(scene_of(other)) != own);
     }
-    // The settings are no part of the fingerprint.
+    // The settings are not part of the fingerprint.
     std::string renamed = text; // names do not change the image
     for (std::size_t at = 0; (at = renamed.find("\"red\"", at)) != std::string::npos;)
         renamed.replace(at, 5, "\"blue\"");

@@ -20,7 +20,7 @@
 #include <unistd.h>
 #include <utility>
 
-/// Tests of memory use, in a separate program. They count the bytes that are allocated, less those
+/// Tests of memory use, in a separate program. They count the bytes of live allocations, less those
 /// that are returned to the system.
 namespace {
 
@@ -57,7 +57,7 @@ void discounted(void* memory) {
 
 } // namespace
 
-/// Replaces the C library's.
+/// Replaces the C library's function, and counts the bytes that are returned.
 extern "C" int madvise(void* memory, std::size_t bytes, int advice) noexcept {
     if (advice == MADV_DONTNEED) {
         const std::lock_guard lock(giving_back);

@@ -170,7 +170,7 @@ class Begun {
         }
     }
     std::size_t max() const { return max_; }
-    /// Waits until a piece is begun. False after ten minutes.
+    /// Waits until this piece or a later one is begun. Returns false after ten minutes.
     bool wait_for(std::size_t number) const {
         return tests::comes_true([&] { return max() >= number; });
     }

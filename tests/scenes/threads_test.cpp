@@ -30,7 +30,7 @@ struct Input {
     std::string name, text;
 };
 
-/// Returns scenes of all formats, and files with mistakes.
+/// Returns scenes of nearly all formats, and files with mistakes.
 std::vector<Input> inputs() {
     const std::filesystem::path root(RAYLANE_SOURCE_DIR), seeds = root / "tests/fuzz/seeds";
     std::vector<Input> all = {

@@ -15,8 +15,8 @@ using meetings::Way;
 
 namespace {
 
-/// Returns a ray next to one in float: displaced by a few ulps of doubles, or by less than an ulp
-/// of floats. No component is scaled below the smallest float, so that the ray stays valid.
+/// Returns a ray next to one in float, displaced by a few ulps of doubles or by steps that no float
+/// has. No component is scaled below the smallest float, so that the ray stays valid.
 core::Ray<double> beside(const core::Ray<float>& ray, Random& random) {
     core::Ray<double> result{core::convert<double>(ray.origin),
                              core::convert<double>(ray.direction)};
@@ -26,7 +26,7 @@ core::Ray<double> beside(const core::Ray<float>& ray, Random& random) {
     };
     const int way = random.integer(0, 4);
     if (way == 0) return result;
-    if (way == 1) { // the same line, in thirds
+    if (way == 1) { // the same line, with a third of the direction
         const double third = 1.0 / 3.0;
         for (int axis = 0; axis < 3; ++axis)
             scale(result.direction[axis], third);
@@ -122,7 +122,7 @@ constexpr Change all_changes[] = {Change::none, Change::enlarged, Change::stirre
 double changed(double number, Change change) {
     if (change == Change::none || std::abs(number) < 0x1p-125) return number;
     constexpr double factor =
-        1.0 + 13 * 0x1p-24; // exact times a float, or squared times a small number
+        1.0 + 13 * 0x1p-24; // exact products: with a float, and of its square with a small number
     if (change == Change::enlarged) return number * factor;
     // The factor depends on the number alone.
     const auto bits = std::bit_cast<std::uint64_t>(number) * 0x9E3779B97F4A7C15;

@@ -40,8 +40,8 @@ enum class Fault {
     t,
     normal,
     side,      ///< entered or left
-    occlusion, ///< by `occluded`
-    crossings, ///< by `crossings`
+    occlusion, ///< of `occluded`
+    crossings, ///< of `crossings`
     other,     ///< bits differ with instruction set or number of threads; one count a span
 };
 inline constexpr const char* fault_names[] = {"shape",     "t",         "normal", "side",
@@ -94,7 +94,7 @@ class Exam {
 
     std::vector<AnyShape> shapes_;
     Sides sides_;
-    std::vector<char> counts_; ///< which_count
+    std::vector<char> counts_; ///< result of which_count
     oracle::Neighbours neighbours_;
     Scene scene_;
     Tracer tracer_;

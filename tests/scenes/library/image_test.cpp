@@ -67,7 +67,7 @@ TEST_CASE("other precisions give other images") {
           "precision: must be a Precision");
 }
 
-TEST_CASE("an image of the library equals one of the renderer") {
+TEST_CASE("an image of the library equals the renderer's") {
     const Scene scene = mirrored_ball();
     const Image image = render(scene);
     CHECK(image.width == 70);

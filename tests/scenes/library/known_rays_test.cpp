@@ -294,7 +294,7 @@ TEST_CASE("a light 2^-61 above a tilted plane lights it with finite numbers", "[
     builder.add_light({.position = {0, 0x1p-61F, 0}});
     builder.camera.from = {2, 3, 4};
     builder.camera.at = {0, 0, 0};
-    builder.settings.width = builder.settings.height = 33; // odd: one pixel is centred on the light
+    builder.settings.width = builder.settings.height = 33; // odd: one pixel is under the light
     const Scene scene = builder.build();
     const core::Scene& inside = library::Internals::of(scene);
     for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {

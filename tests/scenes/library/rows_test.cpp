@@ -332,7 +332,7 @@ TEST_CASE("lengths and crossings and points agree for unbounded solids") {
                         rows.t.begin() + static_cast<std::ptrdiff_t>(rows.first[i + 1]));
             ends.push_back(t_max);
             double expected = 0.0;
-            bool runs_along = false; // in a surface, where points do not tell whether it is inside
+            bool runs_along = false; // in a surface: points do not tell whether the ray is inside
             for (std::size_t k = 1; k < ends.size(); ++k) {
                 // Not half way, where another surface may be. The rounded t makes the point exact.
                 const double t = ends[k - 1] + 0.48828125 * (ends[k] - ends[k - 1]);

@@ -143,7 +143,7 @@ TEST_CASE("t is the float nearest to the exact t") {
 }
 
 TEST_CASE("edges and rims and apexes have a defined normal") {
-    // Where faces meet, the normal of edge_u's face comes before edge_v's, and this before edge_w's.
+    // Where faces of a box meet, that of edge_u comes before edge_v's, and this before edge_w's.
     const Box box{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
     CHECK(answers({3, 3, 0}, {-1, -1, 0}, box)[0].normal.x == 1);
     CHECK(answers({0, 3, 3}, {0, -1, -1}, box)[0].normal.y == 1);

@@ -135,7 +135,7 @@ Scene many_balls() {
 
 /// Returns rays line by line, from one point or parallel.
 Rays lines(bool parallel, bool with_limits) {
-    constexpr int width = 256, count = 9 * 1024 + 100; // the last 100 in a separate block
+    constexpr int width = 256, count = 9 * 1024 + 100; // the last ones in a separate block
     Rays rays;
     for (int i = 0; i < count; ++i) {
         const float x = static_cast<float>(i % width) / 256.0F,

@@ -44,7 +44,7 @@ TEST_CASE("a scene seen by another camera equals one that is built with it") {
     const Scene same = scene.seen_by(aside);
     CHECK(same.camera().from == aside.from);
     CHECK(render(same).rgb == render(row_of_balls(aside)).rgb);
-    // The first scene is unchanged, and seeing by its camera again gives the same image.
+    // The first scene is unchanged. The second one gives its image again by its camera.
     CHECK(scene.camera().from == Camera{}.from);
     CHECK(render(scene).rgb == before);
     CHECK(render(same.seen_by({})).rgb == before);

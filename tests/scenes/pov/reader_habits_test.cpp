@@ -90,7 +90,7 @@ TEST_CASE("POV-Ray: polygons that are not flat are left out") {
     CHECK(read("polygon { 6, 0, <0, 0.1, 0>, z, <3, 0, 1>, 3*x, 0 }").remarks_on(what));
 }
 
-TEST_CASE("POV-Ray: negative components of a light are black") {
+TEST_CASE("POV-Ray: negative components of a light become 0 with a remark") {
     const Read dark = read("light_source { 9*y, rgb <-1, 0.5, 0> } sphere { 0, 1 }");
     REQUIRE(dark.scene.lights().size() == 1);
     CHECK(dark.scene.lights()[0].color == core::Color(0, 0.5F, 0));
@@ -129,7 +129,7 @@ TEST_CASE("POV-Ray: transparent objects that fog fills in another way get a rema
                     .remarks_on("has transparent objects in fog"));
 }
 
-TEST_CASE("POV-Ray: negative components of a surface's colour are black") {
+TEST_CASE("POV-Ray: negative components of a surface's colour become 0 with a remark") {
     const std::string what = "has colours that take light away, which are black here";
     const Read dark = read("sphere { 0, 1 pigment { rgb <-1, 0.5, 0> } }");
     CHECK(dark.material_of().pattern.colors[0] == core::Color(0, 0.5F, 0));

@@ -234,7 +234,7 @@ TEST_CASE("POV-Ray: a light on a surface moves off the surface") {
     };
     CHECK(is_just_above(position("<2, 0, -3>", "plane { y, 0 }", above).y, 0));
     CHECK(is_just_below(position("<2, 4, -3>", "plane { y, 4 }", above).y, 4));
-    CHECK(position("<2, 0, -3>", "plane { y, 0 }", camera).y != 0.0F); // edge on
+    CHECK(position("<2, 0, -3>", "plane { y, 0 }", camera).y != 0.0F); // seen edge on
     CHECK(is_just_above(position("z", "sphere { 0, 1 }", above).z, 1));
     CHECK(is_just_below(position("-z", "sphere { 0, 1 }", above).z, -1)); // behind the sphere
     CHECK(is_just_below(position("<0, 5, 0>", "box { <-9, -5, -9>, <9, 5, 10> }", above).y, 5));

@@ -297,7 +297,7 @@ TEST_CASE("a camera along its sky vector has the handedness of its right and up 
     const auto up_of = [](const std::string& of) {
         return read("sphere { 0, 1 }", "camera { " + of + " look_at 0 }\n").scene.camera().up;
     };
-    // The directions in POV-Ray's own images. z is negated if the world is seen in a mirror.
+    // The directions are those of POV-Ray's images. z is negated if the scene is mirrored.
     CHECK(up_of("location 9*y") == core::Vec3f(0, 0, -1));
     CHECK(up_of("location 9*y right -x") == core::Vec3f(0, 0, -1));
     CHECK(up_of("location 9*y up -y") == core::Vec3f(0, 0, 1));

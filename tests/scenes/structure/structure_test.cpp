@@ -186,7 +186,7 @@ TEST_CASE("bonds of a file keep their orders") {
     CHECK(find_bonds(structure).empty());
 }
 
-TEST_CASE("atoms are selected by words") {
+TEST_CASE("atoms can be selected by words") {
     const Structure all = peptide();
     CHECK(selected(all, "all") == "11111");
     CHECK(selected(all, "none") == "00000");

@@ -198,7 +198,7 @@ TEST_CASE("a Tachyon clip group cuts each of its objects") {
         scene_of("START_CLIPGROUP NUMPLANES 2 1 0 0 0.5 0 0 2 6\n" + ball +
                  "TRI V0 0 0 0 V1 1 0 0 V2 0 1 0" + plain + "TRI V0 2 0 0 V1 3 0 0 V2 2 1 0" +
                  plain + "END_CLIPGROUP\n" + ball);
-    // A ball, half a triangle in two parts, an empty rest of a triangle, a ball.
+    // A ball, half a triangle in two parts, nothing of the second triangle, a ball.
     CHECK(scene.shape_count() == 4);
     CHECK(scene.solids().any());
 }

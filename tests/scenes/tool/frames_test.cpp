@@ -145,7 +145,7 @@ TEST_CASE("whole numbers stay whole in a sweep") {
     CHECK(std::filesystem::exists(workshop.path() / "w22.pfm"));
 }
 
-TEST_CASE("the fog of a scene belongs to each image of a sweep for any camera") {
+TEST_CASE("each image of a sweep has the fog of its scene for any camera") {
     std::string foggy = growing;
     foggy.insert(1, R"("fog": {"type": "exponential", "density": "$d"},)");
     const Workshop workshop(foggy);
@@ -155,7 +155,7 @@ TEST_CASE("the fog of a scene belongs to each image of a sweep for any camera") 
     CHECK(picture(workshop, "f1.pfm") == picture(workshop, "one.pfm"));
 }
 
-TEST_CASE("--turn moves automatic and fixed cameras around the scene") {
+TEST_CASE("the option --turn moves automatic and fixed cameras around the scene") {
     const Workshop workshop;
     CHECK(workshop.render("t%03d.pfm", {"--turn", "360/4"}).code == 0);
     CHECK(!std::filesystem::exists(workshop.path() / "t004.pfm"));
@@ -168,7 +168,7 @@ TEST_CASE("--turn moves automatic and fixed cameras around the scene") {
               .find("as many pictures as there are otherwise, 3, got 2") != std::string::npos);
 }
 
-TEST_CASE("--turn must have as many images as there are frames") {
+TEST_CASE("the option --turn must have as many images as there are frames") {
     const Workshop workshop;
     workshop.write("move.xyz", trajectory(5));
     const auto film = [&](const std::string& frames, const std::string& turn,
@@ -244,7 +244,7 @@ TEST_CASE("a film that was interrupted goes on where it was") {
     CHECK(std::filesystem::exists(workshop.output() / "f2.pfm"));
 }
 
-TEST_CASE("--view works for any scene and moves the lights that follow the camera") {
+TEST_CASE("the option --view works for any scene and moves the lights that follow the camera") {
     const Workshop workshop;
     const auto convert = [&](const Options& options) {
         const Outcome outcome = workshop.run(joined({"convert", "scene.json", "-"}, options));

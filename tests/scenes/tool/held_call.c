@@ -21,7 +21,7 @@ static void hold(const char* call) {
     if (strcmp(wanted, call) != 0 || ++count != at) return;
     struct pollfd pipe = {open(path, O_WRONLY | O_CLOEXEC), 0, 0};
     if (write(pipe.fd, "\n", 1) != 1) abort();
-    while (poll(&pipe, 1, -1) != 1) { /* a signal has come */
+    while (poll(&pipe, 1, -1) != 1) { /* interrupted by a signal */
     }
     close(pipe.fd);
 }

@@ -48,7 +48,7 @@ TEST_CASE("a camera never goes over the poles") {
     check(orbit.view().camera.from, {0, 0, 4});
 }
 
-TEST_CASE("panning moves the target with the pointer") {
+TEST_CASE("panning moves the camera and its lights along the image plane") {
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
         View view = start();
         view.camera.projection = projection;

@@ -211,7 +211,7 @@ TEST_CASE("one frame of several can be drawn in parts") {
     };
     for (const Options& options :
          {Options{"--frames", "2", "--size", "150x90", "--spp", "4"},
-          {"--frames", "-2", "--style", "spheres", "--zoom", "2", "--spp", "1"}, // its own size
+          {"--frames", "-2", "--style", "spheres", "--zoom", "2", "--spp", "1"}, // default size
           {"--frames", "1", "--camera-from", "all", "--size", "90x90", "--spp", "1", "--view",
            "top"}}) {
         CAPTURE(options);

@@ -69,7 +69,7 @@ TEST_CASE("outlines are drawn by the scene's settings or the command line's") {
     CHECK(bytes_of(with_outline, {"--outline", "0"}) == bytes_of(plain, {}));
 }
 
-TEST_CASE("--alpha leaves the background out") {
+TEST_CASE("the option --alpha leaves the background out") {
     std::string without = ball;
     without.replace(without.find("\"width\""), 0, "\"alpha\": true, ");
     const Workshop workshop, by_scene(without);

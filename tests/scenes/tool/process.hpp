@@ -63,7 +63,7 @@ class Process {
 /// Holds a process at a call of the C library: see held_call.c.
 class Hold {
   public:
-    /// At the `count`-th call, from 1.
+    /// Holds at the `count`-th call, counted from 1.
     Hold(const std::string& call, int count);
     ~Hold() { release(); }
     Hold(const Hold&) = delete;

@@ -201,8 +201,8 @@ count = struct.unpack("i", fcntl.ioctl(3, termios.FIONREAD, bytes(4)))[0]
 sys.exit(0 if count > 0 else 1)'
 }
 wait_until has_bytes || fail "no answer is written"
-# Waits until no thread of the two ranks has anything left to do. Between two looks, which find the same memory in
-# use, each thread has slept, or has woken up three times.
+# Waits until no thread of the two ranks has work left: until two looks find the same memory in use, and between them
+# each thread has slept throughout or has woken up three times.
 timeout 600 python3 - "^$raylane trace $scene many-rays.npy" <<'PYTHON' || fail "ranks that nobody reads from do not come to rest"
 import pathlib, subprocess, sys, time
 
@@ -287,7 +287,7 @@ exec 5>&-
 job 2 render "$scene" -o many.png --size 600x600 --spp 16 2>err || fail "it does not go on"
 grep -q "many.png.part: goes on at" err || fail "it has begun anew"
 same one.png many.png
-# Hours, in tiles of a second.
+# A rendering of hours, in tiles of a second.
 has_tiles() { # bytes
     [ "$(stat -c %s many.png.part)" -ge "$1" ]
 }

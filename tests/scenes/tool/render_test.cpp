@@ -27,7 +27,7 @@ scenes::Image picture(const Workshop& workshop, const Options& options,
     return scenes::read_image(workshop.path() / name);
 }
 
-/// Red, green and blue.
+/// Returns red, green and blue of a pixel.
 std::vector<float> pixel(const scenes::Image& image, int x, int y) {
     const auto first = static_cast<std::size_t>(3 * (y * image.width + x));
     return {image.rgb[first], image.rgb[first + 1], image.rgb[first + 2]};
@@ -86,7 +86,7 @@ TEST_CASE("the size and the samples and the transfer can be overridden") {
     CHECK(bytes_of(Workshop(sampled), "good.pfm", {}) == good);
     CHECK(bytes_of(Workshop(sampled), "nine.pfm", {"--spp", "9"}) == nine);
 
-    // The background is half of blue.
+    // The background's blue is 0.5.
     CHECK(pixel(picture(workshop, {"--transfer", "linear"}, "p.png"), 0, 0)[2] == 128.0F / 255.0F);
     CHECK(pixel(picture(workshop, {"--transfer", "srgb"}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
     CHECK(pixel(picture(workshop, {}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
@@ -228,7 +228,7 @@ TEST_CASE("fingerprints depend on scene and options and not on threads or tiles"
     }
 }
 
-TEST_CASE("one frame of several can have figures") {
+TEST_CASE("one frame of several can be rendered with figures") {
     const Workshop workshop;
     workshop.write("move.xyz", "2\n\nC 0 0 0\nO 0 0 1\n3\n\nC 0 0 0\nO 0 1 1\nO 0 2 2\n");
     const Options frame = {"render", "move.xyz", "--frames", "-1", "-o",      "f%d.png", "--size",

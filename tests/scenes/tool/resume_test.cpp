@@ -116,7 +116,7 @@ TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image 
               std::string::npos);
         CHECK(last_line(stopped.err).starts_with("raylane: stopped at "));
         CHECK(last_line(stopped.err).ends_with(goes_on));
-        // The same in a pipe. A single thread gets the signal where it is held.
+        // The same with a pipe as standard error. A single thread gets the signal at the held call.
         Hold hold("pwrite", 1);
         Process process = workshop.start(drawing({}, "1"), hold.in({}));
         REQUIRE(hold.wait());
@@ -298,7 +298,7 @@ TEST_CASE("an image is drawn even if the disk has no space for a journal") {
 TEST_CASE("a journal that has filled the disk gives its space to the image") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
-    // The missing tiles have more bytes than the picture.
+    // The missing tiles have more bytes than the image.
     const std::filesystem::path journal = workshop.output() / "picture.png.part";
     const std::size_t pixels = sanitized ? 800 * 800 : 1000 * 1000;
     static_cast<void>(interrupt(workshop));

@@ -104,7 +104,7 @@ TEST_CASE("raylane tachyon takes tachyon's options") {
 
 TEST_CASE("raylane tachyon's options override the scene") {
     const Workshop workshop;
-    // A wall that the sky lights by half, and one light by a quarter.
+    // A wall that the sky lights by 0.5 and one light by 0.25.
     workshop.write("wall.dat",
                    "BEGIN_SCENE RESOLUTION 1 1 SHADER_MODE FULL AMBIENT_OCCLUSION AMBIENT_COLOR "
                    "0.5 0.5 0.5 RESCALE_DIRECT 0.25 SAMPLES 4 END_SHADER_MODE DIRECTIONAL_LIGHT "

@@ -24,7 +24,7 @@ Setup with_threads(const char* count) {
 
 } // namespace
 
-TEST_CASE("--quiet leaves errors alone on standard error") {
+TEST_CASE("the option --quiet suppresses all messages but errors") {
     const Workshop workshop;
     workshop.write("scene.pov", with_remark);
     const std::vector<std::string> small = {"render",    "scene.pov", "-o",
@@ -39,7 +39,7 @@ TEST_CASE("--quiet leaves errors alone on standard error") {
           "raylane: --quiet: goes without --verbose\n");
 }
 
-TEST_CASE("--verbose reports the work in a pipe") {
+TEST_CASE("the option --verbose reports the work in a pipe") {
     const Workshop workshop;
     const std::string isa(raylane::simd::name_of(raylane::simd::narrowest_isa()));
     const std::string said =

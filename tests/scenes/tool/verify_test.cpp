@@ -116,7 +116,8 @@ TEST_CASE("verify reproduces each pixel of an image from its scene and options")
 
 namespace {
 
-/// Returns the value with another lowest bit, that of a float, or of a half, which has 13 fewer.
+/// Returns the value with its lowest bit flipped: that of a float, or of a half, which has 13 bits
+/// fewer.
 float with_another_bit(float value, int fewer_bits) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ 1U << fewer_bits);
 }
@@ -334,7 +335,7 @@ TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
     CHECK(verify(workshop, "b.png").err.ends_with(", got pHYs\n"));
 }
 
-TEST_CASE("--whole checks the whole image for any choice of pixels") {
+TEST_CASE("the option --whole checks the whole image for any choice of pixels") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png").code == 0);
     turn_one_over(workshop.path() / "a.png");
