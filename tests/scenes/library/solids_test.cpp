@@ -61,7 +61,8 @@ Expression any_expression(Random& random, bool lattice, int depth,
     return made;
 }
 
-/// Returns a union of balls and a few other shapes, cut by planes, boxes and balls.
+/// Returns a crowd, that is a union of balls and a few other shapes, cut by planes, boxes and
+/// balls.
 Expression any_cut_crowd(Random& random, bool lattice) {
     const auto number = [&](double least, double most) {
         const double any = random.uniform(least, most);
@@ -158,7 +159,7 @@ void check(const SolidTally& wrong, bool lattice) {
 
 } // namespace
 
-TEST_CASE("answers for solids of any parts are those of real arithmetic") {
+TEST_CASE("solids of any parts are crossed as in real arithmetic") {
     const bool lattice = GENERATE(true, false);
     Random random(seed(17));
     SolidTally wrong;
@@ -173,7 +174,7 @@ TEST_CASE("answers for solids of any parts are those of real arithmetic") {
     check(wrong, lattice);
 }
 
-TEST_CASE("answers for a union that is cut are those of real arithmetic") {
+TEST_CASE("a crowd that is cut is crossed as in real arithmetic") {
     const bool lattice = GENERATE(true, false);
     Random random(seed(23));
     SolidTally wrong;
