@@ -2,8 +2,8 @@
 #ifndef RAYLANE_API_H
 #define RAYLANE_API_H
 
-/* What a shared library exports. The static one exports nothing: a library that takes it in may
- * have its own. */
+/* Marks the symbols that the shared library exports. The static library marks none, so that a
+ * library that links it in decides about its own exports. */
 #ifdef RAYLANE_STATIC
 #define RAYLANE_API
 #elif defined __cplusplus

@@ -13,44 +13,50 @@ enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, back_
 /// Colour as a function of the point in space, in world coordinates.
 struct Pattern {
     PatternKind kind = PatternKind::solid;
-    /// solid: the first. checker, stripes: alternating, the first in the cell that begins at the
-    /// origin. gradient: at `from` and at `to`. back_plane: not used. >= 0
+    /// >= 0. solid: the first colour only. checker, stripes: alternating, with the first colour in
+    /// the cell that begins at the origin. gradient: the colours at `from` and at `to`. back_plane:
+    /// unused.
     Color colors[2] = {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}};
-    /// checker: the cells' edge; stripes: their width. What is nearer than 2^-29 of it to an edge
-    /// is of the cell that begins there, unless `axes` says otherwise. > 0
+    /// > 0. checker: edge length of a cell; stripes: width of a band. A point nearer to an edge
+    /// than 2^-29 of this size belongs to the cell that begins there, or, for an upper edge in
+    /// `axes`, to the cell that ends there.
     float size = 1.0F;
-    /// checker: which axes count, one or more (x 1, y 2, z 4), and where cells hold their upper
-    /// edge, not the lower one (x 8, y 16, z 32). A floor wants x and z: all of y may be an edge.
+    /// checker: a bit for each axis along which the colour alternates, at least one
+    /// (x 1, y 2, z 4), and a bit for each axis along which a cell contains its upper edge instead
+    /// of its lower one (x 8, y 16, z 32). A floor uses x and z, because its constant y may be an
+    /// edge.
     std::uint8_t axes = 1 | 4;
-    /// stripes: across the bands, any length but zero.
+    /// stripes: direction across the bands, of any length except zero.
     Vec3 direction{1.0F, 0.0F, 0.0F};
-    /// gradient: runs from one point to another, constant beyond them.
+    /// gradient: start and end points, which differ; the colour is constant beyond them.
     Vec3 from{};
     Vec3 to{0.0F, 1.0F, 0.0F};
 };
 
 enum class Reflection : std::uint8_t {
-    constant,   ///< `reflectivity`, whatever the angle
-    schlick,    ///< Schlick's approximation (1994), from `index`
-    dielectric, ///< Fresnel's equations for an unpolarised ray, from `index`
+    constant,   ///< `reflectivity` at every angle
+    schlick,    ///< Schlick's approximation (1994), computed from `index`
+    dielectric, ///< Fresnel's equations for an unpolarised ray, computed from `index`
 };
 
-/// Sides from which a surface can be seen. Rays pass the other side as if nothing were there; so do
-/// Tracer's. A shadow ray looks from a surface to the light.
+/// Sides from which a surface is visible. Rays, including those of Tracer, pass through the other
+/// side without a hit. A shadow ray runs from the surface to the light.
 enum class Visible : std::uint8_t { both, outside, inside };
 
-/// Glass by Sellmeier's formula: n^2 = 1 + sum of B_i w^2 / (w^2 - C_i) for a wavelength w in
-/// micrometres. A scene's `wavelengths` are drawn each with the index for it.
+/// Index of refraction of glass by Sellmeier's formula: n^2 = 1 + sum of B_i w^2 / (w^2 - C_i) for
+/// a wavelength w in micrometres. If the scene has `wavelengths`, each is rendered with its own
+/// index.
 struct Sellmeier {
-    std::array<double, 3> B{}, C{}; ///< C in square micrometres
+    std::array<double, 3> B{}, C{}; ///< B has no unit; C is in square micrometres
 };
 
-/// The colour seen along a ray that hits this material, with light l of colour L_l, unit vectors n
-/// (normal), l (to the light) and h (halfway between l and the viewer), S what of the light the
-/// shadow lets through, C the pattern's colour and R the reflected fraction:
+/// Optical properties of a surface. A ray that hits the surface shows the colour
 ///   C ambient + sum_l S L_l (C diffuse max(n.l, 0) + specular max(n.h, 0)^exponent)
-///   + R (colour reflected) + (1 - R) transmission (colour transmitted)
-/// and of all this `opacity`, with 1 - opacity of the colour straight behind the surface.
+///   + R (colour reflected) + (1 - R) transmission (colour transmitted),
+/// times `opacity`, plus 1 - opacity times the colour straight behind the surface. The unit vectors
+/// are n (normal), l (to the light) and h (halfway between l and the direction to the viewer). L_l
+/// is the colour of light l, S the fraction of it that reaches the point, C the pattern's colour
+/// and R the reflected fraction.
 struct Material {
     Pattern pattern{};
     float ambient = 0.1F;   ///< >= 0
@@ -59,18 +65,21 @@ struct Material {
     float exponent = 32.0F; ///< >= 0
     Reflection reflection = Reflection::constant;
     float reflectivity = 0.0F; ///< [0, 1]
-    float transmission = 0.0F; ///< [0, 1] per surface crossed; 0 is opaque
-    float index = 1.5F;        ///< index of refraction, > 0; what surrounds the scene has 1
-    Sellmeier glass{}; ///< if it has any B: in place of `index`, which then is that for 587.56 nm
-    /// Per unit of length inside, >= 0 (Beer and Lambert: exp(-absorption * length)).
+    float transmission = 0.0F; ///< [0, 1] per crossed surface; 0 is opaque
+    float index = 1.5F;        ///< index of refraction, > 0; outside of all shapes it is 1
+    /// Replaces `index` if any B is nonzero: the index is then that for 587.56 nm, or for each of
+    /// the scene's `wavelengths`.
+    Sellmeier glass{};
+    /// >= 0, per unit of length inside (Beer and Lambert: exp(-absorption * length)).
     Vec3 absorption{};
     Visible visible = Visible::both;
-    /// [0, 1]: the share of what is seen that the surface is, as paint on a pane is. Unlike what is
-    /// transmitted, what is behind is neither refracted, nor absorbed, nor less for reflections.
+    /// [0, 1]: the weight of the surface's colour, as of paint on a pane. The scene straight behind
+    /// it has the weight 1 - opacity. Unlike transmitted light, it is not refracted, absorbed or
+    /// weakened by reflection.
     float opacity = 1.0F;
 };
 
-/// The number of a material in its scene: 0, 1, 2, ... in the order in which they were added.
+/// The index of a material in its scene: 0, 1, 2, ... in the order in which they were added.
 using MaterialIndex = std::uint32_t;
 
 } // namespace raylane

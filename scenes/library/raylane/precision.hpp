@@ -6,15 +6,14 @@
 
 namespace RAYLANE_API raylane {
 
-/// Method by which the hits of rays are found. `exact` decides as real arithmetic does for the
-/// numbers given, and is hardly slower than `robust`: the others are there to compare with, and for
-/// previews. Scenes with solids that are made of others (Solid) are asked exactly, whatever is
-/// wanted.
+/// Method by which hits are found. `exact` decides as real arithmetic does for the given numbers,
+/// and is hardly slower than `robust`. The other methods serve comparisons and previews. Scenes
+/// with constructed solids (Solid) are always traced with `exact`.
 enum class Precision : std::uint8_t {
-    fast,         ///< float, by the textbooks' formulas: wrong where these cancel
-    robust,       ///< float, by the best formulas that float has
+    fast,         ///< float, textbook formulas: wrong where terms cancel
+    robust,       ///< float, the most accurate formulas known for float
     exact,        ///< certified by proven error bounds
-    plain_double, ///< double, by robust's formulas
+    plain_double, ///< double, with the formulas of `robust`
 };
 
 } // namespace raylane

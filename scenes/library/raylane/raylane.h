@@ -1,14 +1,14 @@
-/** @file
- * The library for C, and for all that can call C. Handles are opaque, no exception comes across,
- * and arrays are the caller's.
+/** @file The library's interface for C and for languages that call C. Handles are opaque. No
+ * exception leaves a call. The caller owns all arrays.
  *
- * Each call returns RAYLANE_OK, or what went wrong; raylane_error_text() says it in one line, but
- * for a file with several mistakes, each of which has a line. What a value may be, what the answers
- * mean and how threads may call is what the C++ headers say of the same names: shapes.hpp,
- * material.hpp, surroundings.hpp, scene.hpp, tracer.hpp, image.hpp.
+ * Each call that can fail returns a raylane_status: RAYLANE_OK or an error. raylane_error_text()
+ * describes the error in one line, or in one line per mistake for a file with several. The C++
+ * headers shapes.hpp, material.hpp, surroundings.hpp, scene.hpp, tracer.hpp and image.hpp document,
+ * under the same names, the valid ranges of values, the results and thread safety.
  *
- * Handles that a call makes are released by the caller. A tracer keeps its scene. NULL is no
- * handle; to release it does nothing. */
+ * The caller releases each handle that a call creates. A tracer keeps its scene alive. With a NULL
+ * handle, a call that returns a status fails, a call that returns a value behaves as for an empty
+ * scene, and a release does nothing. */
 #ifndef RAYLANE_H
 #define RAYLANE_H
 /* NOLINTBEGIN: this is C. */
@@ -23,20 +23,22 @@
 extern "C" {
 #endif
 
-/** Version of the library that the program runs with; RAYLANE_VERSION is that of this header. */
+/** Returns the version of the library that the program runs with, such as "0.1.0". RAYLANE_VERSION
+ * is the version of this header. */
 RAYLANE_API const char* raylane_version(void);
 
 typedef enum raylane_status {
     RAYLANE_OK = 0,
-    RAYLANE_INVALID_VALUE = 1,  /**< a value that no scene may hold, or no call may be made with */
-    RAYLANE_BAD_INPUT = 2,      /**< a file that cannot be meant, or is not there */
-    RAYLANE_SYSTEM_REFUSED = 3, /**< the system would not read or write */
+    RAYLANE_INVALID_VALUE = 1,  /**< invalid value in a scene, or invalid argument */
+    RAYLANE_BAD_INPUT = 2,      /**< malformed input, unknown format or missing file */
+    RAYLANE_SYSTEM_REFUSED = 3, /**< the system failed to read or write a file */
     RAYLANE_OUT_OF_MEMORY = 4,
-    RAYLANE_CANCELLED = 5, /**< by the callback */
+    RAYLANE_CANCELLED = 5, /**< cancelled by the progress callback */
     RAYLANE_UNKNOWN = 6
 } raylane_status;
 
-/** What this thread's last call that failed has to say. Valid until it fails again. */
+/** Returns the error message of the calling thread's last failed call; empty if none has failed.
+ * Valid until another call of this thread fails. */
 RAYLANE_API const char* raylane_error_text(void);
 
 typedef struct raylane_builder raylane_builder;
@@ -49,7 +51,7 @@ typedef struct raylane_vec3 {
     float x, y, z;
 } raylane_vec3;
 
-/** Shapes, as in shapes.hpp. */
+/** Shapes, with the fields and valid ranges of shapes.hpp. */
 typedef struct raylane_sphere {
     raylane_vec3 center;
     float radius;
@@ -87,7 +89,7 @@ typedef struct raylane_ellipsoid {
     raylane_vec3 center, axis_u, axis_v, axis_w;
 } raylane_ellipsoid;
 
-/** Enumerators of the C++ headers, in their order. */
+/** Enumerators of the C++ headers, in the same order. */
 enum { RAYLANE_SOLID, RAYLANE_CHECKER, RAYLANE_STRIPES, RAYLANE_GRADIENT, RAYLANE_BACK_PLANE };
 enum { RAYLANE_CONSTANT, RAYLANE_SCHLICK, RAYLANE_DIELECTRIC };
 enum { RAYLANE_BOTH_SIDES, RAYLANE_OUTSIDE, RAYLANE_INSIDE };
@@ -148,7 +150,8 @@ typedef struct raylane_outline {
     float creases;
 } raylane_outline;
 
-/** All but alpha, which is the scene's whatever these say: one that has it is drawn over black. */
+/** Settings of surroundings.hpp except alpha, which is always that of the scene. An image with
+ * alpha is rendered over black. */
 typedef struct raylane_settings {
     int width, height, grid;
     uint8_t samples, transfer;
@@ -160,7 +163,7 @@ typedef struct raylane_settings {
     raylane_outline outline;
 } raylane_settings;
 
-/** The values that C++ starts with. */
+/** Return the default values of the C++ structs. */
 RAYLANE_API raylane_material raylane_default_material(void);
 RAYLANE_API raylane_light raylane_default_light(void);
 RAYLANE_API raylane_fog raylane_default_fog(void);
@@ -180,9 +183,8 @@ RAYLANE_API raylane_status raylane_set_background(raylane_builder* builder, rayl
 RAYLANE_API raylane_status raylane_set_settings(raylane_builder* builder,
                                                 const raylane_settings* settings);
 
-/** `count` shapes of one material: their ids are *first, *first + 1, ...; first may be NULL. Of a
- * list in which one is not valid, those before it have been added, and the text says which one it
- * is. */
+/** Add `count` shapes of one material. Their ids are *first, *first + 1, ...; first may be NULL. If
+ * a shape is invalid, the shapes before it have been added, and the error text gives its number. */
 RAYLANE_API raylane_status raylane_add_spheres(raylane_builder* builder,
                                                const raylane_sphere* shapes, size_t count,
                                                uint32_t material, uint32_t* first);
@@ -218,33 +220,35 @@ RAYLANE_API raylane_status raylane_add_quadrics(raylane_builder* builder,
 RAYLANE_API raylane_status raylane_add_ellipsoids(raylane_builder* builder,
                                                   const raylane_ellipsoid* shapes, size_t count,
                                                   uint32_t material, uint32_t* first);
-/** Triangles that tile one flat polygon: all of them are added or, if one is not valid, none; the
- * text says which one it is. */
+/** Adds triangles that tile one flat polygon. If a triangle is invalid, adds none, and the error
+ * text gives its number. */
 RAYLANE_API raylane_status raylane_add_polygon(raylane_builder* builder,
                                                const raylane_triangle* triangles, size_t count,
                                                uint32_t material, uint32_t* first);
 
-/** The builder is new then, whether this succeeds or not, unless it is RAYLANE_THREADS in the
- * environment that is no number of threads. */
+/** Builds the scene. Leaves the builder empty, even if the call fails, unless it fails because the
+ * environment variable RAYLANE_THREADS is invalid. */
 RAYLANE_API raylane_status raylane_build(raylane_builder* builder, raylane_scene** scene);
-/** A file, by its path in the system's encoding ("-" is one of that name); or a text in memory,
- * which messages call `name`. */
+/** Reads a scene from a file. `path` is in the system's encoding; "-" is a file of that name. */
 RAYLANE_API raylane_status raylane_load(const char* path, raylane_scene** scene);
+/** Reads a scene from a text of `length` bytes in memory. `name` stands for the file's name in
+ * messages, in the search for included files and in the choice of the format. */
 RAYLANE_API raylane_status raylane_parse(const char* text, size_t length, const char* name,
                                          raylane_scene** scene);
-/** Writes a scene to a file, in the format of its ending: .json, .rl, .nff or .pov, as save() of
- * scene.hpp. */
+/** Writes a scene to a file in the format of its ending: .json, .rl, .nff or .pov. Same as save()
+ * in scene.hpp, without remarks. */
 RAYLANE_API raylane_status raylane_save(const raylane_scene* scene, const char* path);
 RAYLANE_API void raylane_scene_release(raylane_scene* scene);
 RAYLANE_API size_t raylane_shape_count(const raylane_scene* scene);
 RAYLANE_API size_t raylane_material_count(const raylane_scene* scene);
-/** Of all shapes but planes; lower > upper if there are none. */
+/** Gives the bounds of all shapes except planes; lower > upper if the scene has no such shapes.
+ * `lower` and `upper` may be NULL. */
 RAYLANE_API void raylane_scene_bounds(const raylane_scene* scene, raylane_vec3* lower,
                                       raylane_vec3* upper);
 RAYLANE_API raylane_settings raylane_scene_settings(const raylane_scene* scene);
 
-/** Rays, structure of arrays: as RaySpan and DoubleRaySpan. Arrays have `count` values each; the
- * limits' and origin_* may be NULL. */
+/** Rays, structure of arrays, same as RaySpan and DoubleRaySpan in tracer.hpp. Each array has
+ * `count` values. t_min, t_max, origin_shape, origin_face and origin_inward may be NULL. */
 typedef struct raylane_rays {
     size_t count;
     const float *origin_x, *origin_y, *origin_z, *direction_x, *direction_y, *direction_z;
@@ -260,7 +264,7 @@ typedef struct raylane_double_rays {
     const uint8_t *origin_face, *origin_inward;
 } raylane_double_rays;
 
-/** Hits, as HitSpan. NULL: not wanted. */
+/** Output arrays for hits, same as HitSpan in tracer.hpp. NULL: not wanted. */
 typedef struct raylane_hits {
     float *t, *normal_x, *normal_y, *normal_z;
     uint32_t* shape;
@@ -283,8 +287,9 @@ RAYLANE_API raylane_status raylane_occluded_doubles(const raylane_tracer* tracer
                                                     const raylane_double_rays* rays,
                                                     uint8_t* occluded);
 
-/** As Progress: `rgb` has the linear components of the tile's upper left pixel and then of its row,
- * the row below is floats_a_row further; not to be read behind the call. */
+/** Progress of a rendering, same as Progress in image.hpp. `rgb` holds the linear components of the
+ * tile's upper left pixel and then of its row; each next row starts floats_a_row floats later.
+ * `rgb` is valid only during the callback. */
 typedef struct raylane_progress {
     int64_t pixels, total_pixels;
     uint64_t rays;
@@ -292,16 +297,18 @@ typedef struct raylane_progress {
     const float* rgb;
     size_t floats_a_row;
 } raylane_progress;
-/** Returns 0 to cancel. */
+/** Receives the progress and the caller's `user` pointer. Returns 0 to cancel. */
 typedef int (*raylane_progress_callback)(const raylane_progress* progress, void* user);
 
-/** The picture, into height x width x 3 floats of the caller's: rows from the top down, linear RGB.
- * settings: NULL for the scene's own; its alpha counts in any case. progress: NULL for none. */
+/** Renders an image into `rgb`, an array of height x width x 3 floats: rows from the top down,
+ * linear RGB. settings: NULL for those of the scene, whose alpha applies in any case. threads: as
+ * in RenderOptions. precision: RAYLANE_FAST to RAYLANE_PLAIN_DOUBLE. progress: may be NULL. */
 RAYLANE_API raylane_status raylane_render(const raylane_scene* scene,
                                           const raylane_settings* settings, int threads,
                                           int precision, raylane_progress_callback progress,
                                           void* user, float* rgb);
-/** transfer: RAYLANE_SRGB or RAYLANE_LINEAR, for PNG. */
+/** Writes an image of height x width x 3 floats to a file in the format of its ending. Same as
+ * write_image() in image.hpp. transfer: RAYLANE_SRGB or RAYLANE_LINEAR, for 8-bit formats. */
 RAYLANE_API raylane_status raylane_write_image(const char* path, int width, int height,
                                                const float* rgb, int transfer);
 

@@ -1,11 +1,11 @@
 #pragma once
 
-/// raylane as a library: scenes of quadrics, built in code or loaded; rays asked about them in
-/// structure-of-arrays spans; and pictures of them.
+/// The raylane library: scenes of quadrics, built in code or loaded from files; ray queries on
+/// structure-of-arrays spans; and rendered images.
 ///
-/// Lengths have no unit, angles are degrees, colours are linear RGB with 1 as white. Surfaces are
-/// exactly what the floats of a shape say, and which of them a ray hits is decided as real
-/// arithmetic decides it.
+/// Lengths are in the scene's unit, which is arbitrary. Angles are in degrees. Colours are linear
+/// RGB, where 1 is white. A surface is exactly the one that the numbers of its shape define, and
+/// real arithmetic on these numbers decides which surface a ray hits.
 
 #include "raylane/errors.hpp"
 #include "raylane/image.hpp"

@@ -25,43 +25,46 @@ struct Internals;
 
 namespace RAYLANE_API raylane {
 
-/// An axis-aligned box, closed. Empty if lower > upper.
+/// A closed axis-aligned box. It is empty if lower > upper.
 struct Bounds {
     Vec3 lower, upper;
 };
 
-/// A validated scene that never changes. Cheap to copy: the copies are one scene, which lives as
-/// long as any of them, or a Tracer of it. May be read by any number of threads at a time.
+/// A validated, immutable scene. Cheap to copy: all copies share one scene, which lives as long as
+/// any copy or any Tracer of it. Any number of threads may read it concurrently.
 class Scene {
   public:
     std::size_t shape_count() const;
     std::size_t material_count() const;
-    /// Of all shapes but planes, which have none. Contains all of each, and is larger by no more
-    /// than roundings; of a quadric, its box. Without such shapes it is empty: infinity to
-    /// -infinity.
+    /// Returns the bounds of all shapes except planes, which are unbounded. The box contains each
+    /// shape entirely and is larger only by rounding. The bounds of a quadric are its box. Returns
+    /// an empty box, from infinity to -infinity, if the scene has no such shapes.
     Bounds bounds() const;
-    /// Throws InvalidValue for an id that is no shape's.
+    /// Throws InvalidValue if no shape has this id.
     MaterialIndex material_of(ShapeId shape) const;
-    /// The id by which the solid goes that a shape is a part of: that of its first part. Of others
-    /// their own. Throws InvalidValue for an id that is no shape's.
+    /// Returns the id of the constructed solid that the shape is a part of, which is the id of the
+    /// solid's first part. Returns the id of any other shape unchanged. Throws InvalidValue if no
+    /// shape has this id.
     ShapeId solid_of(ShapeId shape) const;
-    /// Throws InvalidValue for an index that is no material's.
+    /// Throws InvalidValue if no material has this index.
     Material material(MaterialIndex index) const;
     std::vector<Light> lights() const;
     Fog fog() const;
     Camera camera() const;
     Color background() const;
     Settings settings() const;
-    /// The same shapes, seen by another camera, which brings the lights along that the scene's own
-    /// has brought. Takes little memory and time: of a scene whose camera has found its place by
-    /// itself, one look at all shapes. Throws InvalidValue, fields "camera/...".
+    /// Returns a scene with the same shapes and another camera. Lights and depth-cue fog that
+    /// follow the camera are computed again, which takes one pass over all shapes; otherwise the
+    /// call takes little time. The copy shares the memory of the shapes. Throws InvalidValue,
+    /// fields "camera/...".
     Scene seen_by(const Camera& camera) const;
-    /// A camera in perspective that looks in a direction, of any length but zero, and sees all
-    /// shapes that have bounds as large as that may be, in a picture of so many times its height as
-    /// width. Throws InvalidValue where there are none, or for values that are none.
+    /// Returns a perspective camera that shows all bounded shapes as large as possible.
+    /// `direction`: line of sight, of any length except zero. `aspect`: the image's width divided
+    /// by its height, 1e-5 to 1e5. Throws InvalidValue if an argument is out of range, if the scene
+    /// has no bounded shapes, or if the camera would have to be beyond 1e30.
     Camera camera_on_all(const Vec3& direction = {0.0F, 0.0F, -1.0F}, float aspect = 1.0F) const;
 
-    // Without a move, no scene is ever empty.
+    // No move operations: a scene is never empty.
     Scene(const Scene&) = default;
     Scene& operator=(const Scene&) = default;
     ~Scene() = default;
@@ -73,9 +76,10 @@ class Scene {
     std::shared_ptr<const core::Scene> scene_;
 };
 
-/// Collects a scene, in any order, and checks each value as it comes. All functions throw
-/// InvalidValue, whose field is relative to what was passed in, and leave the builder as it was;
-/// and std::bad_alloc. To be used by one thread at a time. One that was moved from is as new.
+/// Builds a scene from values that are added in any order, and checks each value as it is added.
+/// All functions throw InvalidValue, with a field relative to the argument, and then leave the
+/// builder unchanged. They also throw std::bad_alloc. Not thread-safe. A moved-from builder is
+/// empty and can be reused.
 class SceneBuilder {
   public:
     Camera camera; ///< checked by build(), field "camera/..."
@@ -83,8 +87,9 @@ class SceneBuilder {
         background; ///< colour of rays that hit nothing; checked by build(), field "background/..."
     Fog fog;        ///< checked by build(), field "fog/..."
     Settings settings; ///< checked by build(), field "settings/..."
-    /// In nanometres, from 380 to 780, at most 64: a picture is drawn for each, with the index that
-    /// glass has for it; none: one with `index`. Checked by build(), "spectrum/wavelengths/0".
+    /// At most 64 wavelengths in nanometres, 380 to 780. An image is rendered for each, with the
+    /// index of glass at that wavelength. Empty: one image, with Material::index. Checked by
+    /// build(), field "spectrum/wavelengths/0".
     std::vector<double> wavelengths;
 
     SceneBuilder();
@@ -92,24 +97,24 @@ class SceneBuilder {
     SceneBuilder(SceneBuilder&& other) noexcept;
     SceneBuilder& operator=(SceneBuilder&& other) noexcept;
 
-    /// The index by which shapes refer to it.
+    /// Returns the index by which shapes refer to the material.
     MaterialIndex add_material(const Material& material);
     void add_light(const Light& light);
 
-    /// The id of the new shape: 0, 1, 2, ... `material` is an index that add_material returned.
+    /// Returns the id of the new shape: 0, 1, 2, ... `material` is an index from add_material.
     template <AnyShape Shape>
     ShapeId add(const Shape& shape, MaterialIndex material);
 
-    /// A solid that is made of others: the id of its first part; those of the others follow, in the
-    /// order in which they were given. What a solid is clipped by has no surface, and no id.
-    /// `material`: of parts that have none of their own, and of
-    /// what is inside of all. Fields of what is thrown are those of its shapes behind
-    /// "objects/0/objects/2/", ... Throws InvalidValue where quadrics leave it without bounds.
+    /// Adds a constructed solid. Returns the id of its first part; the ids of the other parts
+    /// follow in the order in which they were given. Solids that only clip have no surface and no
+    /// id. `material` applies to parts without a material, and to the inside of the solid if that
+    /// has none. Fields in errors are those of the shapes, with the prefix "objects/0/objects/2/",
+    /// ... Throws InvalidValue if quadrics leave the solid unbounded.
     ShapeId add(const Solid& solid, MaterialIndex material);
 
-    /// One or more triangles that tile one flat polygon: no reflection or shadow of one of them
-    /// falls on another. Returns the first id; the others follow. Fields of a triangle are behind
-    /// its number: "1/normals/0".
+    /// Adds one or more triangles that tile one flat polygon. No reflection or shadow of one of
+    /// them falls on another. Returns the first id; the ids of the other triangles follow. Fields
+    /// in errors have the triangle's number as a prefix: "1/normals/0".
     ShapeId add_polygon(std::span<const Triangle> triangles, MaterialIndex material);
     ShapeId add_polygon(std::span<const SmoothTriangle> triangles, MaterialIndex material);
     ShapeId add_polygon(std::span<const TriangleOf<double>> triangles, MaterialIndex material);
@@ -118,11 +123,11 @@ class SceneBuilder {
 
     std::size_t shape_count() const;
 
-    /// Checks what concerns the scene as a whole (fields are those above, and
-    /// "lights/0/position", ...), builds the hierarchy, and hands the scene over. The builder is
-    /// new then, whether this succeeds or throws, unless the field is "RAYLANE_THREADS": it has
-    /// threads, as many as that says in the environment. A scene without lights shows ambient
-    /// terms, reflections and refractions alone.
+    /// Checks the scene as a whole, builds the hierarchy and returns the scene. Uses as many
+    /// threads as the environment variable RAYLANE_THREADS says. Throws InvalidValue with the
+    /// fields above, "lights/0/position", ... or "RAYLANE_THREADS". Leaves the builder empty, even
+    /// if it throws, except with the field "RAYLANE_THREADS". A scene without lights shows only
+    /// ambient terms, reflections and refractions.
     Scene build();
 
   private:
@@ -131,40 +136,44 @@ class SceneBuilder {
 
     core::SceneBuilder& builder();
 
-    std::unique_ptr<core::SceneBuilder> builder_; // none as long as it is new
+    std::unique_ptr<core::SceneBuilder> builder_; // null until the first value is added
 };
 
-/// Told of what a file says and the scene does not have, and of a scene without objects, one line
-/// each, on the caller's thread.
+/// Callback for warnings, one line each: contents of a file that raylane ignores, or a scene
+/// without objects. Called on the caller's thread.
 using OnRemark = std::function<void(const std::string& remark)>;
 
-/// Reads a scene from a file: JSON (scenes/raylane-scene.schema.json describes it), NFF, POV-Ray's
-/// language or Tachyon's, or what save() has made; or atoms, of which it makes one: PDB, mmCIF,
-/// CIF, XYZ, GRO, LAMMPS' dump or data. The format follows its ending or else its content; "-" is a
-/// file of that name. What the file includes is read as well. Throws BadInput for what is
-/// malformed, in JSON for up to ten mistakes at once, or not there, SystemRefused, std::bad_alloc,
-/// and InvalidValue, field "RAYLANE_THREADS", where that is no number of threads.
+/// Reads a scene from a file. Formats: JSON (see scenes/raylane-scene.schema.json), NFF, POV-Ray,
+/// Tachyon, and files written by save(). From atoms in PDB, mmCIF, CIF, XYZ, GRO or LAMMPS dump or
+/// data files it makes a scene. The file's ending decides the format, or its content if the ending
+/// is unknown. "-" is a file of that name. Also reads the files that the file includes. Throws
+/// BadInput for a malformed or missing file (in JSON with up to ten mistakes), SystemRefused,
+/// std::bad_alloc, and InvalidValue, field "RAYLANE_THREADS", if the value of that environment
+/// variable is invalid.
 RAYLANE_API Scene load(const std::filesystem::path& path, const OnRemark& on_remark = {});
 
-/// The same for a scene in memory. `name` is what messages call it, and where included files are
-/// looked for; the format follows its ending, or else the content.
+/// Reads a scene from memory, as load() does. `name` stands for the file's name in messages, in the
+/// search for included files and in the choice of the format by its ending.
 RAYLANE_API Scene parse(std::string_view text, const std::string& name = "scene",
                         const OnRemark& on_remark = {});
 
-/// The same for atoms, with or without the edges of the cell that they are in. Throws BadInput as
-/// well where those are to be drawn and there is no cell.
+/// Reads atoms from memory, as parse() does. `show_cell`: true adds the edges of the unit cell.
+/// Throws BadInput also if `show_cell` is true and the atoms have no cell.
 RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
                               const OnRemark& on_remark = {});
 
-/// Writes a scene to a file, which appears whole or not at all, in the format of its ending (in any
-/// case): .json, which has all of it that counts, to the bit, but which triangles make a polygon
-/// and, of what goes with a camera, that fog goes with one that has been given its place; .rl,
-/// which has these, too, and the hierarchy, and which load() maps rather than reads, but no solids
-/// that are made of others, and is for versions of raylane with the same format of it; .nff and
-/// .pov (POV-Ray 3.7), for other programs, which have less. What is not in the file as it is in the
-/// scene, for want of a word in the format, is told to `on_remark`. Throws BadInput for another
-/// ending, for shapes that the format does not have, or for solids that are nested deeper than is
-/// read of it (in JSON some 127 levels, in .pov 125), and SystemRefused.
+/// Writes a scene to a file. The file appears complete or not at all. The ending, in upper or lower
+/// case, decides the format:
+/// - .json: everything that is visible of the scene, to the bit. It does not store which triangles
+///   form a polygon. If seen_by() has replaced an automatic camera, it does not store that the
+///   depth-cue fog follows the camera.
+/// - .rl: the scene with both of these, and its hierarchy, as in memory. load() maps the file
+///   instead of parsing it. It cannot hold constructed solids, and only versions of raylane with
+///   the same version of this format read it.
+/// - .nff and .pov (POV-Ray 3.7): for other programs, with less of the scene.
+/// Calls `on_remark` for each feature that the format cannot express. Throws BadInput for another
+/// ending, for shapes that the format does not support, and for solids nested deeper than raylane
+/// reads them from that format (some 127 levels in JSON, 125 in .pov). Throws SystemRefused.
 RAYLANE_API void save(const Scene& scene, const std::filesystem::path& path,
                       const OnRemark& on_remark = {});
 

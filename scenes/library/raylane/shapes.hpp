@@ -7,16 +7,18 @@
 #include <cstdint>
 #include <limits>
 
-/// The shapes, of floats (Sphere) or of doubles (SphereOf<double>). Each *is* its numbers: the
-/// surface meant is the one that real arithmetic gives for exactly these values. A scene whose
-/// numbers are all floats, of either type, takes the least memory and time.
+/// Shapes, in float (Sphere) or in double (SphereOf<double>). The surface of a shape is the one
+/// that real arithmetic gives for exactly its numbers. A scene takes the least memory and time if
+/// all its numbers are representable as floats, whichever type holds them.
 ///
-/// Coordinates and lengths are from -1e30 to 1e30, and doubles that are no floats at least 1.2e-38
-/// in size. Normals and axes may have any length but zero.
-/// A solid (sphere, ellipsoid, box, capped cylinder, capped cone) is closed: its surface belongs to
-/// it, a line that only touches it hits it, as does one within a face. A surface (the others) ends
-/// at its rim, and the rim belongs to it. A line that touches it hits it; one that lies in it, in a
-/// flat surface's plane, along an open cylinder's or cone's side or in a quadric, does not.
+/// Coordinates and lengths are from -1e30 to 1e30. A double that is not representable as a float
+/// must have a magnitude of at least 1.2e-38. Normals and axes may have any length except zero.
+///
+/// Solids (sphere, ellipsoid, box, capped cylinder, capped cone) are closed sets, which include
+/// their surface. A line that only touches a solid hits it, and so does a line within a face. The
+/// other shapes are surfaces. A surface includes its rim. A line that touches a surface hits it. A
+/// line that lies in a surface (in a flat surface's plane, along the side of an open cylinder or
+/// cone, or in a quadric) does not hit it.
 namespace RAYLANE_API raylane {
 
 template <class Number>
@@ -25,7 +27,7 @@ struct SphereOf {
     Number radius = 0; ///< > 0
 };
 
-/// The unbounded plane through `point`; its front is where `normal` points.
+/// The unbounded plane through `point`. `normal` points to its front.
 template <class Number>
 struct PlaneOf {
     Vec3Of<Number> point;
@@ -39,30 +41,31 @@ struct DiscOf {
     Number radius = 0;     ///< > 0
 };
 
-/// Front: the side from which a, b, c run counter-clockwise. They are not in one line.
+/// A triangle with the corners a, b and c, which are not collinear. Its front is the side from
+/// which they run counter-clockwise.
 template <class Number>
 struct TriangleOf {
     Vec3Of<Number> a, b, c;
 };
 
-/// A triangle with a normal at each corner, interpolated for shading only; the surface is the flat
-/// triangle's.
+/// A triangle with a normal at each corner. Shading interpolates the normals; the surface is the
+/// flat triangle.
 template <class Number>
 struct SmoothTriangleOf {
     Vec3Of<Number> a, b, c;
     Vec3Of<Number> normal_a, normal_b, normal_c;
 };
 
-/// Any parallelepiped, solid: corner + u edge_u + v edge_v + w edge_w for u, v, w in [0, 1]. The
-/// edges span a volume.
+/// A solid parallelepiped: the points corner + u edge_u + v edge_v + w edge_w for u, v, w in
+/// [0, 1]. The edges are linearly independent.
 template <class Number>
 struct BoxOf {
     Vec3Of<Number> corner;
     Vec3Of<Number> edge_u, edge_v, edge_w;
 };
 
-/// Points at distance `radius` from the line base + s axis, with s in [0, 1]. A surface without
-/// ends.
+/// The points at distance `radius` from the line base + s axis, for s in [0, 1]: a surface without
+/// caps.
 template <class Number>
 struct OpenCylinderOf {
     Vec3Of<Number> base;
@@ -70,7 +73,7 @@ struct OpenCylinderOf {
     Number radius = 0; ///< > 0
 };
 
-/// The solid between an OpenCylinder and the discs that close it.
+/// The solid bounded by an OpenCylinder and its two caps.
 template <class Number>
 struct CappedCylinderOf {
     Vec3Of<Number> base;
@@ -78,8 +81,8 @@ struct CappedCylinderOf {
     Number radius = 0; ///< > 0
 };
 
-/// Points at distance base_radius + s (top_radius - base_radius) from base + s axis, s in [0, 1]. A
-/// surface without ends.
+/// The points at distance base_radius + s (top_radius - base_radius) from base + s axis, for s in
+/// [0, 1]: a surface without caps.
 template <class Number>
 struct OpenConeOf {
     Vec3Of<Number> base;
@@ -88,7 +91,7 @@ struct OpenConeOf {
     Number top_radius = 0;  ///< >= 0, not both 0
 };
 
-/// The solid between an OpenCone and the discs that close it: a cone, or its frustum.
+/// The solid bounded by an OpenCone and its caps: a cone or a frustum.
 template <class Number>
 struct CappedConeOf {
     Vec3Of<Number> base;
@@ -97,10 +100,10 @@ struct CappedConeOf {
     Number top_radius = 0;  ///< >= 0, not both 0
 };
 
-/// The surface Q(p) = 0 for p = x - center, inside the axis-aligned box lower <= p <= upper, where
+/// The surface Q(p) = 0 for p = x - center, inside the axis-aligned box lower <= p <= upper:
 ///   Q(p) = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz)
 ///        + 2 (x px + y py + z pz) + one,
-/// that is (p, 1) M (p, 1)^T for the symmetric 4x4 matrix M. Its outside is where Q > 0.
+/// that is (p, 1) M (p, 1)^T for the symmetric 4x4 matrix M. The outside is where Q > 0.
 template <class Number>
 struct QuadricOf {
     Vec3Of<Number> center;
@@ -109,8 +112,8 @@ struct QuadricOf {
     Vec3Of<Number> lower, upper; ///< lower < upper on each axis
 };
 
-/// The points center + a axis_u + b axis_v + c axis_w with a^2 + b^2 + c^2 <= 1, solid. The
-/// semi-axes span a volume; they need not be perpendicular to each other.
+/// A solid ellipsoid: the points center + a axis_u + b axis_v + c axis_w with a^2 + b^2 + c^2 <= 1.
+/// The semi-axes are linearly independent; they need not be perpendicular.
 template <class Number>
 struct EllipsoidOf {
     Vec3Of<Number> center;
@@ -173,15 +176,15 @@ inline constexpr bool is_shape<EllipsoidOf<Number>> =
 
 } // namespace detail
 
-/// Shapes that a scene can be made of.
+/// The shape types that a scene accepts.
 template <class Shape>
 concept AnyShape = detail::is_shape<Shape>;
 
-/// The number of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added. In a
-/// scene from a file, the order of the file.
+/// The number of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added or, in
+/// a scene from a file, in the order of the file.
 using ShapeId = std::uint32_t;
 
-/// The id that no shape has: what a ray that hits nothing has hit.
+/// The id of no shape: the result for a ray that hits nothing.
 inline constexpr ShapeId no_shape = std::numeric_limits<ShapeId>::max();
 
 } // namespace raylane

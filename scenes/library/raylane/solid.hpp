@@ -17,25 +17,26 @@ struct Internals;
 
 namespace RAYLANE_API raylane {
 
-/// A solid that is made of others: of solid shapes (spheres, ellipsoids, boxes, capped cylinders
-/// and cones) and of half-spaces (what is behind a Plane, and where a Quadric's form is less than
-/// 0, wherever that is: its `lower` and `upper` do not count), by any of the functions below,
-/// nested to any depth. Cheap to copy.
+/// A constructed solid (constructive solid geometry). The functions below build it from solid
+/// shapes (spheres, ellipsoids, boxes, capped cylinders and cones) and from half-spaces. A Plane
+/// stands for the half-space behind it. A Quadric stands for all points where its form is less than
+/// 0; its `lower` and `upper` are ignored. Solids nest up to 1024 levels deep. Cheap to copy.
 ///
-/// A ray meets a solid where being inside of it changes, and what it meets is the part whose
-/// surface that is. If it meets several parts at one point, they change together: where a hole is
-/// flush with a face there is no face, and of parts that change as the solid does the first stands
-/// for all. What a ray only touches it does not meet. A part that is taken away is met from its
-/// inside, by the solid's side: to enter the solid is to leave the part.
+/// A ray hits a solid where it changes between the inside and the outside of the whole solid. The
+/// hit names the part whose surface is crossed. If a ray crosses several parts at one point, they
+/// change together: a hole that is flush with a face removes that face, and if several parts change
+/// in the same direction as the solid, the hit names the first of them. A ray that only touches a
+/// solid does not hit it. A ray that enters the solid through a subtracted part leaves that part;
+/// `entering` and the normal refer to the solid.
 class Solid {
   public:
-    /// Of the material of what it becomes a part of.
+    /// Takes the material of the solid or scene object that this becomes a part of.
     template <AnyShape Shape>
     Solid(const Shape& shape); // NOLINT: implicit
     template <AnyShape Shape>
     Solid(const Shape& shape, MaterialIndex material);
 
-    /// The same, with another material: of its parts that have none of their own.
+    /// Returns this solid with the given material. Parts that have their own material keep it.
     Solid of(MaterialIndex material) const;
 
   private:
@@ -45,30 +46,32 @@ class Solid {
     std::shared_ptr<const core::Solid> solid_;
 };
 
-/// A lens about an axis: between two surfaces of revolution, each a sphere, a plane or a conic, and
-/// in a cylinder.
+/// A lens: the solid between two surfaces of revolution about an axis, each a sphere, a plane or a
+/// conic surface, inside of a cylinder about the same axis. Lengths are in the scene's unit.
 struct Lens {
-    Vec3Of<double> vertex;        ///< of the first surface
-    Vec3Of<double> axis{0, 0, 1}; ///< from there to the second; of any length but 0
-    /// Radii of curvature at the vertices: positive where the centre is behind the surface, going
-    /// along the axis; 0: flat.
+    Vec3Of<double> vertex;        ///< vertex of the first surface
+    Vec3Of<double> axis{0, 0, 1}; ///< from there to the second vertex; any length except zero
+    /// Radii of curvature at the vertices: positive if the centre of curvature lies behind the
+    /// surface in the direction of the axis; 0: flat.
     double radii[2] = {0.0, 0.0};
-    double conics[2] = {0.0, 0.0}; ///< conic constants; 0: spheres
-    double thickness = 0.0;        ///< between the vertices, > 0
-    double radius = 0.0;           ///< of the cylinder, > 0
+    double conics[2] = {0.0, 0.0}; ///< conic constants; 0: sphere, -1: paraboloid
+    double thickness = 0.0;        ///< distance between the vertices, > 0
+    double radius = 0.0;           ///< radius of the cylinder, > 0
 };
 
-/// Throws InvalidValue for what is no lens: surfaces that meet inside of its cylinder, or do not
-/// reach it.
+/// Returns the lens as a solid. Throws InvalidValue if a field is out of range, or if the surfaces
+/// meet inside of the cylinder or do not reach it.
 RAYLANE_API Solid solid_of(const Lens& lens);
 
-/// What is in any of several parts.
+/// Returns the union: all points inside of at least one part. Throws InvalidValue if the result is
+/// nested more than 1024 levels deep; so do the functions below.
 RAYLANE_API Solid union_of(const std::vector<Solid>& parts);
-/// What is in all of them.
+/// Returns the intersection: all points inside of every part.
 RAYLANE_API Solid intersection_of(const std::vector<Solid>& parts);
-/// What is in a solid, and in none of others.
+/// Returns the difference: all points inside of `whole` and outside of each solid in `taken_away`.
 RAYLANE_API Solid difference_of(const Solid& whole, const std::vector<Solid>& taken_away);
-/// What of a solid's surface is in all of others: it is left open where it is cut.
+/// Returns the part of the surface of `whole` that lies inside of all solids in `by`. The cuts stay
+/// open: they get no cap faces.
 RAYLANE_API Solid clipped(const Solid& whole, const std::vector<Solid>& by);
 
 } // namespace raylane

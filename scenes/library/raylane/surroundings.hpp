@@ -6,44 +6,44 @@
 #include <cstdint>
 #include <limits>
 
-/// Contents of a scene besides its shapes: lights, fog, the camera, and the settings of the
-/// picture.
+/// Contents of a scene besides its shapes: lights, fog, the camera and the image settings.
 namespace RAYLANE_API raylane {
 
 enum class LightKind : std::uint8_t { point, directional, sky, sphere, disc, rectangle };
 
-/// A light casts shadows; what it is itself is not seen. A point or a directional light has no size
-/// and does not fade with distance. Of the others `color` is the radiance, in all directions and of
-/// both sides: a diffuse surface shows as much of it as they fill of the hemisphere above it, by
-/// the cosine of their angle to it. A sky of one colour that nothing hides is as bright as a light
-/// without a size straight above.
+/// A light source. It casts shadows and is invisible itself. Point and directional lights have no
+/// size and do not fade with distance. For the other kinds, `color` is the radiance in every
+/// direction and on both sides. A diffuse surface shows the fraction of it that the light fills of
+/// the hemisphere above the surface, weighted by the cosine of the angle to the normal. An
+/// unobstructed sky of one colour is as bright as a light without a size straight above the
+/// surface.
 struct Light {
     LightKind kind = LightKind::point;
-    Vec3 position{}; ///< point: where it is, not on a surface; sphere, disc: middle; rectangle:
+    Vec3 position{}; ///< point: its position, not on a surface; sphere, disc: centre; rectangle:
                      ///< corner
-    /// directional: where the light travels to; sky: the same from the zenith; disc: its normal.
-    /// Any length but zero.
+    /// directional: direction in which the light travels; sky: direction in which the zenith's
+    /// light travels; disc: normal. Any length except zero.
     Vec3 direction{0.0F, -1.0F, 0.0F};
-    Color color{1.0F, 1.0F, 1.0F}; ///< >= 0; sky: of the zenith
+    Color color{1.0F, 1.0F, 1.0F}; ///< >= 0; sky: colour of the zenith
     float radius = 1.0F;           ///< sphere, disc: > 0, in units of length
-    Vec3 edge_u{1.0F, 0.0F, 0.0F}; ///< rectangle: from the corner along its edges, which are
-    Vec3 edge_v{0.0F, 0.0F, 1.0F}; ///< perpendicular
+    Vec3 edge_u{1.0F, 0.0F, 0.0F}; ///< rectangle: the edges from the corner, perpendicular to
+    Vec3 edge_v{0.0F, 0.0F, 1.0F}; ///< each other
     Color ground{1.0F, 1.0F,
-                 1.0F}; ///< sky: the colour of the nadir, >= 0; in between it changes evenly
-    /// sky: what is farther away than that, > 0, does not shade a surface from it.
+                 1.0F}; ///< sky: colour of the nadir, >= 0; linear in the height up to the zenith
+    /// sky: > 0, in units of length. Shapes farther than this from a surface do not shade it.
     float reach = std::numeric_limits<float>::infinity();
 };
 
 enum class FogKind : std::uint8_t {
     none,
-    linear_z,    ///< by world z: none at z = start, all at z = end
-    linear,      ///< by the distance along the ray: none at `start`, all at `end`
-    exponential, ///< 1 - exp(-density * distance)
+    linear_z,    ///< linear in world z: f = 0 at z = start, f = 1 at z = end
+    linear,      ///< linear in the distance along the ray: f = 0 at `start`, f = 1 at `end`
+    exponential, ///< f = 1 - exp(-density * distance)
 };
 
-/// Fog of fraction f in [0, 1]: a segment shows (1 - f) * colour + f * fog colour. It acts on every
-/// segment outside of a transmissive object, secondary rays included. A ray that hits nothing is
-/// infinitely long.
+/// Fog with a fraction f in [0, 1]: a ray segment shows (1 - f) * colour + f * fog colour. Fog acts
+/// on every segment outside of transmissive objects, including secondary rays. A ray that hits
+/// nothing is infinitely long.
 struct Fog {
     FogKind kind = FogKind::none;
     Color color{1.0F, 1.0F, 1.0F}; ///< >= 0
@@ -59,63 +59,64 @@ struct Camera {
     Vec3 from{0.0F, 0.0F, 5.0F};
     Vec3 at{};                 ///< differs from `from`
     Vec3 up{0.0F, 1.0F, 0.0F}; ///< not along the line of sight
-    /// perspective: degrees from the picture's lower to its upper edge, in (0, 180)
+    /// perspective: degrees from the image's lower to its upper edge, in (0, 180)
     float field_of_view = 45.0F;
-    float height = 2.0F; ///< orthographic: of the picture, > 0, in units of length
-    /// Of a thin lens, in units of length, that blurs what is not in focus; 0: a pinhole.
+    float height = 2.0F; ///< orthographic: height of the image, > 0, in units of length
+    /// Radius of the thin lens, >= 0, in units of length. 0: a pinhole, without depth of field.
     float lens_radius = 0.0F;
-    /// From the lens to the plane that is sharp, in units of length; 0: it goes through `at`.
+    /// Distance from the lens to the plane of focus, >= 0, in units of length. 0: that plane goes
+    /// through `at`.
     float focus_distance = 0.0F;
 };
 
-/// Transfer from linear RGB to the 8 bits of a PNG file: the curve of IEC 61966-2-1, or none.
+/// Transfer from linear RGB to 8 bits: the sRGB curve of IEC 61966-2-1, or none.
 enum class Transfer : std::uint8_t { srgb, linear };
 
 enum class SamplePattern : std::uint8_t {
-    regular,    ///< the centres of the cells
-    stratified, ///< a point in each cell, by a hash of pixel and sample
+    regular,    ///< the centre of each cell
+    stratified, ///< a point in each cell, from a hash of the pixel and the sample
 };
 
-/// What of its surroundings a pixel shows, and with which weight.
+/// Reconstruction filter: the weight of the surroundings in a pixel's colour.
 enum class PixelFilter : std::uint8_t {
-    box,             ///< its own square, all of it alike
-    gaussian,        ///< of deviation 1/2 pixel, cut off 1.5 pixels from the middle
+    box,             ///< the pixel's square, with constant weight
+    gaussian,        ///< standard deviation 1/2 pixel, cut off 1.5 pixels from the centre
     blackman_harris, ///< Harris' window of four terms, 3 pixels wide
 };
 
-/// Lines along the edges of what the camera sees first, over the picture.
+/// Lines over the image, along the edges of the first visible surfaces.
 struct Outline {
-    float width = 0.0F; ///< pixels, at most 32; 0: none
+    float width = 0.0F; ///< line width in pixels, 0 to 32; 0: no lines
     Color color{};      ///< >= 0
-    /// Degrees, 0 to 180, that surfaces which meet are bent by at least where there is a line
-    /// between them; there is one between two materials, too. 180: there are none where surfaces
-    /// meet, only where one is seen before another.
+    /// Degrees, 0 to 180. Surfaces that meet have a line between them if their materials differ or
+    /// if the angle between their normals exceeds this one. 180: lines only where one surface is in
+    /// front of another.
     float creases = 180.0F;
 };
 
-/// Settings that a scene has for its picture.
+/// Settings of a scene's image.
 struct Settings {
-    int width = 512;  ///< pixels, 1 to 65535; the picture has at most 2^28
+    int width = 512;  ///< pixels, 1 to 65535; the image has at most 2^28 pixels
     int height = 512; ///< pixels, 1 to 65535
-    int grid = 1;     ///< samples per pixel: grid x grid, 1 to 256
+    int grid = 1;     ///< 1 to 256; each pixel has grid x grid samples
     SamplePattern samples = SamplePattern::regular;
-    /// 0, or decibels (PSNR) that the picture is to have against a converged one, 10 to 80: then
-    /// each pixel gets the samples that it needs, and `grid` and `samples` do not count.
+    /// 0, or the PSNR in decibels of the image against a converged one, 10 to 80. Each pixel then
+    /// gets the samples that it needs, and `grid` and `samples` are ignored.
     float quality = 0.0F;
     PixelFilter filter = PixelFilter::box;
-    /// Rays to each light with a size, from each point that a sample sees, 1 to 4096; 0: four if
-    /// pixels have one sample, one otherwise; -1: hard light, which is one ray to the middle of
-    /// each lamp, and a sky that nothing shades.
+    /// Shadow rays to each light with a size, from each visible point of a sample, 1 to 4096. 0:
+    /// four if a pixel has one sample, one otherwise. -1: hard light, that is, one ray to the
+    /// centre of each such light, and an unshadowed sky.
     int light_samples = 0;
     Transfer transfer = Transfer::srgb; ///< for write_image
-    /// The picture has an alpha: where the camera sees the background, past everything or straight
-    /// through surfaces of opacities below 1, it is left out, with the fog before it. Mirrors and
-    /// glass show it, and cover what is behind them.
+    /// True: the image has an alpha channel. It omits the background, and the fog in front of it,
+    /// where the camera sees the background directly or straight through surfaces of opacity below
+    /// 1. Mirrors and glass show the background and are opaque in alpha.
     bool alpha = false;
     int max_depth = 8;         ///< reflections and refractions on one path, 0 to 1000
-    float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]
-    /// Surfaces of opacities below 1 that a path shows, one behind the other, 1 to 1000000; further
-    /// ones are as if they were not there.
+    float min_weight = 0.001F; ///< [0, 1]; a path ends when its largest throughput falls below this
+    /// Surfaces of opacity below 1 that a path shows behind each other, 1 to 1000000. Further ones
+    /// are ignored.
     int max_see_through = 1'000'000;
     Outline outline;
 };

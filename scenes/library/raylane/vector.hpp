@@ -4,7 +4,7 @@
 
 namespace RAYLANE_API raylane {
 
-/// A point, a direction or, as red, green and blue, a colour; of float or double.
+/// A point, a direction or a colour (red, green, blue), in float or double.
 template <class Number>
 struct Vec3Of {
     Number x = 0;
@@ -15,7 +15,7 @@ struct Vec3Of {
 };
 using Vec3 = Vec3Of<float>;
 
-/// Linear RGB; 1 is the picture's white.
+/// Linear RGB; 1 is the image's white.
 using Color = Vec3;
 
 } // namespace raylane
