@@ -8,8 +8,8 @@
 #include <bit>
 #include <type_traits>
 
-/// Between the library's plain structs and core's. Both name their fields alike, so that one list
-/// of them serves both ways.
+/// Conversions between the library's plain structs and those of core. Both have the same field
+/// names, so one list of fields serves both directions.
 namespace raylane::library {
 
 inline void copy(const Vec3& from, core::Vec3f& to) {
@@ -135,7 +135,7 @@ To converted(const From& from) {
     return to;
 }
 
-/// A shape is its numbers, in the same order on both sides.
+/// Converts a shape. Both structs hold the same numbers in the same order.
 template <class CoreShape, class Shape>
 CoreShape core_shape(const Shape& shape) {
     return std::bit_cast<CoreShape>(shape);

@@ -28,7 +28,8 @@ simd::Rendering render_with(const Scene& scene, const core::Settings& settings,
                             const simd::RenderOptions& options) {
     library::require_threads(options.threads);
     if (options.threads == 0)
-        translated([] { static_cast<void>(simd::default_threads()); }); // it is no setting
+        translated(
+            [] { static_cast<void>(simd::default_threads()); }); // throws without "settings/"
     try {
         return simd::render(library::Internals::of(scene), settings, options);
     } catch (const core::InvalidValue& invalid) {
@@ -42,7 +43,7 @@ simd::RenderOptions inner_options(const core::Settings& settings, const RenderOp
     inner.precision = library::core_precision(options.precision);
     inner.layers = options.layers;
     if (const auto& crop = options.crop) {
-        const auto is_within = [](int first, int count, int all) { // without sums that overflow
+        const auto is_within = [](int first, int count, int all) { // no sum, which could overflow
             return first >= 0 && count >= 1 &&
                    count <= std::min(all, core::Settings::max_size) - first;
         };
@@ -107,7 +108,7 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
     const std::int64_t total = std::int64_t{drawn.x1 - drawn.x0} * (drawn.y1 - drawn.y0);
     simd::Progress made;
     std::mutex calling;
-    bool has_ended = false; // by the callback's answer or by what it throws
+    bool has_ended = false; // true once the callback has returned false or thrown
     inner.progress = &made;
     inner.after_tile = [&](const simd::FinishedTile& tile) {
         const std::lock_guard lock(calling);

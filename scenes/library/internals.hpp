@@ -9,7 +9,7 @@
 
 namespace raylane::library {
 
-/// Access to the parts of a Scene, or a Solid, that it hides from its users.
+/// Gives the library access to the private core objects of Scene and Solid.
 struct Internals {
     static Scene scene(std::shared_ptr<const core::Scene> scene) { return Scene(std::move(scene)); }
     static const core::Scene& of(const Scene& scene) { return *scene.scene_; }

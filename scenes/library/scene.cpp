@@ -33,7 +33,8 @@ Scene owning(core::Scene&& scene) {
     return library::Internals::scene(std::make_shared<const core::Scene>(std::move(scene)));
 }
 
-/// To those who read and write, - is no file.
+/// Returns a path that names the file "-", which the readers and writers take for standard input or
+/// output.
 std::filesystem::path file_named(const std::filesystem::path& path) {
     return path == "-" ? "./-" : path;
 }
@@ -96,7 +97,7 @@ Settings Scene::settings() const {
 Scene Scene::seen_by(const Camera& camera) const {
     return translated([&] {
         core::Staging staging = scene_->staging();
-        staging.framing.reset(); // it has its place
+        staging.framing.reset(); // the new camera's position is given
         core::Scene same = core::Scene(*scene_).seen(
             staging, {converted<core::Camera>(camera), scene_->fog(), {}});
         if (staging.any()) {
@@ -214,7 +215,7 @@ std::size_t SceneBuilder::shape_count() const {
 
 Scene SceneBuilder::build() {
     return translated([&] {
-        simd::ParallelWorkers workers; // before anything is taken
+        simd::ParallelWorkers workers; // may throw, so before the builder is emptied
         SceneBuilder taken = std::move(*this);
         core::SceneBuilder& builder = taken.builder();
         library::copy(taken.camera, builder.camera);

@@ -13,7 +13,7 @@ namespace raylane {
 
 namespace {
 
-/// Levels of solids; more would not fit on a thread's stack.
+/// Maximum nesting of solids. Deeper recursion would overflow a thread's stack.
 constexpr int most_depth = 1024;
 
 Solid made(core::Made by, const std::vector<Solid>& parts) {

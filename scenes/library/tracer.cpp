@@ -20,7 +20,8 @@ void require_length(const char* name, std::size_t length, std::size_t count,
                                      " " + of + ", got " + std::to_string(length));
 }
 
-/// The elements of a span that may be left out, or null.
+/// Returns the elements of an optional span, or null if it is empty. Throws InvalidValue if it has
+/// another length than `count`.
 template <class Element>
 Element* optional(const char* name, std::span<Element> span, std::size_t count) {
     if (span.empty()) return nullptr;

@@ -12,8 +12,8 @@
 
 namespace raylane::library {
 
-/// Calls f(), whatever the caller's rounding, and throws the library's own errors in place of those
-/// inside.
+/// Calls f() in the default rounding mode, regardless of the caller's, and converts internal
+/// exceptions to the library's public ones.
 template <class F>
 decltype(auto) translated(const F& f) {
     const simd::DefaultRounding rounding;
@@ -31,9 +31,9 @@ decltype(auto) translated(const F& f) {
     }
 }
 
-/// Throws InvalidValue, field "threads".
+/// Throws InvalidValue, field "threads", unless `threads` is from 0 to simd::max_threads.
 void require_threads(int threads);
-/// Throws InvalidValue if it is no Precision.
+/// Converts the precision. Throws InvalidValue if the value is not an enumerator.
 core::Precision core_precision(Precision precision);
 
 } // namespace raylane::library

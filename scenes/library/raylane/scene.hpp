@@ -124,10 +124,10 @@ class SceneBuilder {
     std::size_t shape_count() const;
 
     /// Checks the scene as a whole, builds the hierarchy and returns the scene. Uses as many
-    /// threads as the environment variable RAYLANE_THREADS says. Throws InvalidValue with the
-    /// fields above, "lights/0/position", ... or "RAYLANE_THREADS". Leaves the builder empty, even
-    /// if it throws, except with the field "RAYLANE_THREADS". A scene without lights shows only
-    /// ambient terms, reflections and refractions.
+    /// threads as the environment variable RAYLANE_THREADS says, or all processors. Throws
+    /// InvalidValue with the fields above, "lights/0/position", ... or "RAYLANE_THREADS". Leaves
+    /// the builder empty, even if it throws, except with the field "RAYLANE_THREADS". A scene
+    /// without lights shows only ambient terms, reflections and refractions.
     Scene build();
 
   private:
