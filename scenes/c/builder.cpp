@@ -10,7 +10,7 @@ using namespace raylane::c;
 
 namespace {
 
-/// Adds shapes that have the same floats in the same order.
+/// Adds shapes. CShape and Shape hold the same floats in the same order.
 template <class Shape, class CShape>
 raylane_status add(raylane_builder* builder, const CShape* shapes, std::size_t count,
                    std::uint32_t material, std::uint32_t* first) noexcept {

@@ -4,7 +4,7 @@
 
 namespace {
 
-thread_local std::string error_text; // NOLINT: what C has for an exception's text
+thread_local std::string error_text; // NOLINT: in place of an exception's text
 
 } // namespace
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <type_traits>
 
-/// What all calls of the interface for C share: handles, errors, and arguments that must be there.
+/// Shared by all calls of the C interface: handles, errors and checks of arguments.
 
 struct raylane_builder {
     raylane::SceneBuilder builder;
@@ -21,10 +21,11 @@ struct raylane_tracer {
 
 namespace raylane::c {
 
-/// Keeps the text. Without the memory for it there is a shorter one.
+/// Stores the text for raylane_error_text() and returns `status`. If memory runs out, the text is
+/// empty.
 raylane_status failed(raylane_status status, const char* text) noexcept;
 
-/// Calls it, and turns what it throws into what C understands.
+/// Runs `call` and converts its exceptions to a status.
 template <class Call>
 raylane_status guarded(const Call& call) noexcept {
     try {
@@ -49,7 +50,7 @@ raylane_status guarded(const Call& call) noexcept {
     }
 }
 
-/// What a pointer points to, which must be there.
+/// Returns the value that a pointer points to. Throws InvalidValue for a null pointer.
 template <class Value>
 Value& checked(const char* name, Value* pointer) {
     if (pointer == nullptr) throw InvalidValue(name, "must not be NULL");
@@ -61,7 +62,8 @@ std::span<Value> span_of(Value* values, std::size_t count) {
     return values == nullptr ? std::span<Value>() : std::span<Value>(values, count);
 }
 
-/// The arrays of rays or hits that must be there: without them there are no rays to speak of.
+/// Returns a required array of rays or hits. Throws InvalidValue for a null pointer, unless `count`
+/// is 0.
 template <class Value>
 std::span<Value> span_of(const char* name, Value* values, std::size_t count) {
     if (count == 0) return {};

@@ -45,7 +45,7 @@ raylane_status raylane_write_image(const char* path, int width, int height, cons
                                    int transfer) {
     return guarded([&] {
         Image image{width, height, {}};
-        // Others are refused by write_image(), before anything is made of them.
+        // write_image() rejects other sizes, so their pixels need no copy.
         const auto is_side = [](int pixels) { return pixels >= 1 && pixels <= 65535; };
         if (is_side(width) && is_side(height)) {
             const std::size_t count =

@@ -9,7 +9,7 @@ using namespace raylane::c;
 
 namespace {
 
-/// A scene that `make` makes, as a handle.
+/// Stores the scene that `make` returns in a new handle.
 template <class Make>
 raylane_status scene_of(raylane_scene** scene, const Make& make) noexcept {
     return guarded([&] {

@@ -4,7 +4,8 @@ namespace raylane::c {
 
 namespace {
 
-/// Enumerators have the same numbers; which are none is for the library to say.
+/// Converts enumerators, which have the same numbers on both sides. The library rejects invalid
+/// ones.
 template <class Enum>
 Enum enum_from(std::uint8_t number) {
     return static_cast<Enum>(number);

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-/// Values of the library as C has them, and back.
+/// Conversions between the values of the C++ library and those of the C interface.
 namespace raylane::c {
 
 inline Vec3 from_c(const raylane_vec3& v) {
@@ -16,7 +16,8 @@ inline raylane_vec3 to_c(const Vec3& v) {
     return {v.x, v.y, v.z};
 }
 
-/// One that C has as an int.
+/// Converts an enumerator from an int. Throws InvalidValue outside of 0 to 255; the library rejects
+/// other invalid ones.
 template <class Enum>
 Enum enum_from_int(const char* name, int number) {
     if (number < 0 || number > 255)
