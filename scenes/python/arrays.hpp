@@ -16,14 +16,14 @@
 #include <utility>
 #include <vector>
 
-/// NumPy's arrays as the library's spans. What lies one after the other in memory is taken as it
-/// lies, all else is copied.
+/// Conversions from NumPy arrays to the library's spans. Contiguous columns are used in place,
+/// other ones are copied.
 namespace raylane::python {
 
 namespace py = pybind11;
 
 /// Throws InvalidValue for an array with masked values (numpy.ma), or a list that contains one.
-/// NumPy's C interface gives these as if they were values.
+/// NumPy's C interface would return masked values as if they were valid.
 inline void refuse_masked(const py::handle& values, const std::string& field) {
     const auto refuse = [&](const py::handle& array) {
         if (!py::hasattr(array, "_mask")) return;
@@ -38,8 +38,8 @@ inline void refuse_masked(const py::handle& values, const std::string& field) {
         if (py::isinstance<py::array>(each)) refuse(each);
 }
 
-/// An array of whatever NumPy makes one of, masked values included. Throws InvalidValue where it
-/// will not.
+/// Converts any object to an array by numpy.asarray, including masked values. Throws InvalidValue
+/// if NumPy refuses the object.
 inline py::array converted(const py::handle& values, const char* field) {
     if (py::isinstance<py::array>(values)) return py::reinterpret_borrow<py::array>(values);
     try {
@@ -50,26 +50,28 @@ inline py::array converted(const py::handle& values, const char* field) {
     }
 }
 
-/// The same without masked values, for which it throws InvalidValue.
+/// Converts any object to an array by numpy.asarray. Throws InvalidValue if NumPy refuses the
+/// object or if it has masked values.
 inline py::array any_array(const py::handle& values, const char* field) {
     refuse_masked(values, field);
     return converted(values, field);
 }
 
-/// True for arrays and scalars of float32, in either order of bytes, and for what is not there.
+/// Returns true for arrays and scalars of float32, in either byte order, and for None.
 inline bool is_float(const py::object& values) {
     if (values.is_none()) return true;
     if (!py::hasattr(values, "dtype")) return false;
     const py::dtype type = converted(values, "").dtype();
     return type.kind() == 'f' && type.itemsize() == sizeof(float);
 }
-/// The same for what is no array, too: a number is taken for one of the others' type.
+/// Returns true also for objects without a dtype: a plain number takes the type of the other
+/// arrays.
 inline bool is_float_or_plain(const py::object& values) {
     return !py::hasattr(values, "dtype") || is_float(values);
 }
 
-/// Values as an array of a type, which they are already or become. Throws InvalidValue where they
-/// are no numbers, or have more digits than doubles.
+/// Returns the values as an array of type Value, converted if necessary. Throws InvalidValue if
+/// they are not numbers, or are floating-point numbers of more than 64 bits.
 template <class Value>
 py::array_t<Value, py::array::forcecast> array_of(const py::handle& values, const char* field) {
     const py::array array = any_array(values, field);
@@ -79,7 +81,8 @@ py::array_t<Value, py::array::forcecast> array_of(const py::handle& values, cons
     return py::array_t<Value, py::array::forcecast>(array);
 }
 
-/// Whole numbers from 0 to `most`, as an array of a type. Throws InvalidValue for others.
+/// Returns whole numbers from 0 to `most` as an array of type Value. Throws InvalidValue for other
+/// numbers.
 template <class Value>
 py::object whole_numbers(const py::handle& values, const char* field, Value most) {
     py::array array = any_array(values, field);
@@ -113,11 +116,11 @@ inline std::string shape_text(const py::array& array) {
     return text + (array.ndim() == 1 ? ",)" : ")");
 }
 
-/// Memory for copies, used again and again.
+/// A reusable buffer for copies. It owns its memory.
 template <class Value>
 class Room {
   public:
-    /// Of so many values, which mean nothing yet.
+    /// Returns memory for `count` uninitialized values.
     Value* of(std::size_t count) {
         if (count > size_) values_ = std::make_unique_for_overwrite<Value[]>(size_ = count);
         return values_.get();
@@ -128,7 +131,7 @@ class Room {
     std::size_t size_ = 0;
 };
 
-/// Values of one column of an array: `count` of them, `stride` bytes apart.
+/// One column of an array: `count` values, `stride` bytes apart.
 template <class Value>
 struct Column {
     const char* data = nullptr;
@@ -145,7 +148,8 @@ struct Column {
         return value;
     }
     std::span<const Value> span() const { return {reinterpret_cast<const Value*>(data), count}; }
-    /// Those from one on, in memory of the caller's if they do not lie one after the other.
+    /// Returns the values from index `from` to `to` - 1. Copies them into `room` if the column is
+    /// not contiguous.
     std::span<const Value> part(std::size_t from, std::size_t to, Room<Value>& room) const {
         if (count == 0) return {};
         if (is_span()) return span().subspan(from, to - from);
@@ -156,13 +160,15 @@ struct Column {
     }
 };
 
-/// Rows of numbers: an array of shape (n, row...), or one row for all of them. The array is kept.
+/// Rows of numbers: an array of shape (n, row...), or a single row that stands for all n. Keeps a
+/// reference to the array.
 template <class Value>
 class Rows {
   public:
     static constexpr std::size_t any = static_cast<std::size_t>(-1);
 
-    /// Throws InvalidValue for another shape, or for another count than is wanted.
+    /// Throws InvalidValue if the array has another shape or, unless `wanted` is `any`, another
+    /// number of rows than `wanted`.
     Rows(const py::handle& values, const std::vector<py::ssize_t>& row, const char* field,
          std::size_t wanted = any)
         : array_(array_of<Value>(values, field)), row_(row) {
@@ -183,7 +189,7 @@ class Rows {
         throw InvalidValue(field, "must have the shape (" + shape + "), got " + shape_text(array_));
     }
     std::size_t count() const { return count_; }
-    /// One of the numbers of all rows.
+    /// Returns the number with index `number` of each row, as a column.
     Column<Value> column(std::size_t number) const {
         py::ssize_t offset = 0;
         for (std::size_t axis = row_.size(); axis-- > 0;) {
@@ -195,8 +201,8 @@ class Rows {
         return {static_cast<const char*>(static_cast<const py::array&>(array_).data()) + offset,
                 is_one_ ? 0 : array_.strides(0), count_};
     }
-    /// Three columns of rows that lie next to each other, from one row on, in memory of the
-    /// caller's.
+    /// Returns the first three columns of the rows from `from` to `to` - 1. Copies them into `room`
+    /// if they are not contiguous.
     std::array<std::span<const Value>, 3> parts(std::size_t from, std::size_t to,
                                                 Room<Value> (&room)[3]) const {
         const Column<Value> x = column(0), y = column(1), z = column(2);
@@ -204,7 +210,7 @@ class Rows {
         if (x.is_span() || !in_rows)
             return {x.part(from, to, room[0]), y.part(from, to, room[1]),
                     z.part(from, to, room[2])};
-        // All three at once, as each would read all that is there.
+        // One pass for all three columns: a pass for each would read the whole rows three times.
         const std::size_t count = to - from;
         Value *const to_x = room[0].of(count), *const to_y = room[1].of(count),
                      *const to_z = room[2].of(count);
@@ -218,7 +224,7 @@ class Rows {
         }
         return {std::span(to_x, count), std::span(to_y, count), std::span(to_z, count)};
     }
-    /// Three of them, from one on, as a vector.
+    /// Returns three consecutive numbers of a row, starting with number `from`, as a vector.
     Vec3Of<Value> vector(std::size_t row, std::size_t from = 0) const {
         return {column(from)[row], column(from + 1)[row], column(from + 2)[row]};
     }
@@ -230,7 +236,7 @@ class Rows {
     std::size_t count_ = 0;
 };
 
-/// A number for each of n, or one for all: a column whose stride may be 0.
+/// n numbers: an array of shape (n,), or a single number for all, with stride 0.
 template <class Value>
 class Values {
   public:
@@ -252,7 +258,7 @@ class Values {
     Column<Value> column_;
 };
 
-/// An array that takes over a vector's memory.
+/// Returns an array that takes over the vector's memory.
 template <class Value>
 py::array_t<Value> array_from(std::vector<Value>&& values) {
     auto* const kept = new std::vector<Value>(std::move(values));
@@ -261,12 +267,13 @@ py::array_t<Value> array_from(std::vector<Value>&& values) {
     return py::array_t<Value>(static_cast<py::ssize_t>(kept->size()), kept->data(), owner);
 }
 
-/// The same of bytes that are 0 or 1.
+/// Returns an array of bool that takes over a vector of bytes, each 0 or 1.
 inline py::array bools_from(std::vector<std::uint8_t>&& values) {
     return array_from(std::move(values)).attr("view")(py::dtype::of<bool>());
 }
 
-/// Signals that Python has got, as Ctrl-C: throws what it makes of them.
+/// Runs Python's handlers of pending signals, such as Ctrl-C. Throws the Python exception that a
+/// handler raises.
 inline void look_for_signals() {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();

@@ -11,12 +11,12 @@ namespace raylane::python {
 
 namespace {
 
-/// A builder that threads may use, one after the other.
+/// A SceneBuilder with a mutex, for use by several Python threads.
 struct SharedBuilder {
     SceneBuilder builder;
     std::mutex mutex;
 
-    /// Calls it without Python's lock.
+    /// Calls call(builder) under the mutex and without Python's lock.
     template <class Call>
     auto change(const Call& call) {
         const py::gil_scoped_release free;
@@ -25,13 +25,15 @@ struct SharedBuilder {
     }
 };
 
-/// How many shapes there are: rows of what has more axes than one of them; 1 without any. Of each,
-/// the axes that one has.
+/// An argument of a function that adds shapes. `axes`: number of axes that a single shape's value
+/// has.
 struct Rowed {
     const py::object& values;
     py::ssize_t axes;
     const char* name;
 };
+/// Returns the number of shapes: the rows of the first argument with more axes than a single
+/// shape's value, or 1 if no argument has more.
 std::size_t count_of(std::initializer_list<Rowed> all) {
     for (const Rowed& each : all)
         if (const py::array array = any_array(each.values, each.name); array.ndim() > each.axes)
@@ -39,14 +41,14 @@ std::size_t count_of(std::initializer_list<Rowed> all) {
     return 1;
 }
 
-/// Ids of what has been added: first, and behind the last.
+/// Ids of added shapes: the first one, and one past the last.
 using Ids = std::pair<ShapeId, std::size_t>;
 py::tuple told(const Ids& ids) {
     return py::make_tuple(ids.first, ids.second);
 }
 
-/// Adds what make(i) makes, and returns the ids: first, and behind the last. Of what is thrown, the
-/// field says which shape it is.
+/// Adds the shapes make(0), ..., make(count - 1) and returns their Ids as a tuple. In an
+/// InvalidValue the field begins with the number of the shape.
 template <class Make>
 py::tuple add_all(SharedBuilder& shared, std::size_t count, const py::object& material,
                   const Make& make) {
@@ -72,13 +74,14 @@ MaterialIndex added(SceneBuilder& builder, const Material& material) {
     try {
         return builder.add_material(material);
     } catch (const InvalidValue& error) {
-        constexpr std::string_view only = "pattern/colors/0"; // a colour without a pattern
+        constexpr std::string_view only =
+            "pattern/colors/0"; // a single colour instead of a pattern
         if (material.pattern.kind != PatternKind::solid || !error.field.starts_with(only)) throw;
         throw InvalidValue("color" + error.field.substr(only.size()), error.expectation);
     }
 }
 
-/// Calls it with float or double, as the arrays have it.
+/// Calls `call` with the type float if all arrays are of float32, otherwise with double.
 template <class Call, class... Arrays>
 py::tuple by_type(const Call& call, const Arrays&... arrays) {
     return (is_float(arrays) && ...) ? call(std::type_identity<float>())
@@ -267,7 +270,7 @@ py::tuple add_quadrics(SharedBuilder& builder, const py::object& centers,
         centers, coefficients, lower, upper);
 }
 
-/// What of a scene is set rather than added.
+/// The values that a builder sets rather than adds: camera, background, fog, settings, wavelengths.
 class Surroundings {
   public:
     Surroundings(const py::object& camera, const py::object& background, const py::object& fog,
@@ -335,7 +338,7 @@ void bind_builder(py::module_& module) {
                  const Surroundings around(camera, background, fog, settings, wavelengths);
                  return builder.change([&](SceneBuilder& whole) { return around.built(whole); });
              });
-    // Throws for what build() would not take, before anything is taken.
+    // Throws the errors of build() for these values, before build() empties the builder.
     module.def("check",
                [](const py::object& camera, const py::object& background, const py::object& fog,
                   const py::object& settings, const py::object& wavelengths) {

@@ -13,8 +13,8 @@ namespace raylane::python {
 
 namespace {
 
-/// A picture under way, drawn by a thread of its own: Python's own thread looks for signals and
-/// calls back meanwhile.
+/// A rendering that runs on a separate thread, which it owns. Meanwhile Python's thread checks for
+/// signals and calls the progress callback.
 class Drawing {
   public:
     Drawing(const Scene& scene, const RenderOptions& options)
@@ -34,13 +34,14 @@ class Drawing {
         std::int64_t pixels = 0, total_pixels = 0;
         bool is_done = false;
     };
-    /// Waits until it is done, a twentieth of a second at most.
+    /// Waits for the end of the rendering, but for at most 50 ms. Returns the state.
     State wait() {
         std::unique_lock lock(mutex_);
         done_.wait_for(lock, std::chrono::milliseconds(50), [&] { return state_.is_done; });
         return state_;
     }
-    /// Once it is done. Throws what came of it.
+    /// Returns the image, or throws the exception of the rendering. To be called once
+    /// State::is_done is true.
     Image take() {
         if (error_) std::rethrow_exception(error_);
         return std::move(*image_);
@@ -69,7 +70,7 @@ class Drawing {
     bool cancelled_ = false;
     std::optional<Image> image_;
     std::exception_ptr error_;
-    std::thread thread_; // last: it uses the others
+    std::thread thread_; // last, because it uses the other members
 };
 
 template <class Value>
@@ -77,7 +78,7 @@ py::array shaped(std::vector<Value>&& values, const std::vector<py::ssize_t>& sh
     return array_from(std::move(values)).reshape(shape);
 }
 
-/// The arrays of a picture; None where there is none.
+/// Returns the arrays of an image by name. `alpha` is None if the image has no alpha.
 py::dict arrays_of(Image&& image) {
     const py::ssize_t height = image.height, width = image.width;
     const auto plane = [&](auto values) -> py::object {
@@ -96,7 +97,8 @@ py::dict arrays_of(Image&& image) {
     return result;
 }
 
-/// Calls it; fields of settings are keywords of render() in Python.
+/// Calls `call`. Removes the prefix "settings/" from the field of an InvalidValue, because settings
+/// are keywords of render() in Python.
 template <class Call>
 auto by_keywords(const Call& call) {
     try {

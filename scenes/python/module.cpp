@@ -6,7 +6,7 @@ namespace raylane::python {
 
 namespace {
 
-/// The library's errors as those of raylane/_errors.py.
+/// Sets the Python exception of raylane/_errors.py that corresponds to a C++ exception.
 void set_error(std::exception_ptr error) {
     const auto errors = [] { return py::module_::import("raylane._errors"); };
     const auto set = [](const py::object& type, const py::tuple& arguments) {

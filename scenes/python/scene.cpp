@@ -9,7 +9,8 @@ namespace raylane::python {
 
 namespace {
 
-/// By reference: the library may copy it, without the lock that counting references takes.
+/// Returns a callback that calls a Python function. It holds the function by reference: the library
+/// may copy the callback without Python's lock, which a change of the reference count would need.
 OnRemark remarks_to(const py::object& on_remark) {
     return [&on_remark](const std::string& text) {
         const py::gil_scoped_acquire lock;
@@ -21,7 +22,7 @@ py::tuple exactly(const Vec3& v) {
     return py::make_tuple(v.x, v.y, v.z);
 }
 
-/// Of one shape, or of an array of them.
+/// Calls `call` for one shape id, or for each of an array of ids. Returns an int or an array.
 template <class Call>
 py::object for_each_shape(const py::object& shapes, const Call& call) {
     constexpr ShapeId most = std::numeric_limits<ShapeId>::max();

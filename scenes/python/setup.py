@@ -1,4 +1,4 @@
-"""Builds what is compiled by CMake, from the whole source. RAYLANE_BUILD names a build that is there already."""
+"""Builds the compiled module by CMake from the whole source tree. RAYLANE_BUILD: folder of an existing build to use."""
 
 import os
 import pathlib

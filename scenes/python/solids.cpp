@@ -6,7 +6,7 @@ namespace raylane::python {
 
 namespace {
 
-/// A vector of doubles, as solids are made of.
+/// Returns three numbers as a vector of doubles, the type of all numbers in solids.
 Vec3Of<double> vector_of(const py::object& values, const char* field) {
     const Rows<double> row(values, {3}, field, 1);
     return row.vector(0);

@@ -12,13 +12,15 @@ namespace raylane::python {
 
 namespace {
 
-/// So many rays are asked before signals are looked for; and so many that do not lie one after the
-/// other are copied at a time, by the thread that asks them then, whose cache holds them.
+/// Numbers of rays: `most_at_once` are traced between two checks for signals. `most_copied` rays
+/// that are not contiguous are copied at a time, by the thread that then traces them from its
+/// cache.
 constexpr std::size_t most_at_once = std::size_t{1} << 20, most_copied = std::size_t{1} << 13;
-/// The same where answers are rows, which are put together.
+/// Number of rays between two checks for signals if the results are rows, which are concatenated.
 constexpr std::size_t most_rows = std::size_t{1} << 18;
 
-/// A tracer, with threads of its own for rays that are copied: each copies those that it asks.
+/// A tracer and a task arena for rays that have to be copied. Each thread of the arena copies the
+/// rays that it traces.
 class SharedTracer {
   public:
     SharedTracer(const Scene& scene, const TracerOptions& options)
@@ -26,7 +28,8 @@ class SharedTracer {
           arena_(threads_of(options.threads)) {}
 
     const Tracer& all() const { return tracer_; }
-    /// For a thread that asks by itself. To be called under Python's lock.
+    /// Returns a tracer of one thread, for calls from threads of the arena. To be called under
+    /// Python's lock.
     const Tracer& alone() {
         if (arena_.max_concurrency() == 1) return tracer_;
         if (!alone_)
@@ -41,7 +44,7 @@ class SharedTracer {
   private:
     static int threads_of(int wanted) {
         const char* const told = std::getenv("RAYLANE_THREADS");
-        if (wanted == 0 && told != nullptr) wanted = std::atoi(told); // the tracer has looked at it
+        if (wanted == 0 && told != nullptr) wanted = std::atoi(told); // validated by the tracer
         const int most = tbb::info::default_concurrency();
         return wanted > 0 ? std::min(wanted, most) : most;
     }
@@ -51,8 +54,8 @@ class SharedTracer {
     tbb::task_arena arena_;
 };
 
-/// Calls call(from, to) for parts of `count` without Python's lock, and looks for signals between
-/// them.
+/// Calls call(from, to) for consecutive parts of 0 to `count`, of at most `most` elements each,
+/// without Python's lock. Checks for signals between the parts.
 template <class Call>
 void in_turn(std::size_t count, std::size_t most, const Call& call) {
     const py::gil_scoped_release free;
@@ -63,7 +66,7 @@ void in_turn(std::size_t count, std::size_t most, const Call& call) {
     }
 }
 
-/// Arrays of rays, in whatever order of memory.
+/// The arrays of n rays, with any strides.
 template <class Real>
 class RayColumns {
   public:
@@ -92,7 +95,7 @@ class RayColumns {
     }
 
     std::size_t count() const { return directions_.count(); }
-    /// True if all of it is spans as it lies.
+    /// Returns true if all columns are contiguous, so that no ray has to be copied.
     bool is_spans() const {
         bool all = true;
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -122,8 +125,8 @@ class RayColumns {
                 .origin_face = faces_.column().part(from, to, room.faces),
                 .origin_inward = inward_.column().part(from, to, room.inward)};
     }
-    /// Calls answer(tracer, rays, from, to) for parts of them, without Python's lock: by several
-    /// threads where rays are copied.
+    /// Calls answer(tracer, rays, from, to) for parts of the rays, without Python's lock. If rays
+    /// have to be copied, several threads call it.
     template <class Answer>
     void share_out(SharedTracer& tracer, const Answer& answer) const {
         const bool copied = !is_spans();
@@ -141,7 +144,7 @@ class RayColumns {
             });
         });
     }
-    /// The same one part after the other, for answers in rows.
+    /// Calls answer(tracer, rays) for one part of the rays after the other, for results in rows.
     template <class Answer>
     void one_by_one(SharedTracer& tracer, const Answer& answer) const {
         Rooms rooms;
@@ -151,7 +154,7 @@ class RayColumns {
     }
 
   private:
-    /// Of rays, by what has a row for each.
+    /// Returns the number of rays: the rows of the origins or directions, or 1.
     static std::size_t count_of(const py::object& origins, const py::object& directions) {
         const py::array o = any_array(origins, "origins"), d = any_array(directions, "directions");
         return static_cast<std::size_t>(o.ndim() > 1 ? o.shape(0) : d.ndim() > 1 ? d.shape(0) : 1);
@@ -163,7 +166,8 @@ class RayColumns {
     Values<std::uint8_t> faces_, inward_;
 };
 
-/// An array of the caller's to write to, whose values lie one after the other. None: not wanted.
+/// Returns the caller's contiguous output array of `count` values as a span, which is empty for
+/// None. Throws InvalidValue for an array of another type, shape or layout.
 template <class Value>
 std::span<Value> out(const py::object& array, std::size_t count, const char* field) {
     if (array.is_none()) return {};
@@ -179,8 +183,8 @@ std::span<Value> out(const py::object& array, std::size_t count, const char* fie
     return {values.mutable_data(), count};
 }
 
-/// As floats if what are arrays are of float32, else as doubles. A number by itself is of the rays'
-/// type.
+/// Calls `call` with the type float if all arrays are of float32, otherwise with double. A plain
+/// number as a limit takes the type of the rays.
 template <class Call>
 auto by_type(const py::object& origins, const py::object& directions, const py::object& t_min,
              const py::object& t_max, const Call& call) {
@@ -189,7 +193,8 @@ auto by_type(const py::object& origins, const py::object& directions, const py::
     return are_floats ? call(std::type_identity<float>()) : call(std::type_identity<double>());
 }
 
-/// What is asked for rays: origins, directions, t_min, t_max, and what they leave.
+/// Calls `answer` with the rays. `rest`: t_min, t_max, and the shapes, faces and sides that the
+/// rays leave, each possibly None.
 template <class Answer>
 auto with_rays(const py::object& origins, const py::object& directions, const py::tuple& rest,
                const Answer& answer) {
@@ -229,7 +234,7 @@ void intersect(SharedTracer& tracer, const py::object& origins, const py::object
     });
 }
 
-/// True if rays are asked as they lie in memory, without a copy.
+/// Returns true if the rays are traced in place, without a copy.
 bool reads_in_place(const py::object& origins, const py::object& directions,
                     const py::tuple& rest) {
     return with_rays(origins, directions, rest, [](const auto& rays) { return rays.is_spans(); });
@@ -246,7 +251,7 @@ void occluded(SharedTracer& tracer, const py::object& origins, const py::object&
     });
 }
 
-/// Rows of parts, one after the other.
+/// Appends the values of a part's rows.
 template <class Value>
 void append(std::vector<Value>& to, std::vector<Value>& part) {
     if (to.empty())
@@ -254,7 +259,7 @@ void append(std::vector<Value>& to, std::vector<Value>& part) {
     else
         to.insert(to.end(), part.begin(), part.end());
 }
-/// The same of where rows begin, which starts with a 0.
+/// Appends the first indices of a part's rows, which start with 0, shifted to follow the others.
 void append_rows(std::vector<std::uint64_t>& first, const std::vector<std::uint64_t>& part) {
     const std::uint64_t before = first.back();
     for (std::size_t i = 1; i < part.size(); ++i)

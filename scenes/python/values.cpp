@@ -55,19 +55,19 @@ struct Names<Precision> {
     static constexpr std::array names = {"fast", "robust", "exact", "double"};
 };
 
-/// Axes of a checker, as "xz": three bits.
+/// Three bits of a checker's axes, as a text such as "xz" in Python.
 struct Axes {
     std::uint8_t& bits;
     int shift;
 };
 
-/// What Python shows of a value, on one line of no great length.
+/// Returns Python's repr() of a value on one line, truncated to about 80 bytes.
 std::string shown(const py::handle& value) {
     constexpr std::size_t most = 80;
     std::string text;
     try {
         text = py::cast<std::string>(py::repr(value));
-    } catch (const std::exception&) { // a whole number of very many digits, for one
+    } catch (const std::exception&) { // such as a whole number of too many digits
         text = "a value of the type " + std::string(Py_TYPE(value.ptr())->tp_name);
     }
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -94,7 +94,8 @@ Enum enum_from(const py::handle& from, const std::string& field) {
     refuse(field, "one of " + all, from);
 }
 
-/// A whole number of Python's or NumPy's within limits, as Python takes one for an index.
+/// Returns a whole number of Python or NumPy that Python accepts as an index. Throws InvalidValue
+/// outside of `least` to `most`.
 template <class Int>
 Int whole_from(const py::handle& from, const std::string& field, Int least, Int most) {
     const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(from.ptr()));
@@ -157,7 +158,7 @@ void take(const py::handle& from, const std::string& field, const Axes& to) {
     }
 }
 
-/// Visits the fields of a value, each by its name in Python.
+/// Calls visit(name in Python, field) for each field of a value.
 template <class Visit, class Of>
 void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Sellmeier> {
     visit("B", of.B);
@@ -221,7 +222,7 @@ void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_
     visit("kind", of.kind);
     visit("colors", of.colors);
     visit("size", of.size);
-    auto& axes = const_cast<std::uint8_t&>(of.axes); // NOLINT: only visited if it is const
+    auto& axes = const_cast<std::uint8_t&>(of.axes); // NOLINT: a const one is only read
     visit("axes", Axes{axes, 0});
     visit("upper_edges", Axes{axes, 3});
     visit("direction", of.direction);
@@ -257,13 +258,14 @@ void take(const py::handle& from, const std::string& field, Color (&to)[2]) {
     py::tuple both;
     try {
         both = py::tuple(py::reinterpret_borrow<py::object>(from));
-    } catch (const py::error_already_set&) { // no sequence: as one of another length
+    } catch (
+        const py::error_already_set&) { // not a sequence: rejected below like one of a wrong length
     }
     if (both.size() != 2) throw InvalidValue(field, "must be two colours");
     take(both[0], field + "/0", to[0]);
     take(both[1], field + "/1", to[1]);
 }
-/// Of a material's colour: one, or a pattern.
+/// Reads a material's colour: a single colour or a pattern.
 void take(const py::handle& from, const std::string& field, Pattern& to) {
     if (py::hasattr(from, "kind"))
         take_fields(from, field + "/", to);
@@ -286,11 +288,12 @@ Value value_from(const py::handle& from) {
     take_fields(from, "", value);
     return value;
 }
-/// The same where it is an argument, or an attribute, of a name.
+/// Reads an argument or attribute called `name`, which also begins the fields in errors. Throws
+/// InvalidValue if the object has none of the fields of `type`.
 template <class Value>
 Value value_from(const py::handle& from, const char* type, const std::string& name) {
     Value value;
-    bool is_other = true; // none of its fields is there
+    bool is_other = true; // true if `from` has no field of Value
     fields([&](const char* of, const auto&) { is_other = is_other && !py::hasattr(from, of); },
            value);
     if (is_other) refuse(name, std::string("a ") + type, from);
@@ -305,7 +308,8 @@ template <class Number>
 requires std::is_arithmetic_v<Number> py::object give(Number number) {
     return py::cast(number);
 }
-/// The shortest of those that become this float: 0.1, where Python would show 0.10000000149011612.
+/// Returns the shortest decimal number that rounds to this float: 0.1, where Python would show
+/// 0.10000000149011612.
 py::object give(float number) {
     char text[32];
     const auto end = std::to_chars(text, text + sizeof text, number).ptr;
@@ -354,10 +358,10 @@ py::object give_fields(const char* name, const Value& value) {
 } // namespace
 
 InvalidValue named_as_in_python(const InvalidValue& error) {
-    // As `fields` name them, in their order: what is within others is behind them.
+    // The fields whose names differ in Python. A field follows the fields inside of it.
     struct Renamed {
         std::string_view from, to;
-        std::string_view word, other; // what the expectation calls a field beside it
+        std::string_view word, other; // another field's name in the expectation
     };
     constexpr Renamed all[] = {
         {"camera/from", "camera/position", "", ""},
@@ -431,7 +435,7 @@ Transfer transfer_from(const py::handle& transfer) {
     return enum_from<Transfer>(transfer, "transfer");
 }
 MaterialIndex one_material(const py::object& index, const char* field) {
-    // The largest stands for none: it is no index.
+    // The largest value means "no material" and is not a valid index.
     constexpr auto most = std::numeric_limits<MaterialIndex>::max() - 1;
     return Values<MaterialIndex>(whole_numbers(index, field, most), 1, field)[0];
 }

@@ -2,13 +2,15 @@
 
 #include "arrays.hpp"
 
-/// Values of a scene, as Python's dataclasses of the same names have them (raylane/_values.py).
+/// Conversions between the values of a scene and Python's dataclasses of the same names
+/// (raylane/_values.py).
 namespace raylane::python {
 
-/// Throws InvalidValue with the field where a value is not of its type.
+/// These functions throw InvalidValue, with the field, if a value has a wrong type.
 Material material_from(const py::handle& material);
 Light light_from(const py::handle& light);
-/// Fields are those of an argument, or an attribute, "fog": "fog/density".
+/// Fields in errors begin with the name of the argument or attribute: "fog/density". So do those of
+/// the camera and the settings.
 Fog fog_from(const py::handle& fog);
 Camera camera_from(const py::handle& camera);
 Settings settings_from(const py::handle& settings);
@@ -22,7 +24,7 @@ Precision precision_from(const py::handle& precision);
 Transfer transfer_from(const py::handle& transfer);
 MaterialIndex one_material(const py::object& index, const char* field = "material");
 
-/// The same error with the names that fields have in Python.
+/// Returns the error with the names of the fields in Python.
 InvalidValue named_as_in_python(const InvalidValue& error);
 
 py::object to_python(const Material& material);
