@@ -1,4 +1,7 @@
-"""python3 -m sphinx -W -b html scenes/python/docs build/pages/python, with PYTHONPATH=build/release/python"""
+"""Sphinx configuration. Run with PYTHONPATH=build/release/python:
+
+python3 -m sphinx -W -b html scenes/python/docs build/pages/python
+"""
 
 import raylane
 

@@ -1,6 +1,6 @@
-"""A crystal whose atoms are ellipsoids of their thermal motion, as crystallographers draw them, and its cell.
+"""Renders a crystal and its cell, with atoms as ellipsoids of thermal motion, as in crystallography.
 
-An atom's displacements have a covariance U; the ellipsoid holds it for half of the time.
+U is the covariance of an atom's displacements. The atom is inside of its ellipsoid half of the time.
 """
 
 import sys
@@ -8,11 +8,11 @@ import sys
 import numpy as np
 import raylane
 
-HALF_OF_THE_TIME = 1.5382  # of a normal distribution in three dimensions
+HALF_OF_THE_TIME = 1.5382  # radius, in standard deviations, of the ball with half of a 3D normal distribution
 
 
 def axes_of(U):
-    """Semi-axes as rows, of ellipsoids of covariances (n, 3, 3)."""
+    """Returns semi-axes as rows, (n, 3, 3), of the ellipsoids of n covariances U, (n, 3, 3)."""
     values, vectors = np.linalg.eigh(U)
     return HALF_OF_THE_TIME * np.sqrt(values)[:, :, None] * np.swapaxes(vectors, 1, 2)
 

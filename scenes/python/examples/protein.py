@@ -1,7 +1,7 @@
-"""A peptide by ASE: drawn as it is, and how much of it a probe could touch.
+"""Renders a peptide and computes its solvent-accessible surface area.
 
-The accessible surface is what of spheres around the atoms, wider by the probe's radius, lies in no other: points
-on them are asked which solids they are in.
+Each atom becomes a sphere whose radius is larger by the probe's radius. The accessible surface is the part of these
+spheres outside of all other spheres. `Tracer.contains` decides for points on the spheres which solids they are in.
 """
 
 import sys
@@ -17,11 +17,11 @@ C 5.661 4.221 -1.232  H 5.123 4.521 -2.131  H 6.630 4.719 -1.206  H 5.809 3.141 
 O 3.601 6.653 0.000  N 5.846 6.835 0.000  H 6.737 6.359 0.000  C 5.846 8.284 0.000  H 4.819 8.648 0.000
 H 6.360 8.648 0.890  H 6.360 8.648 -0.890
 """.split()
-RADII = {"H": 1.2, "C": 1.7, "N": 1.55, "O": 1.52}  # Bondi's
+RADII = {"H": 1.2, "C": 1.7, "N": 1.55, "O": 1.52}  # van der Waals radii in angstrom (Bondi)
 
 
 def sphere_points(count):
-    """Evenly on the unit sphere: a spiral by the golden angle."""
+    """Returns points, (count, 3), evenly distributed on the unit sphere: a spiral by the golden angle."""
     i = np.arange(count) + 0.5
     z = 1 - 2 * i / count
     angle = np.pi * (1 + np.sqrt(5)) * i
@@ -29,7 +29,7 @@ def sphere_points(count):
 
 
 def accessible_areas(centers, radii, points=2000):
-    """Of each sphere, in squared units of length."""
+    """Returns the accessible area of each sphere, in squared units of length. ``points``: samples per sphere."""
     builder = raylane.SceneBuilder()
     builder.add_spheres(centers, radii, material=builder.add_material())
     tracer = raylane.Tracer(builder.build())
@@ -49,7 +49,7 @@ def main(picture="protein.png", size=480):
     print(f"accessible: {areas.sum():.1f} square angstrom")
     for symbol in "CNOH":
         print(f"  {symbol}: {areas[[s == symbol for s in symbols]].sum():.1f}")
-    # Two equal spheres have a closed form, which says what the points are worth.
+    # The areas of two equal spheres have a closed form, which checks the error of the samples.
     pair = accessible_areas(np.array([[0.0, 0, 0], [0, 0, 1.5]]), np.array([1.0, 1.0]), 20_000)
     assert np.allclose(pair, 2 * np.pi * (1 + 0.75), rtol=1e-3)
     assert 300 < areas.sum() < 450

@@ -1,7 +1,7 @@
-"""Rays through a lens: where they meet the axis, against the paraxial focus, and the spot diagram there.
+"""Traces rays through a lens: compares their foci with the paraxial focus, and makes the spot diagram there.
 
-A lens is a solid of exact surfaces. Each ray asks for its next crossing, is refracted by Snell's law, and goes on
-from the surface that it has hit (`Leaving`), so that none is lost and no distance has to be skipped.
+The lens is a solid with exact surfaces. Each ray finds its next crossing, is refracted by Snell's law, and continues
+on the surface that it has hit (`Leaving`). So no ray is lost, and no epsilon is needed.
 """
 
 import sys
@@ -11,14 +11,14 @@ import raylane
 
 
 def refract(directions, normals, ratio):
-    """Unit directions behind surfaces whose normals are unit and against them; ratio: index before by behind."""
+    """Returns refracted unit directions. ``normals``: unit, against the rays. ``ratio``: index before / behind."""
     cosine = -np.einsum("ij,ij->i", directions, normals)
     root = np.sqrt(1 - ratio**2 * (1 - cosine**2))
     return ratio * directions + (ratio * cosine - root)[:, None] * normals
 
 
 def trace(tracer, origins, directions, index):
-    """Rays that have gone through the lens: points on its last surface, and directions from there."""
+    """Traces rays through the lens. Returns their points on the last surface and their directions behind it."""
     leaving = None
     for surface in range(2):
         crossings = tracer.crossings(origins, directions, leaving=leaving, most=1, normals=True)
@@ -32,7 +32,7 @@ def trace(tracer, origins, directions, index):
 
 
 def focal_length(radii, thickness, index):
-    """The paraxial (effective, back) focal length of a thick lens in air."""
+    """Returns the paraxial (effective, back) focal lengths of a thick lens in air."""
     r1, r2 = radii
     power = (index - 1) * (1 / r1 - 1 / r2 + (index - 1) * thickness / (index * r1 * r2))
     return 1 / power, (1 - (index - 1) * thickness / (index * r1)) / power

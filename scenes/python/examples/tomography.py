@@ -1,7 +1,7 @@
-"""Tomography of balls: lengths of rays inside of them against Radon's transform, and the slice made of these.
+"""Tomography of balls: compares the lengths of rays inside with the Radon transform, and reconstructs a slice.
 
-Of a ball of radius r, a ray at distance d from its centre has 2 sqrt(r^2 - d^2) inside. Projections from all
-sides, filtered and laid back over the slice, give the slice again.
+A ray at distance d from the centre of a ball of radius r has the length 2 sqrt(r^2 - d^2) inside. Filtered
+back-projection of the lengths from all angles reconstructs the slice.
 """
 
 import sys
@@ -28,7 +28,7 @@ def main(picture=None, angles=180, width=256):
         for center, radius in BALLS:
             distance = offsets - np.dot(center, across)
             expected[i] += 2 * np.sqrt(np.maximum(radius**2 - distance**2, 0))
-    # The formula cancels where a ray grazes; lengths are right to the last bit.
+    # The formula suffers from cancellation at grazing rays; the traced lengths are within 1 ulp.
     print(f"lengths of {sinogram.size} rays: off by {np.abs(sinogram - expected).max():.1e} at most from Radon's formula")
     assert np.abs(sinogram - expected).max() < 1e-6
 

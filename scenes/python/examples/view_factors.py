@@ -1,6 +1,6 @@
-"""The view factor of one disc from another, by rays, against the closed form.
+"""Computes view factors between two discs by rays and compares them with the closed form.
 
-Of rays that leave the first disc as light does from a diffuse surface, how many arrive at the second.
+The view factor is the fraction of the rays that leave the first disc diffusely and hit the second.
 """
 
 import sys
@@ -10,7 +10,7 @@ import raylane
 
 
 def closed_form(r1, r2, distance):
-    """Coaxial parallel discs: Howell's catalogue of view factors, C-41."""
+    """Returns the view factor of coaxial parallel discs (Howell's catalogue of view factors, C-41)."""
     a, b = r1 / distance, r2 / distance
     x = 1 + (1 + b**2) / a**2
     return 0.5 * (x - np.sqrt(x**2 - 4 * (b / a) ** 2))
@@ -28,7 +28,7 @@ def by_rays(r1, r2, distance, count, between=None, seed=1):
     u = random.random((4, count))
     radius, angle = r1 * np.sqrt(u[0]), 2 * np.pi * u[1]
     sine, around = np.sqrt(u[2]), 2 * np.pi * u[3]
-    # Columns that lie one after the other are read where they are.
+    # Arrays with contiguous columns are read in place, without a copy.
     origins = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(count)]).T
     directions = np.stack([sine * np.cos(around), sine * np.sin(around), np.sqrt(1 - sine**2)]).T
     return np.mean(tracer.intersect(origins, directions).shape == target[0])

@@ -1,4 +1,4 @@
-"""Data-oriented SIMD ray tracing of quadrics, exactly.
+"""Exact ray tracing of quadrics, on arrays of rays and shapes.
 
 >>> import raylane
 >>> scene = raylane.parse('{"camera": "auto", "materials": {"m": {}}, "objects":'

@@ -1,4 +1,4 @@
-"""Atoms of ASE, MDAnalysis and mdtraj, drawn as raylane draws files of atoms."""
+"""Scenes from atoms of ASE, MDAnalysis and mdtraj, in the style of scenes from files of atoms."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from ._errors import InvalidValue
 from ._scene import Scene
 
 
-_MOST = 1e30  # of a coordinate, as of all coordinates of a scene
+_MOST = 1e30  # maximum magnitude of a coordinate, as in all scenes
 
 
 def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[np.float64]:
-    """An array of coordinates, of a shape."""
+    """Returns coordinates as an array of float64. Raises InvalidValue for another shape or invalid numbers."""
     if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         raise InvalidValue(
             field, "must have no masked values: leave them out, or fill them by numpy.ma.filled()"
@@ -32,7 +32,7 @@ def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[n
     if array.shape != shape:
         raise InvalidValue(field, f"must have the shape {shape}, got {array.shape}")
     numbers = array.astype(np.float64)
-    wrong = np.argwhere(~(np.abs(numbers) <= _MOST))  # NaN as well
+    wrong = np.argwhere(~(np.abs(numbers) <= _MOST))  # true for NaN as well
     if len(wrong) > 0:
         row, column = wrong[0].tolist()
         got = float(numbers[row, column])
@@ -41,7 +41,7 @@ def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[n
 
 
 def _symbol(symbol: Any, index: int) -> str:
-    """One that is one word of an XYZ file."""
+    """Returns an element's symbol or number as one word of an XYZ file. Raises InvalidValue for anything else."""
     if isinstance(symbol, Integral) and 0 <= int(symbol) <= 118:
         return str(int(symbol))
     if not isinstance(symbol, str):
@@ -55,12 +55,14 @@ def _symbol(symbol: Any, index: int) -> str:
 def from_atoms(
     symbols: Sequence[Union[str, int]], positions: ArrayLike, cell: Optional[ArrayLike] = None
 ) -> Scene:
-    """Atoms by the symbols or numbers of their elements and positions (n, 3) in angstrom, as an XYZ file is drawn.
+    """Returns a scene of atoms, in the style of a scene from an XYZ file.
 
-    ``cell``: (3, 3), vectors as rows; its edges are drawn, too, unless one of them is zero. Raises
-    :class:`InvalidValue`, fields ``"symbols/0"``, ``"positions/0/2"``, ``"cell/0/2"``, ...
+    ``symbols``: n symbols or numbers (0 to 118) of elements. ``positions``: (n, 3), in angstrom. ``cell``: (3, 3), with
+    the cell's vectors as rows, in angstrom; the scene includes its edges unless a vector is zero. Coordinates are
+    finite, from -1e30 to 1e30. Raises :class:`InvalidValue`, fields ``"symbols/0"``, ``"positions/0/2"``,
+    ``"cell/0/2"``, ...
     """
-    if isinstance(symbols, (str, bytes)):  # of "H2O", 2 would be helium
+    if isinstance(symbols, (str, bytes)):  # the characters of "H2O" would count as elements, 2 as helium
         raise InvalidValue("symbols", f"must be a list of them, got {symbols[:40]!r}")
     words = [_symbol(symbol, index) for index, symbol in enumerate(symbols)]
     if not words:
@@ -81,19 +83,19 @@ def from_atoms(
 
 
 def from_ase(atoms: Any) -> Scene:
-    """Of ``ase.Atoms``, with their cell if they have one."""
+    """Returns a scene of ``ase.Atoms``, with their cell if they have one."""
     cell = np.asarray(atoms.get_cell())
     return from_atoms(atoms.get_chemical_symbols(), atoms.get_positions(), cell if np.any(cell) else None)
 
 
 def _element(name: str) -> str:
-    """Of an atom that only has a name, as "CA" or "1HB": its first letter."""
+    """Returns the element of an atom that has only a name, such as "CA" or "1HB": the first letter."""
     letters = "".join(c for c in name if c.isalpha())
     return letters[:1].upper() or "X"
 
 
 def from_mdanalysis(atoms: Any) -> Scene:
-    """Of MDAnalysis' ``AtomGroup`` or ``Universe``, as they are in its current frame."""
+    """Returns a scene of an ``AtomGroup`` or ``Universe`` of MDAnalysis, in its current frame."""
     group = atoms.atoms
     if hasattr(group, "elements"):
         symbols = [str(e).strip().capitalize() or _element(n) for e, n in zip(group.elements, group.names)]
@@ -103,7 +105,7 @@ def from_mdanalysis(atoms: Any) -> Scene:
 
 
 def from_mdtraj(trajectory: Any, frame: int = 0) -> Scene:
-    """Of a frame of mdtraj's ``Trajectory``, whose nanometres become angstroms."""
+    """Returns a scene of one frame of a ``Trajectory`` of mdtraj. Converts nanometres to angstrom."""
     symbols = [
         atom.element.symbol if atom.element is not None else _element(atom.name) for atom in trajectory.topology.atoms
     ]
@@ -111,7 +113,7 @@ def from_mdtraj(trajectory: Any, frame: int = 0) -> Scene:
 
 
 def frames(trajectory: Any) -> Iterator[Scene]:
-    """Scenes of a trajectory, one after the other: ASE's list of atoms, MDAnalysis' universe or atoms, or mdtraj's."""
+    """Yields a scene for each frame: of mdtraj's trajectory, MDAnalysis' universe or atoms, or ASE's list of atoms."""
     if hasattr(trajectory, "xyz"):
         for frame in range(len(trajectory.xyz)):
             yield from_mdtraj(trajectory, frame)

@@ -1,4 +1,4 @@
-"""What can go wrong. All but ``SystemRefused`` are ``ValueError``."""
+"""Exceptions of the package. All except ``SystemRefused`` are ``ValueError``."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from typing import Any, List, NamedTuple, Tuple
 
 
 class InvalidValue(ValueError):
-    """A value that no scene may hold, or that no function may be called with."""
+    """Raised for an invalid value in a scene or an invalid argument."""
 
     field: str
-    """Which, as ``"3/radius"``; it may be empty."""
+    """Name of the value, such as ``"3/radius"``; may be empty."""
     expectation: str
-    """What it must be."""
+    """The valid values, such as ``"must be positive, got -1"``."""
 
     def __init__(self, field: str, expectation: str) -> None:
         super().__init__(f"{field}: {expectation}" if field else expectation)
@@ -27,15 +27,18 @@ class InputError(NamedTuple):
 
     file: str
     line: int
-    """From 1; 0 where the mistake has no place in the text."""
+    """From 1; 0 if the mistake has no position in the text."""
     column: int
     place: str
-    """The JSON pointer of a value; it may be empty."""
+    """JSON pointer of the value, such as ``"/objects/3/radius"``; may be empty."""
     message: str
 
 
 class BadInput(ValueError):
-    """A file that cannot be meant. The text names the file, the place in it and what was expected there."""
+    """Raised for malformed input, an unknown format or a missing file.
+
+    The message gives the file, the place in it and the expected value. ``errors``: one entry per mistake.
+    """
 
     errors: List[InputError]
 
@@ -48,4 +51,4 @@ class BadInput(ValueError):
 
 
 class SystemRefused(OSError):
-    """The system would not read or write."""
+    """Raised if the system fails to read or write a file."""

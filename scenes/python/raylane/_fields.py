@@ -1,4 +1,4 @@
-"""Objects that have the attributes of their class, and no others."""
+"""Base class of objects that accept only the attributes of their class."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, FrozenSet
 
 
 class Fields:
-    """Refuses an attribute that its class does not have: a misspelled one would be set, and count for nothing.
+    """Raises AttributeError if an attribute that the class does not declare is set.
 
-    Classes that others derive have what they like.
+    Otherwise a misspelled attribute would be set and ignored. Classes that users derive accept any attribute.
     """
 
     _fields_of_class: ClassVar[FrozenSet[str]]
@@ -19,7 +19,7 @@ class Fields:
         names = (name for base in cls.__mro__ for name in getattr(base, "__annotations__", ()))
         cls._fields_of_class = frozenset(name for name in names if not name.startswith("_"))
 
-    if not TYPE_CHECKING:  # to whom it would say that all can be set
+    if not TYPE_CHECKING:  # type checkers would accept any attribute
 
         def __setattr__(self, name: str, value: Any) -> None:
             kind = type(self)

@@ -1,4 +1,4 @@
-"""Pictures."""
+"""Rendering and images."""
 
 from __future__ import annotations
 
@@ -21,35 +21,39 @@ from ._scene import Scene, inner
 from ._values import Camera, Precision, Settings
 
 OnProgress = Callable[[int, int], Optional[bool]]
-"""Called with pixels that are done, and all; what returns False cancels."""
+"""Called with the numbers of finished and of all pixels. Returning False cancels the rendering."""
 
 
 class Cancelled(Exception):
-    """By the callback of :func:`render`."""
+    """Raised by :func:`render` if its callback has returned False."""
 
 
 class Layers:
-    """What the ray through the middle of each pixel sees first."""
+    """AOVs (render outputs): the first visible surface on the ray through the centre of each pixel.
+
+    ``shape``, ``material`` and ``samples`` have the shape (height, width). ``shape`` is ``NO_SHAPE`` and
+    ``material`` is 4294967295 where nothing is hit. ``samples``: number of samples in the pixel's colour.
+    """
 
     def __init__(self, arrays: Any) -> None:
         self.depth: NDArray[np.float32] = arrays["depth"]
-        """(height, width): along the ray, in units of length; infinite where there is nothing."""
+        """(height, width): distance along the ray, in units of length; infinite where nothing is hit."""
         self.normal: NDArray[np.float32] = arrays["normal"]
-        """(height, width, 3): unit, on the side that is seen."""
+        """(height, width, 3): unit shading normal on the visible side; 0 where nothing is hit."""
         self.shape: NDArray[np.uint32] = arrays["shape"]
         self.material: NDArray[np.uint32] = arrays["material"]
         self.samples: NDArray[np.uint32] = arrays["samples"]
 
 
 class Image(Fields):
-    """A picture in linear float RGB. Components are >= 0 and may exceed 1."""
+    """An image in linear float RGB. Components are >= 0 and may exceed 1."""
 
     rgb: NDArray[np.float32]
     """(height, width, 3): rows from the top down."""
     alpha: Optional[NDArray[np.float32]]
-    """(height, width) in [0, 1], which colours are multiplied by; or None."""
+    """(height, width), in [0, 1], or None. The colours are premultiplied by it."""
     layers: Optional[Layers]
-    """If they were asked for."""
+    """The AOVs, or None if :func:`render` was called without ``layers=True``."""
     transfer: str
 
     def __init__(
@@ -73,11 +77,15 @@ class Image(Fields):
         return int(self.rgb.shape[0])
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """.png, .tga, .bmp, .ppm, .hdr or .pfm. The file appears whole or not at all."""
+        """Writes a file in the format of its ending: .png, .tga, .bmp, .ppm, .hdr or .pfm.
+
+        The file appears complete or not at all. Raises :class:`BadInput` for another ending, :class:`InvalidValue` for
+        arrays of wrong shapes, and :class:`SystemRefused`.
+        """
         _raylane.write_image(os.fspath(path), self.rgb, self.alpha, self.transfer)
 
     def to_bytes(self) -> NDArray[np.uint8]:
-        """(height, width, 3), or 4 with an alpha: 8 bits through the transfer curve, as a PNG has them."""
+        """Returns the 8-bit values of a PNG, through the transfer curve: (height, width, 3), or 4 with an alpha."""
         linear, alpha = self.rgb.astype(np.float64), None
         if self.alpha is not None:
             alpha = self.alpha.astype(np.float64)[..., None]
@@ -99,7 +107,10 @@ class Image(Fields):
             return path.read_bytes()
 
     def show(self) -> None:
-        """In a notebook, or else as the desktop shows pictures (``xdg-open``), as long as Python runs."""
+        """Shows the image in a notebook, otherwise in the desktop's viewer (``xdg-open``, or ``open`` on macOS).
+
+        The viewer's file exists until Python ends. Raises RuntimeError without a notebook and a desktop.
+        """
         if "IPython" in sys.modules:
             from IPython import get_ipython
             from IPython.display import display
@@ -121,7 +132,7 @@ class Image(Fields):
 
 
 class _Bar:
-    """tqdm's bar over pixels."""
+    """A progress bar of tqdm that counts pixels."""
 
     def __init__(self, tqdm: Any) -> None:
         self._bar = tqdm(unit=" pixels", unit_scale=True)
@@ -154,12 +165,16 @@ def render(
     progress: Union[bool, OnProgress] = False,
     **changed: Any,
 ) -> Image:
-    """The picture of a scene: the same bits for the same scene and settings, whatever the threads and processor.
+    """Renders the image of a scene. With ``precision="exact"`` the bits depend on the scene and settings alone.
 
-    ``settings`` are the scene's unless they are given; further arguments change them: ``render(scene,
-    width=800, height=600, grid=4)``. ``camera``: another one (:meth:`Scene.seen_by`). ``crop`` is a part of the picture: x, y, width, height. ``progress`` is
-    called with pixels that are done, and all, every now and then; True: tqdm's bar, if that is installed. If it
-    returns False, even at last, :class:`Cancelled` is raised; Ctrl-C stops at once.
+    ``settings``: default is those of the scene. Further arguments change single settings: ``render(scene, width=800,
+    height=600, grid=4)``. ``camera``: replaces the scene's (:meth:`Scene.seen_by`). ``threads``: maximum, 1 to 4096;
+    0 is the value of RAYLANE_THREADS, or all processors. ``crop``: the part of the image to render, as x, y, width,
+    height in pixels. ``layers=True`` adds :class:`Layers`. ``progress``: called from time to time with the numbers of
+    finished and of all pixels; True shows a bar of tqdm, if that is installed.
+
+    Raises :class:`InvalidValue` if an argument is out of range, and :class:`Cancelled` if ``progress`` returns False,
+    even in its last call. Ctrl-C stops the rendering at once. Other Python threads run meanwhile.
     """
     inner(scene)
     chosen = dataclasses.replace(scene.settings if settings is None else settings, **changed)
@@ -178,7 +193,7 @@ def render(
 
 
 def imshow(picture: Union[Scene, Image], ax: Any = None, **options: Any) -> Any:
-    """Shows a picture, or that of a scene, in matplotlib's axes, with its colours as they are."""
+    """Shows an image in matplotlib's axes with unchanged colours. Renders a scene with ``options`` first."""
     if ax is None:
         import matplotlib.pyplot as plt
 

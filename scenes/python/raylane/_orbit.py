@@ -1,4 +1,4 @@
-"""A scene that is turned by sliders in a notebook: the kernel draws, the browser shows."""
+"""Interactive view of a scene in a notebook: the kernel renders, the browser shows the image."""
 
 from __future__ import annotations
 
@@ -13,13 +13,17 @@ from ._values import Camera
 
 
 def turned(camera: Camera, azimuth: float, elevation: float, distance: float = 1.0) -> Camera:
-    """A camera that goes around what it looks at: by degrees about ``up``, by degrees towards it, and nearer."""
+    """Returns a camera that has moved around its point ``at``.
+
+    ``azimuth``: degrees about ``up``. ``elevation``: degrees towards ``up``; the result is limited to -89 to 89.
+    ``distance``: factor of the distance to ``at``.
+    """
     at, up = np.array(camera.at, float), np.array(camera.up, float)
     up /= np.linalg.norm(up)
     away = np.asarray(camera.position, float) - at
     length = np.linalg.norm(away)
     flat = away - (away @ up) * up
-    if np.linalg.norm(flat) < 1e-6 * length:  # it looks along `up`: any side will do
+    if np.linalg.norm(flat) < 1e-6 * length:  # the line of sight is along `up`: any side is suitable
         flat = np.eye(3)[np.argmin(np.abs(up))]
         flat -= (flat @ up) * up
     flat /= np.linalg.norm(flat)
@@ -31,15 +35,15 @@ def turned(camera: Camera, azimuth: float, elevation: float, distance: float = 1
     return dataclasses.replace(
         camera,
         position=(x, y, z),
-        height=camera.height * distance,  # of an orthographic one, for which nearer is larger
+        height=camera.height * distance,  # orthographic: a smaller height magnifies
         focus_distance=camera.focus_distance * distance,
     )
 
 
 def orbit(scene: Scene, width: int = 480, height: int = 360, **settings: Any) -> Any:
-    """Sliders and a picture of a scene, drawn anew as they move. Needs ipywidgets, in a notebook.
+    """Returns a widget with an image of a scene and sliders that move the camera. Requires ipywidgets, in a notebook.
 
-    ``settings`` as :func:`raylane.render` has them.
+    ``settings``: keyword arguments of :func:`raylane.render`.
     """
     import ipywidgets
 

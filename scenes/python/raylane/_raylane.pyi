@@ -1,4 +1,4 @@
-"""What is compiled. Python's modules beside it say what it is for."""
+"""Types of the compiled module. The Python modules of the package document its use."""
 
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 

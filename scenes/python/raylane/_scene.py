@@ -1,4 +1,4 @@
-"""Scenes: read, or built of arrays."""
+"""Scenes, read from files or built from arrays."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ def _warn(remark: str) -> None:
 
 
 class Scene:
-    """A validated scene that never changes. Made by :func:`load`, :func:`parse` or :class:`SceneBuilder`.
+    """A validated, immutable scene. :func:`load`, :func:`parse` and :class:`SceneBuilder` create scenes.
 
-    May be read by any number of threads at a time.
+    Any number of threads may use a scene concurrently.
     """
 
     _scene: _raylane.Scene
@@ -46,7 +46,7 @@ class Scene:
 
     @property
     def bounds(self) -> Tuple[Vector, Vector]:
-        """Of all shapes but planes: lower and upper corner. Without such shapes infinity to -infinity."""
+        """Lower and upper corner of the bounds of all shapes except planes; inf and -inf without such shapes."""
         return self._scene.bounds()
 
     @overload
@@ -54,7 +54,7 @@ class Scene:
     @overload
     def material_of(self, shapes: NDArray[Any]) -> Ids: ...
     def material_of(self, shapes: Any) -> Any:
-        """The material's index of a shape, or of each of an array of shapes."""
+        """Returns the material index of a shape, or an array of them for an array of shapes."""
         return self._scene.material_of(shapes)
 
     @overload
@@ -62,7 +62,10 @@ class Scene:
     @overload
     def solid_of(self, shapes: NDArray[Any]) -> Ids: ...
     def solid_of(self, shapes: Any) -> Any:
-        """The id by which the solid goes that a shape is a part of; of others their own."""
+        """Returns the id of the solid that a shape is a part of: the id of the solid's first part.
+
+        Returns the id of any other shape unchanged. Takes a shape or an array of shapes.
+        """
         return self._scene.solid_of(shapes)
 
     def material(self, index: int) -> Material:
@@ -89,44 +92,49 @@ class Scene:
         return self._scene.background()
 
     def seen_by(self, camera: Camera) -> Scene:
-        """The same shapes, seen by another camera. Takes little memory and time."""
+        """Returns a scene with the same shapes and another camera. Takes little memory and time."""
         return Scene(self._scene.seen_by(camera))
 
     def camera_on_all(self, direction: Vector = (0.0, 0.0, -1.0), aspect: float = 1.0) -> Camera:
-        """A camera that looks in a direction and sees all shapes that have bounds, as large as that may be.
+        """Returns a perspective camera that shows all bounded shapes as large as possible.
 
-        ``aspect``: the picture's width by its height. Raises :class:`InvalidValue` where there are no such shapes,
-        or a camera would have to be beyond 1e30.
+        ``direction``: line of sight, of any length except zero. ``aspect``: the image's width divided by its height,
+        1e-5 to 1e5. Raises :class:`InvalidValue` if an argument is out of range, if the scene has no bounded shapes,
+        or if the camera would have to be beyond 1e30.
         """
         return self._scene.camera_on_all(direction, aspect)
 
     @property
     def settings(self) -> Settings:
-        """Those of its picture: a copy, to change and to give to :func:`render`."""
+        """Settings of the scene's image. They are a copy, which can be changed and passed to :func:`render`."""
         return self._scene.settings()
 
     def render(self, **options: Any) -> Image:
-        """The same as :func:`raylane.render`."""
+        """Renders the scene. Same as :func:`raylane.render`."""
         from ._image import render
 
         return render(self, **options)
 
     def show(self, **options: Any) -> None:
-        """Draws the scene and shows the picture: in a notebook, or else as the desktop shows pictures."""
+        """Renders the scene and shows the image. ``options`` as in :func:`raylane.render`; see :meth:`Image.show`."""
         self.render(**options).show()
 
     def _repr_png_(self) -> bytes:
         return self.render()._repr_png_()
 
     def save(self, path: Union[str, os.PathLike[str]], on_remark: Callable[[str], object] = _warn) -> None:
-        """Writes a file, in the format of its ending.
+        """Writes the scene to a file. The ending, in upper or lower case, decides the format.
 
-        ``.json`` has all of the scene that counts, to the bit, but which triangles make a polygon and, of what goes
-        with a camera, that fog goes with one that has been given its place; ``.rl`` has these, too, and is mapped
-        into memory rather than read, but has no solids that are made of others, and is for versions of raylane with
-        the same format of it; ``.nff`` and ``.pov``, for other programs, have less. What is left out is warned of,
-        or told to ``on_remark``. The file appears whole or not at all. Raises :class:`BadInput` for shapes that the
-        format does not have, and for solids that are nested deeper than is read of it.
+        - ``.json``: everything that is visible of the scene, to the bit. It does not store which triangles form a
+          polygon. If :meth:`seen_by` has replaced an automatic camera, it does not store that the depth-cue fog
+          follows the camera.
+        - ``.rl``: the scene with both of these, as in memory. :func:`load` maps the file instead of parsing it. It
+          cannot hold constructed solids, and only versions of raylane with the same version of this format read it.
+        - ``.nff`` and ``.pov``: for other programs, with less of the scene.
+
+        Calls ``on_remark`` for each feature that the format cannot express; default: a warning. The file appears
+        complete or not at all. Raises :class:`BadInput` for another ending, for shapes that the format does not
+        support, and for solids nested deeper than raylane reads them from that format. Raises :class:`SystemRefused`.
         """
         _raylane.save(self._scene, os.fspath(path), on_remark)
 
@@ -137,9 +145,10 @@ class Scene:
         return self
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        """Pickled as ``.rl``, for versions of raylane with the same format of it, or, with solids, as ``.json``.
+        """Pickles the scene as ``.rl`` or, if it has constructed solids, as ``.json``.
 
-        What that does not have (:meth:`save`), as which triangles make a polygon, is warned of.
+        Only versions of raylane with the same version of the format ``.rl`` read the former. Features that ``.json``
+        cannot express (:meth:`save`), such as which triangles form a polygon, produce warnings.
         """
         with tempfile.TemporaryDirectory() as room:
             try:
@@ -156,14 +165,17 @@ class Scene:
 
 
 def inner(scene: Scene) -> _raylane.Scene:
-    """What is compiled of it."""
+    """Returns the compiled object of a scene. Raises TypeError for any other object."""
     if not isinstance(scene, Scene):
         raise TypeError(f"must be a raylane.Scene, not {type(scene).__name__}")
     return scene._scene
 
 
 class Solid:
-    """A solid that is made of others; the operators ``|``, ``&`` and ``-`` join them, to any depth.
+    """A constructed solid. The operators ``|`` (union), ``&`` (intersection) and ``-`` (difference) combine solids.
+
+    Solids nest up to 1024 levels deep. ``material`` is a material index; None takes the material of the solid or
+    scene object that this solid becomes a part of.
 
     >>> bowl = Solid.sphere((0, 0, 0), 1) - Solid.sphere((0, 0, 0), 0.9) - Solid.half_space((0, 0, 0), (0, -1, 0))
     """
@@ -177,17 +189,17 @@ class Solid:
 
     @staticmethod
     def half_space(point: ArrayLike, normal: ArrayLike, material: Optional[int] = None) -> Solid:
-        """What is behind a plane, whose normal points away from it."""
+        """Returns the half-space behind a plane. The normal points away from the half-space."""
         return Solid(_raylane.half_space_solid(point, normal, material))
 
     @staticmethod
     def box(corner: ArrayLike, edges: ArrayLike, material: Optional[int] = None) -> Solid:
-        """A parallelepiped: a corner, and three edges as rows."""
+        """Returns a parallelepiped. ``edges``: (3, 3), with the edges from the corner as rows."""
         return Solid(_raylane.box_solid(corner, edges, material))
 
     @staticmethod
     def ellipsoid(center: ArrayLike, axes: ArrayLike, material: Optional[int] = None) -> Solid:
-        """Semi-axes are rows."""
+        """Returns an ellipsoid. ``axes``: (3, 3), with the semi-axes as rows."""
         return Solid(_raylane.ellipsoid_solid(center, axes, material))
 
     @staticmethod
@@ -210,18 +222,21 @@ class Solid:
         conics: Tuple[float, float] = (0.0, 0.0),
         material: Optional[int] = None,
     ) -> Solid:
-        """A lens between two surfaces of revolution, in a cylinder of a radius.
+        """Returns a lens: the solid between two surfaces of revolution, inside of a cylinder of the given radius.
 
-        ``radii`` of curvature are positive where the centre is behind the surface, going along the axis; 0: flat.
+        ``vertex``: vertex of the first surface. ``axis``: from there to the second vertex, of any length except zero.
+        ``radii``: radii of curvature, positive if the centre of curvature lies behind the surface in the direction of
+        the axis; 0 is flat. ``thickness``: distance between the vertices. ``conics``: conic constants; 0 is a sphere.
+        Raises :class:`InvalidValue` if the surfaces meet inside of the cylinder or do not reach it.
         """
         return Solid(_raylane.lens_solid(vertex, axis, radii, conics, thickness, radius, material))
 
     def of(self, material: int) -> Solid:
-        """The same of another material."""
+        """Returns this solid with the given material. Parts that have their own material keep it."""
         return Solid(self._solid.of(material))
 
     def clipped(self, *by: Solid) -> Solid:
-        """What of its surface is in all of others: it is left open where it is cut."""
+        """Returns the part of this solid's surface inside of all other solids. The cuts stay open, without faces."""
         return Solid(_raylane.clipped(self._solid, [_made(each) for each in by]))
 
     def __or__(self, other: Solid) -> Solid:
@@ -241,20 +256,20 @@ class Solid:
 
 
 def _made(solid: Solid) -> _raylane.Solid:
-    """What is compiled of it."""
+    """Returns the compiled object of a solid. Raises TypeError for any other object."""
     if not isinstance(solid, Solid):
         raise TypeError(f"must be a raylane.Solid, not {type(solid).__name__}")
     return solid._solid
 
 
 class SceneBuilder(Fields):
-    """Collects a scene, in any order, from arrays, and checks each value as it comes.
+    """Builds a scene from arrays, which are added in any order, and checks each value as it is added.
 
-    Arrays have one row for each shape; a single row is for all of them, and so is a single number. Any strides
-    will do. Arrays of float32 make shapes of floats; all others shapes of doubles, whose numbers count as they
-    are. ``material`` is an index, or an array of one for each. What is added is told as the range of its ids:
-    0, 1, 2, ... in the order in which shapes are added. Of arrays in which a shape is not valid, those before
-    it have been added, and the error's field says which one it is.
+    An array has one row per shape; a single row or number applies to all shapes. Any strides are allowed. If all
+    arrays are float32, the shapes are stored in float, otherwise in double. ``material``: an index, or an array with
+    one index per shape. Methods that add shapes return the range of the new ids: 0, 1, 2, ... in the order in which
+    shapes are added. They raise :class:`InvalidValue` for an invalid shape; its field gives the number of the shape,
+    and the shapes before it have been added. Lengths are in the scene's unit.
 
     >>> import numpy as np
     >>> builder = SceneBuilder()
@@ -265,13 +280,13 @@ class SceneBuilder(Fields):
     """
 
     camera: Optional[Camera]
-    """None: one that sees all from the front, or, where there are planes alone, or shapes that reach too far for
-    one, ``Camera()``."""
+    """None: a camera that shows all shapes from the front, or ``Camera()`` if there are only planes, or if the shapes
+    extend too far for such a camera."""
     background: Vector
     fog: Fog
     settings: Settings
     wavelengths: List[float]
-    """In nanometres, from 380 to 780: a picture is drawn for each, with the index that glass has for it."""
+    """At most 64 wavelengths in nanometres, 380 to 780. Each is rendered with the index of glass at that wavelength."""
 
     def __init__(self) -> None:
         self._renew()
@@ -285,54 +300,58 @@ class SceneBuilder(Fields):
         self.wavelengths = []
 
     def add_material(self, material: Optional[Material] = None, **fields: Any) -> int:
-        """The index by which shapes refer to it. ``add_material(color=...)`` makes a :class:`Material` of fields."""
+        """Adds a :class:`Material`, or ``Material(**fields)``. Returns the index by which shapes refer to it."""
         if material is not None and fields:
             raise TypeError("add_material takes a Material, or fields of one")
         return self._builder.add_material(Material(**fields) if material is None else material)
 
     def add_light(self, light: Optional[Light] = None, **fields: Any) -> None:
-        """A :class:`Light`, or fields of one."""
+        """Adds a :class:`Light`, or ``Light(**fields)``."""
         if light is not None and fields:
             raise TypeError("add_light takes a Light, or fields of one")
         self._builder.add_light(Light(**fields) if light is None else light)
 
     def add_spheres(self, centers: ArrayLike, radii: ArrayLike, *, material: ArrayLike) -> range:
-        """(n, 3), (n,)"""
+        """Adds spheres. ``centers``: (n, 3). ``radii``: (n,), > 0."""
         return range(*self._builder.add_spheres(centers, radii, material))
 
     def add_ellipsoids(self, centers: ArrayLike, axes: ArrayLike, *, material: ArrayLike) -> range:
-        """(n, 3), (n, 3, 3): semi-axes as rows, which need not be perpendicular to each other."""
+        """Adds solid ellipsoids. ``centers``: (n, 3). ``axes``: (n, 3, 3), semi-axes as rows, perpendicular or not."""
         return range(*self._builder.add_ellipsoids(centers, axes, material))
 
     def add_planes(self, points: ArrayLike, normals: ArrayLike, *, material: ArrayLike) -> range:
-        """(n, 3), (n, 3): unbounded."""
+        """Adds unbounded planes. ``points``: (n, 3). ``normals``: (n, 3), of any length except zero."""
         return range(*self._builder.add_planes(points, normals, material))
 
     def add_discs(self, centers: ArrayLike, normals: ArrayLike, radii: ArrayLike, *, material: ArrayLike) -> range:
-        """(n, 3), (n, 3), (n,)"""
+        """Adds discs. ``centers``: (n, 3). ``normals``: (n, 3), of any length except zero. ``radii``: (n,), > 0."""
         return range(*self._builder.add_discs(centers, normals, radii, material))
 
     def add_triangles(
         self, corners: ArrayLike, *, material: ArrayLike, normals: Optional[ArrayLike] = None
     ) -> range:
-        """(n, 3, 3): corners as rows; and as many normals, to shade with, or none."""
+        """Adds triangles. ``corners``: (n, 3, 3), corners as rows. ``normals``: shading normals, (n, 3, 3), or None."""
         return range(*self._builder.add_triangles(corners, normals, material, False))
 
     def add_polygon(self, corners: ArrayLike, *, material: int, normals: Optional[ArrayLike] = None) -> range:
-        """(n, 3, 3): triangles that tile one flat polygon. No reflection or shadow of one falls on another.
+        """Adds triangles that tile one flat polygon. No reflection or shadow of one falls on another.
 
-        If one is not valid, none is added, and the error's field says which one it is.
+        ``corners``: (n, 3, 3), corners as rows. ``normals``: shading normals, (n, 3, 3), or None. If a triangle is
+        invalid, adds none; the field of the :class:`InvalidValue` gives the number of the triangle.
         """
         return range(*self._builder.add_triangles(corners, normals, material, True))
 
     def add_boxes(self, corners: ArrayLike, edges: ArrayLike, *, material: ArrayLike) -> range:
-        """(n, 3), (n, 3, 3): parallelepipeds, with edges as rows."""
+        """Adds solid parallelepipeds. ``corners``: (n, 3). ``edges``: (n, 3, 3), the edges from the corner as rows."""
         return range(*self._builder.add_boxes(corners, edges, material))
 
     def add_cylinders(
         self, bases: ArrayLike, axes: ArrayLike, radii: ArrayLike, *, material: ArrayLike, caps: bool = True
     ) -> range:
-        """(n, 3), (n, 3), (n,): from a base along an axis; solid, or without caps an open surface."""
+        """Adds cylinders from a base along an axis: solids with ``caps``, otherwise open surfaces.
+
+        ``bases``: (n, 3). ``axes``: (n, 3), from the base to the top. ``radii``: (n,), > 0.
+        """
         return range(*self._builder.add_cylinders(bases, axes, radii, material, caps))
 
     def add_cones(
@@ -345,32 +364,41 @@ class SceneBuilder(Fields):
         material: ArrayLike,
         caps: bool = True,
     ) -> range:
-        """(n, 3), (n, 3), (n,), (n,): solid cones and frusta, or without caps open surfaces."""
+        """Adds cones and frusta: solids with ``caps``, otherwise open surfaces.
+
+        ``bases``: (n, 3). ``axes``: (n, 3), from the base to the top. ``base_radii`` and ``top_radii``: (n,), >= 0, not
+        both 0.
+        """
         return range(*self._builder.add_cones(bases, axes, base_radii, top_radii, material, caps))
 
     def add_quadrics(
         self, centers: ArrayLike, coefficients: ArrayLike, lower: ArrayLike, upper: ArrayLike, *, material: ArrayLike
     ) -> range:
-        """(n, 3), (n, 10), (n, 3), (n, 3): Q(p) = 0 for lower <= p <= upper, p = x - center.
+        """Adds quadrics: the surfaces Q(p) = 0 for lower <= p <= upper, p = x - center.
 
-        Coefficients are xx, yy, zz, xy, xz, yz, x, y, z, one, of
+        ``centers``, ``lower`` and ``upper``: (n, 3). ``coefficients``: (n, 10), in the order xx, yy, zz, xy, xz, yz,
+        x, y, z, one, of
         Q = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz) + 2 (x px + y py + z pz) + one.
         """
         return range(*self._builder.add_quadrics(centers, coefficients, lower, upper, material))
 
     def add_solid(self, solid: Solid, *, material: int) -> range:
-        """A solid of others: the ids of its parts. It goes by the first; ``material`` is of what has none."""
+        """Adds a constructed solid. Returns the ids of its parts; the first one is also the id of the solid.
+
+        ``material`` applies to parts without a material, and to the inside of the solid if that has none.
+        """
         return range(*self._builder.add_solid(_made(solid), material))
 
     def __len__(self) -> int:
         return self._builder.shape_count()
 
     def build(self) -> Scene:
-        """Checks the whole, and hands the scene over. The builder is new then.
+        """Checks the scene as a whole and returns it. Leaves the builder empty.
 
-        Where an attribute is not what it may be, :class:`InvalidValue` names it, and the builder keeps what it has;
-        not so where it is by its shapes and lights that the whole is refused, as for a light on a surface. Shapes
-        that reach so far that a camera on all would be beyond 1e30 are warned of, and seen by ``Camera()``.
+        Raises :class:`InvalidValue` for an invalid attribute; the builder then keeps its contents. Raises
+        :class:`InvalidValue` also for shapes and lights that do not fit together, such as a light on a surface; the
+        builder is then empty. If ``camera`` is None and a camera that shows all shapes would have to be beyond 1e30,
+        warns and uses ``Camera()``.
         """
         builder, camera, settings = self._builder, self.camera, self.settings
         others = (self.background, self.fog, settings, self.wavelengths)
@@ -387,20 +415,21 @@ class SceneBuilder(Fields):
             return scene
 
 
-# What a file says and the scene does not have.
+# The default on_remark issues a warning for each part of a file that raylane ignores.
 def load(path: Union[str, os.PathLike[str]], on_remark: Callable[[str], object] = _warn) -> Scene:
-    """Reads a scene: JSON, NFF, POV-Ray's language, Tachyon's, what ``raylane build`` or :meth:`Scene.save` has made; or atoms.
+    """Reads a scene from a file in JSON, NFF, the languages of POV-Ray or Tachyon, or ``.rl``, or from a file of atoms.
 
-    The format follows the file's ending or else its content; ``"-"`` is a file of that name. Raises
-    :class:`BadInput` for a file that is malformed, in JSON with up to ten of its mistakes, or not there, and
-    :class:`SystemRefused`. What a file says and the scene does not have is warned of, or told to
-    ``on_remark``.
+    The file's ending decides the format, or its content if the ending is unknown. ``"-"`` is a file of that name.
+    Calls ``on_remark`` for each part of the file that raylane ignores; default: a warning. Raises :class:`BadInput`
+    for a malformed or missing file, in JSON with up to ten mistakes, and :class:`SystemRefused`.
     """
     return Scene(_raylane.load(os.fspath(path), on_remark))
 
 
 def parse(text: Union[str, bytes], name: str = "scene", on_remark: Callable[[str], object] = _warn) -> Scene:
-    """The same for a scene in memory. ``name`` is what messages call it; the format follows its ending."""
+    """Reads a scene from memory, as :func:`load` does. ``name`` stands for the file's name in messages and in the
+    choice of the format.
+    """
     if not isinstance(text, (str, bytes, bytearray, memoryview)):
         raise TypeError(f"text must be a str or bytes, not {type(text).__name__}")
     if not isinstance(name, str):

@@ -1,4 +1,4 @@
-"""Rays that are asked about a scene."""
+"""Ray and point queries about a scene."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._scene import Scene, inner
 from ._values import Precision
 
 NO_SHAPE: int = _raylane.NO_SHAPE
-"""The id that no shape has: what a ray that hits nothing has hit."""
+"""The id of no shape: the result for a ray that hits nothing."""
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]
@@ -26,18 +26,18 @@ Firsts = NDArray[np.uint64]
 
 
 class Hits(Fields):
-    """What n rays have hit first. To be filled again and again, it may be given to :meth:`Tracer.intersect`."""
+    """The nearest hits of n rays. Pass it as ``out`` to :meth:`Tracer.intersect` to reuse its arrays."""
 
     t: Floats
-    """(n,): > 0 and finite, the float nearest to the true one; infinite where nothing is hit."""
+    """(n,): > 0 and finite, the float nearest to the true t; infinite where nothing is hit."""
     shape: Ids
-    """(n,): ids, or ``NO_SHAPE``."""
+    """(n,): ids of shapes, or ``NO_SHAPE`` where nothing is hit."""
     entering: Bools
-    """(n,): whether the ray goes from the outside to the inside."""
+    """(n,): true if the ray goes from the outside (front) to the inside (back), or only touches the surface."""
     face: Bytes
-    """(n,): the part of the shape's surface, for rays that go on from there."""
+    """(n,): the part of the shape's surface, for :class:`Leaving`."""
     t_double: Optional[Doubles]
-    """(n,): t in double, if it is wanted, which takes longer than all others together."""
+    """(n,): t in double, or None if not wanted. It takes longer to compute than all other values together."""
 
     def __init__(self, count: int, double: bool = False) -> None:
         self.t = np.empty(count, np.float32)
@@ -49,12 +49,12 @@ class Hits(Fields):
 
     @property
     def normal(self) -> Floats:
-        """(n, 3): of unit length, on the surface's outside, whichever side is hit; 0 where nothing is."""
+        """(n, 3): unit normal on the outside of the surface, also if the ray hits the back; 0 where nothing is hit."""
         return self._normal.T
 
     @property
     def hit(self) -> Bools:
-        """(n,): whether anything is hit."""
+        """(n,): true where the ray hits a shape."""
         return np.not_equal(self.shape, NO_SHAPE)
 
     def __len__(self) -> int:
@@ -69,16 +69,16 @@ class Hits(Fields):
 
 
 class _Rows:
-    """Rows of different lengths, one after the other: those of i are from ``first[i]`` up to ``first[i + 1]``."""
+    """Rows of different lengths, concatenated. Row i has the elements ``first[i]`` to ``first[i + 1] - 1``."""
 
     first: Firsts
 
     def counts(self) -> NDArray[np.int64]:
-        """(n,): how many each has."""
+        """Returns the number of elements of each row: (n,)."""
         return np.diff(self.first.astype(np.int64))
 
     def of(self) -> NDArray[np.int64]:
-        """Of each entry, the number of what it belongs to."""
+        """Returns the row index of each element: (m,)."""
         return np.repeat(np.arange(len(self.first) - 1), self.counts())
 
     def __len__(self) -> int:
@@ -90,53 +90,58 @@ class _Rows:
 
 @dataclass(repr=False, eq=False)
 class Crossings(_Rows):
-    """All crossings of n rays, by ray and then in their order."""
+    """All m crossings of n rays: a row for each ray, in the order along the ray.
+
+    All arrays except ``first`` have the shape (m,) or (m, 3). ``t`` is > 0 and finite.
+    """
 
     first: Firsts
-    """(n + 1,)"""
+    """(n + 1,): index of the first crossing of each ray."""
     t: Doubles
     shape: Ids
     entering: Bools
     face: Bytes
     tied: Bools
-    """Whether it is at the same t as the one before it, as real arithmetic has it."""
+    """True if the crossing is at the same t, in real arithmetic, as the crossing before it in the row."""
     touching: Bools
-    """Whether the shape is entered and left at the same t."""
+    """True if the ray enters and leaves the shape at the same t, as a tangent does."""
     normal: Optional[Floats] = None
-    """(m, 3), if they are wanted."""
+    """(m, 3): normals as in :class:`Hits`, or None if not wanted."""
 
 
 @dataclass(repr=False, eq=False)
 class Solids(_Rows):
-    """Solids that n points are in, by point and then by id."""
+    """The solids that contain each of n points: a row for each point, in the order of the ids."""
 
     first: Firsts
     shape: Ids
     on_surface: Bools
-    """Whether the point is exactly on the solid's surface."""
+    """True if the point is exactly on the solid's surface."""
 
 
 @dataclass(repr=False, eq=False)
 class Lengths(_Rows):
-    """Lengths of n rays inside of materials, by ray and then by material."""
+    """Lengths of n rays inside of materials: a row for each ray, in the order of the materials."""
 
     first: Firsts
     material: Ids
     length: Doubles
-    """In the scene's unit, within an ulp of the true one; infinite for what has no end."""
+    """> 0, in the scene's unit, within 1 ulp of the true length; infinite if the inside has no end."""
 
     def total(self, material: Optional[int] = None) -> Doubles:
-        """(n,): of each ray, in all materials or in one."""
+        """Returns the length of each ray in all materials together, or in one material: (n,)."""
         which = self.length if material is None else np.where(self.material == material, self.length, 0.0)
         return np.bincount(self.of(), which, len(self)).astype(np.float64)
 
 
 @dataclass(eq=False)
 class Leaving(Fields):
-    """What rays leave, exactly: they start on the surface that a hit was on, however their numbers were rounded.
+    """The surfaces that rays start on, from the hits that they continue.
 
-    ``inward`` says whether a ray goes to the inside of what it leaves: where it goes through and the hit was
-    entering, or is thrown back and it was not.
+    Such a ray starts exactly on the surface, regardless of the rounding of its origin. ``shape`` and ``face``: those of
+    the hit, (n,) or one value for all rays; ``NO_SHAPE`` for a ray that starts on no surface. ``inward``: true if the
+    ray continues on the inside of that surface, that is, it is transmitted after an entering hit, or reflected after
+    one that is not entering.
     """
 
     shape: ArrayLike
@@ -145,18 +150,21 @@ class Leaving(Fields):
 
 
 class Tracer:
-    """Asks rays about a scene.
+    """Answers ray and point queries about a scene.
 
-    Rays are ``origins`` and ``directions`` of shape (n, 3), or one of either for all; directions may have any
-    length but zero, and t counts in units of that length. Components are 0 or of magnitude from 2^-149 to below
-    2^128, those of a direction beside its largest 0 or down to 2^-276 of that: a ray with others hits nothing. If all
-    arrays, those of ``t_min`` and ``t_max`` included, are float32, rays are asked as floats, else as doubles, each for
-    exactly what it is. Arrays whose columns lie one after the other in memory (``np.empty((3, n)).T``, or Fortran's order) are read where they
-    are; others are copied in parts, and those of another type first converted. ``t_min`` and ``t_max`` are (n,),
-    or numbers, which are taken for ones of the rays' type.
+    ``origins`` and ``directions`` have the shape (n, 3), or (3,) for all rays. Directions may have any length except
+    zero; t is in units of that length. ``t_min`` and ``t_max`` have the shape (n,), or are numbers for all rays.
+    Components are 0 or have a magnitude from 2^-149 to below 2^128. The smaller components of a direction may be as
+    small as 2^-276 of its largest. A ray with other values, such as NaN, hits nothing.
 
-    With ``precision="exact"`` all that is answered is what real arithmetic gives for the numbers given. The
-    interpreter's lock is free meanwhile: any number of threads may ask one tracer.
+    If all arrays, including ``t_min`` and ``t_max``, are float32, the rays are traced as float rays, otherwise as
+    double rays, with exactly the given numbers. A plain number as a limit takes the type of the rays. Arrays with
+    contiguous columns (``np.empty((3, n)).T`` or Fortran order) are read in place. Other arrays are copied in parts,
+    and arrays of another type are converted first.
+
+    With ``precision="exact"`` every result is the one that real arithmetic gives for exactly the given numbers. Calls
+    release the interpreter's lock, and any number of threads may use one tracer concurrently. Methods raise
+    :class:`InvalidValue` for arrays of a wrong shape or type.
 
     >>> from raylane import parse
     >>> scene = parse('{"camera": "auto", "materials": {"m": {}}, "objects":'
@@ -167,7 +175,7 @@ class Tracer:
     """
 
     def __init__(self, scene: Scene, threads: int = 0, precision: Precision = "exact") -> None:
-        """threads: at most, 1 to 4096; 0: as RAYLANE_THREADS says, or all of the machine."""
+        """Prepares a scene. ``threads``: maximum, 1 to 4096; 0: the value of RAYLANE_THREADS, or all processors."""
         self.scene = scene
         self._tracer = _raylane.Tracer(inner(scene), threads, precision)
 
@@ -190,7 +198,10 @@ class Tracer:
         double: bool = False,
         out: Optional[Hits] = None,
     ) -> Hits:
-        """The nearest crossing of each ray with t_min < t <= t_max."""
+        """Returns the nearest crossing of each ray with t_min < t <= t_max.
+
+        ``double=True`` also computes ``t_double``. ``out``: the :class:`Hits` of n rays to fill and return.
+        """
         if out is None:
             out = Hits(_count(origins, directions), double)
         elif not isinstance(out, Hits):
@@ -210,7 +221,10 @@ class Tracer:
         leaving: Optional[Leaving] = None,
         out: Optional[Bools] = None,
     ) -> Bools:
-        """(n,): whether a ray has any crossing within its limits."""
+        """Returns an array of bool, (n,): true where a ray has a crossing with t_min < t <= t_max.
+
+        ``out``: a contiguous array of bool, (n,), to fill and return.
+        """
         if out is None:
             out = np.empty(_count(origins, directions), np.bool_)
         elif not isinstance(out, np.ndarray) or out.dtype != np.bool_ or not out.flags.c_contiguous:
@@ -230,7 +244,7 @@ class Tracer:
         most: int = 0,
         normals: bool = False,
     ) -> Crossings:
-        """All crossings of each ray in the order of their true t, or the first ``most`` of them. Always exact."""
+        """Returns all crossings of each ray, or the first ``most``, in the order of their true t. Always exact."""
         rest = self._rest(t_min, t_max, leaving)
         return Crossings(**self._tracer.crossings(origins, directions, rest, most, normals))
 
@@ -242,16 +256,16 @@ class Tracer:
         t_min: Optional[ArrayLike] = None,
         t_max: Optional[ArrayLike] = None,
     ) -> Lengths:
-        """How much of each ray is inside of the solids of each material. Always exact, up to the last rounding."""
+        """Returns the length of each ray inside of the solids of each material. Exact up to the final rounding."""
         return Lengths(**self._tracer.path_lengths(origins, directions, self._rest(t_min, t_max, None)))
 
     def contains(self, points: ArrayLike) -> Solids:
-        """The solids that each point is in, or on the surface of. Always exact."""
+        """Returns the solids that contain each point inside or on the surface. ``points``: (n, 3). Always exact."""
         return Solids(**self._tracer.contains(points))
 
 
 def _count(origins: ArrayLike, directions: ArrayLike) -> int:
-    """Of rays. What is no array of them is refused where they are read."""
+    """Returns the number of rays. The compiled module checks the arrays themselves."""
     for rays in (origins, directions):
         shape: Tuple[int, ...] = getattr(rays, "shape", None) or _shape(rays)
         if len(shape) > 1:

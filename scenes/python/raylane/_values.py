@@ -1,4 +1,4 @@
-"""What a scene is made of besides its shapes. Each is a dataclass of plain numbers."""
+"""Dataclasses for the contents of a scene besides its shapes."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Literal, Tuple, Union
 from ._fields import Fields
 
 Vector = Tuple[float, float, float]
-"""A point, a direction or, as red, green and blue, a colour: any three numbers."""
+"""A point, a direction or a colour (red, green, blue): any three numbers."""
 
 Precision = Literal["fast", "robust", "exact", "double"]
-"""How the hits of rays are found. ``"exact"`` decides as real arithmetic does for the numbers given, and is
-hardly slower than ``"robust"``; the others are there to compare with."""
+"""Method by which hits are found. ``"exact"`` decides as real arithmetic does for the given numbers, and is hardly
+slower than ``"robust"``. The other methods serve comparisons."""
 
 _WHITE: Vector = (1.0, 1.0, 1.0)
 _BLACK: Vector = (0.0, 0.0, 0.0)
@@ -25,22 +25,25 @@ class Pattern(Fields):
 
     kind: Literal["solid", "checker", "stripes", "gradient", "back_plane"] = "solid"
     colors: Tuple[Vector, Vector] = (_WHITE, _WHITE)
-    """solid: the first. checker, stripes: alternating. gradient: at ``start`` and at ``end``. Linear RGB, >= 0."""
+    """Linear RGB, >= 0. solid: the first only. checker, stripes: alternating. gradient: at ``start`` and at ``end``."""
     size: float = 1.0
-    """checker: the cells' edge; stripes: their width. In units of length, > 0."""
+    """checker: edge length of a cell; stripes: width of a band. In units of length, > 0."""
     axes: str = "xz"
-    """checker: which axes count."""
+    """checker: the axes along which the colour alternates, one or more of x, y and z."""
     direction: Vector = (1.0, 0.0, 0.0)
-    """stripes: across the bands, of any length but zero."""
+    """stripes: direction across the bands, of any length except zero."""
     start: Vector = _BLACK
     end: Vector = (0.0, 1.0, 0.0)
     upper_edges: str = ""
-    """checker: along which axes cells hold their upper edge, not the lower one."""
+    """checker: the axes along which a cell contains its upper edge instead of its lower one."""
 
 
 @dataclass
 class Sellmeier(Fields):
-    """Glass by Sellmeier's formula: n^2 = 1 + sum of B_i w^2 / (w^2 - C_i), wavelengths w in micrometres."""
+    """Index of refraction of glass by Sellmeier's formula: n^2 = 1 + sum of B_i w^2 / (w^2 - C_i).
+
+    The wavelength w is in micrometres, C in square micrometres.
+    """
 
     B: Vector = _BLACK
     C: Vector = _BLACK
@@ -48,61 +51,73 @@ class Sellmeier(Fields):
 
 @dataclass
 class Material(Fields):
-    """How a surface looks.
+    """Optical properties of a surface.
 
-    With light *l* of colour L, the unit vectors n (normal), l (to the light) and h (halfway between l and the
-    viewer), S what of the light the shadow lets through, and R the reflected fraction, what is seen is
+    A ray that hits the surface shows the colour
     ``color ambient + sum of S L (color diffuse max(n.l, 0) + specular max(n.h, 0)^exponent)
     + R (colour reflected) + (1 - R) transmission (colour transmitted)``.
+    The sum is over all lights. The unit vectors are n (normal), l (to the light) and h (halfway between l and the
+    direction to the viewer). L is the colour of the light, S the fraction of it that reaches the point, and R the
+    reflected fraction. ``ambient``, ``diffuse``, ``specular`` and ``exponent`` are >= 0.
     """
 
     color: Union[Vector, Pattern] = _WHITE
-    """Linear RGB, >= 0, or a pattern."""
+    """Linear RGB, >= 0, or a :class:`Pattern`."""
     ambient: float = 0.1
     diffuse: float = 0.8
     specular: float = 0.0
     exponent: float = 32.0
     reflection: Literal["constant", "schlick", "dielectric"] = "constant"
-    """``reflectivity``, Schlick's approximation or Fresnel's equations, these two from ``index``."""
+    """constant: ``reflectivity``. schlick: Schlick's approximation from ``index``. dielectric: Fresnel's equations from
+    ``index``."""
     reflectivity: float = 0.0
     """0 to 1."""
     transmission: float = 0.0
-    """0 to 1, for each surface that is crossed; 0 is opaque."""
+    """0 to 1, per crossed surface; 0 is opaque."""
     index: float = 1.5
-    """Of refraction, > 0; what surrounds the scene has 1."""
+    """Index of refraction, > 0; outside of all shapes it is 1."""
     glass: Sellmeier = field(default_factory=Sellmeier)
-    """If it has any B: in place of ``index``."""
+    """Replaces ``index`` if any B is nonzero."""
     absorption: Vector = _BLACK
-    """For each unit of length inside, >= 0: exp(-absorption * length) is left."""
+    """Per unit of length inside, >= 0: the fraction exp(-absorption * length) of the light remains."""
     visible: Literal["both", "outside", "inside"] = "both"
-    """Sides from which the surface can be seen."""
+    """Sides from which the surface is visible. Rays pass through the other side without a hit."""
     opacity: float = 1.0
-    """0 to 1: the share of what is seen that the surface is."""
+    """0 to 1: weight of the surface's colour. The scene straight behind the surface has the weight 1 - opacity."""
 
 
 @dataclass
 class Light(Fields):
-    """A light, which casts shadows and is not seen itself."""
+    """A light source. It casts shadows and is invisible itself.
+
+    ``radius``: of a sphere or disc, > 0, in units of length. ``edge_u`` and ``edge_v``: perpendicular edges of a
+    rectangle. Directions may have any length except zero.
+    """
 
     kind: Literal["point", "directional", "sky", "sphere", "disc", "rectangle"] = "point"
     position: Vector = _BLACK
-    """point: where it is; sphere, disc: its middle; rectangle: a corner."""
+    """point: its position, not on a surface; sphere, disc: centre; rectangle: corner."""
     direction: Vector = (0.0, -1.0, 0.0)
-    """directional: where the light travels to; sky: the same from the zenith; disc: its normal."""
+    """directional: direction in which the light travels; sky: direction in which the zenith's light travels; disc:
+    normal."""
     color: Vector = _WHITE
-    """>= 0. Of lights with a size: the radiance. sky: that of the zenith."""
+    """>= 0. Lights with a size: the radiance. sky: the colour of the zenith."""
     radius: float = 1.0
     edge_u: Vector = (1.0, 0.0, 0.0)
     edge_v: Vector = (0.0, 0.0, 1.0)
     ground: Vector = _WHITE
-    """sky: the colour of the nadir."""
+    """sky: colour of the nadir, >= 0."""
     reach: float = math.inf
-    """sky: what is farther away than that does not shade a surface from it."""
+    """sky: > 0, in units of length. Shapes farther than this from a surface do not shade it."""
 
 
 @dataclass
 class Fog(Fields):
-    """Fog of a fraction f: what is seen is (1 - f) times its colour and f times that of the fog."""
+    """Fog with a fraction f, 0 to 1: a ray segment shows (1 - f) * colour + f * fog colour.
+
+    linear_z: f is linear in world z, 0 at ``start`` and 1 at ``end``. linear: the same in the distance along the ray,
+    0 <= start < end. exponential: f = 1 - exp(-density * distance), density > 0.
+    """
 
     kind: Literal["none", "linear_z", "linear", "exponential"] = "none"
     color: Vector = _WHITE
@@ -113,51 +128,61 @@ class Fog(Fields):
 
 @dataclass
 class Camera(Fields):
-    """Where a picture is seen from."""
+    """A camera. ``up`` is not along the line of sight."""
 
     projection: Literal["perspective", "orthographic"] = "perspective"
     position: Vector = (0.0, 0.0, 5.0)
     at: Vector = _BLACK
-    """What the middle of the picture shows."""
+    """Point at the centre of the image; differs from ``position``."""
     up: Vector = (0.0, 1.0, 0.0)
     field_of_view: float = 45.0
-    """perspective: degrees from the picture's lower to its upper edge."""
+    """perspective: degrees from the image's lower to its upper edge, between 0 and 180."""
     height: float = 2.0
-    """orthographic: of the picture, in units of length."""
+    """orthographic: height of the image, > 0, in units of length."""
     lens_radius: float = 0.0
-    """Of a thin lens that blurs what is not in focus; 0: a pinhole."""
+    """Radius of the thin lens, >= 0, in units of length. 0: a pinhole, without depth of field."""
     focus_distance: float = 0.0
-    """From the lens to the plane that is sharp; 0: it goes through ``at``."""
+    """Distance from the lens to the plane of focus, >= 0, in units of length. 0: that plane goes through ``at``."""
 
 
 @dataclass
 class Outline(Fields):
-    """Lines along the edges of what the camera sees first."""
+    """Lines over the image, along the edges of the first visible surfaces."""
 
     width: float = 0.0
-    """Pixels, at most 32; 0: none."""
+    """Line width in pixels, 0 to 32; 0: no lines."""
     color: Vector = _BLACK
     creases: float = 180.0
-    """Degrees that surfaces are bent by at least where there is a line between them."""
+    """Degrees, 0 to 180. Surfaces that meet have a line between them if their materials differ or if the angle between
+    their normals exceeds this one. 180: lines only where one surface is in front of another."""
 
 
 @dataclass
 class Settings(Fields):
-    """Of a scene's picture."""
+    """Settings of a scene's image.
+
+    ``width`` and ``height``: pixels, 1 to 65535, at most 2^28 pixels in all. ``samples``: regular is the centre of each
+    cell of the grid, stratified a point in each cell. ``max_depth``: reflections and refractions on one path, 0 to
+    1000. ``min_weight``: 0 to 1; a path ends when its largest throughput falls below it. ``max_see_through``: surfaces
+    of opacity below 1 that a path shows behind each other, 1 to 1000000.
+    """
 
     width: int = 512
     height: int = 512
     grid: int = 1
-    """Samples of a pixel: grid x grid, 1 to 256."""
+    """1 to 256; each pixel has grid x grid samples."""
     samples: Literal["regular", "stratified"] = "regular"
     quality: float = 0.0
-    """0, or decibels (PSNR) against a converged picture, 10 to 80: each pixel gets the samples that it needs."""
+    """0, or the PSNR in decibels against a converged image, 10 to 80. Each pixel then gets the samples that it needs;
+    ``grid`` and ``samples`` are ignored."""
     filter: Literal["box", "gaussian", "blackman_harris"] = "box"
     light_samples: int = 0
-    """Rays to each light with a size, from each point that a sample sees; 0: four if pixels have one sample, one otherwise; -1: hard light, which is one ray to the middle of each lamp, and a sky that nothing shades."""
+    """Shadow rays to each light with a size, from each visible point of a sample, 1 to 4096. 0: four if a pixel has one
+    sample, one otherwise. -1: hard light: one ray to the centre of each such light, and an unshadowed sky."""
     transfer: Literal["srgb", "linear"] = "srgb"
     alpha: bool = False
-    """The background is left out: the picture has an alpha."""
+    """True: the image has an alpha channel. It omits the background that the camera sees directly or straight through
+    surfaces of opacity below 1."""
     max_depth: int = 8
     min_weight: float = 0.001
     max_see_through: int = 1_000_000

@@ -1,7 +1,7 @@
-"""``ase.visualize.view(atoms, viewer="raylane")``.
+"""Viewer for ASE: ``ase.visualize.view(atoms, viewer="raylane")``.
 
-ASE from 3.23 on finds it by its entry point. An older one knows it as soon as ``raylane`` is imported after
-``ase``, or this module.
+ASE from 3.23 on finds the viewer by its entry point. An older ASE knows it once this module is imported, or
+``raylane`` is imported after ``ase``.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from ._atoms import from_ase
 
 
 def view_raylane(atoms: Any, *, repeat: Optional[Tuple[int, int, int]] = None, **_: Any) -> None:
-    """Draws atoms, of several the last, as often as is wanted along each vector of their cell, and shows them."""
+    """Renders and shows atoms; of a list, the last. ``repeat``: number of copies along each vector of the cell."""
     last = atoms[-1] if isinstance(atoms, (list, tuple)) else atoms
     from_ase(last if repeat is None else last.repeat(repeat)).show()
 
 
 class _Viewer:
-    """As ASE before 3.23 has them."""
+    """Viewer in the interface of ASE before 3.23."""
 
     name = "raylane"
 
@@ -35,7 +35,7 @@ def _register() -> None:
 
 
 def __getattr__(name: str) -> Any:
-    """What the entry point names: only an ASE that looks for it has the class."""
+    """Creates the object of the entry point on access, because older versions of ASE lack its class."""
     if name != "VIEWER_ENTRYPOINT":
         raise AttributeError(name)
     from ase.utils.plugins import ExternalViewer
