@@ -108,6 +108,7 @@ enum { RAYLANE_REGULAR, RAYLANE_STRATIFIED };
 enum { RAYLANE_BOX_FILTER, RAYLANE_GAUSSIAN, RAYLANE_BLACKMAN_HARRIS };
 enum { RAYLANE_FAST, RAYLANE_ROBUST, RAYLANE_EXACT, RAYLANE_PLAIN_DOUBLE };
 
+/** Fields of Material in material.hpp, except glass. */
 typedef struct raylane_material {
     struct {
         uint8_t kind;

@@ -171,6 +171,7 @@ RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bo
 ///   instead of parsing it. It cannot hold constructed solids, and only versions of raylane with
 ///   the same version of this format read it.
 /// - .nff and .pov (POV-Ray 3.7): for other programs, with less of the scene.
+///
 /// Calls `on_remark` for each feature that the format cannot express. Throws BadInput for another
 /// ending, for shapes that the format does not support, and for solids nested deeper than raylane
 /// reads them from that format (some 127 levels in JSON, 125 in .pov). Throws SystemRefused.
