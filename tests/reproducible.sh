@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds the project in two folders and checks that both give the same bytes: libraries, the tool,
-# its manual, its SBOM, and packages. Takes an hour of one core.
+# its manual, and packages. Takes an hour of one core.
 #
 #   tests/reproducible.sh                  everything
 #   KERNELS=BUILD tests/reproducible.sh    everything but the kernels, which are those of that build
@@ -55,7 +55,7 @@ elif [ "${1-}" = kernels ]; then
     build() { quietly cmake --build build/own --target "$@"; }
 else
     set -- bin/raylane bin/raylane-window.so scenes/library/libraylane.a \
-        scenes/packages/raylane.spdx.json scenes/tool/manual/raylane-render.1 scenes/tool/completions/raylane
+        scenes/tool/manual/raylane-render.1 scenes/tool/completions/raylane
     build() {
         quietly cmake --build build/own
         quietly sh -c "cd build/own && cpack -G DEB"
