@@ -1,5 +1,4 @@
 #include <raylane/raylane.hpp>
-
 int main() {
     raylane::SceneBuilder builder;
     builder.add_light({.position = {4, 6, 5}});

@@ -7,8 +7,8 @@
 
 using namespace raylane;
 
-TEST_CASE("README scene examples parse") {
-    const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
+TEST_CASE("scene examples of the pages parse") {
+    const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/scenes/README.md");
     const std::string opening = "```json\n";
     const tests::TemporaryDirectory directory;
     std::vector<std::size_t> shapes;

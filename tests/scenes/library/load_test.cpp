@@ -98,11 +98,14 @@ TEST_CASE("atoms are read with or without the edges of their cell") {
           "--cell: must have a cell to show, and a.xyz has none");
 }
 
-TEST_CASE("the README contains the example program that is tested") {
+TEST_CASE("the pages contain the example program that is tested") {
     const std::string program = tests::content_of(RAYLANE_SOURCE_DIR "/scenes/examples/hits.cpp");
     REQUIRE(!program.empty());
-    const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
-    CHECK(readme.find("```cpp\n" + program + "```") != std::string::npos);
+    for (const char* const page : {"/README.md", "/scenes/library/README.md"}) {
+        CAPTURE(page);
+        const std::string text = tests::content_of(std::string(RAYLANE_SOURCE_DIR) + page);
+        CHECK(text.find("```cpp\n" + program + "```") != std::string::npos);
+    }
 }
 
 TEST_CASE("a saved scene is the same when it is loaded again") {
