@@ -59,6 +59,7 @@ Command add_merge_command(CLI::App& app);
 Command add_verify_command(CLI::App& app);
 Command add_trace_command(CLI::App& app);
 Command add_view_command(CLI::App& app);
+Command add_help_command(CLI::App& app);
 Command add_manual_command(CLI::App& app);
 Command add_completion_command(CLI::App& app);
 /// Adds the names of all commands to the help of `manual`. Call it after all commands are added.

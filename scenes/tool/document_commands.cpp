@@ -2,10 +2,15 @@
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/manual.hpp"
+#include "scenes/tool/pages.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -47,7 +52,43 @@ int print_manual(const CLI::App& app, const ManualArguments& arguments) {
     return 0;
 }
 
+/// Returns the title of a page, its first line.
+std::string_view title_of(const Page& page) {
+    return page.text.substr(2, page.text.find('\n') - 2);
+}
+
+void list_topics() {
+    std::fputs("raylane help TOPIC prints a page:\n", stdout);
+    for (const Page& page : documentation_pages())
+        std::printf("  %-13.*s %.*s\n", static_cast<int>(page.topic.size()), page.topic.data(),
+                    static_cast<int>(title_of(page).size()), title_of(page).data());
+    std::fputs("raylane COMMAND --help lists the options of a command.\n", stdout);
+}
+
+int print_help(const CLI::App& app, const std::optional<std::string>& topic) {
+    if (!topic) {
+        list_topics();
+        return 0;
+    }
+    std::vector<std::pair<std::string_view, std::string>> choices;
+    for (const Page& page : documentation_pages())
+        choices.emplace_back(page.topic, page.text);
+    const std::vector<const CLI::App*> commands = commands_of(app);
+    for (const CLI::App* command : commands) // whose names outlive this
+        choices.emplace_back(command->get_name(), command->help("raylane"));
+    std::fputs(choice_argument<std::string>("TOPIC", *topic, choices).c_str(), stdout);
+    return 0;
+}
+
 } // namespace
+
+Command add_help_command(CLI::App& app) {
+    CLI::App& command =
+        add_command(app, "help", "Print a page of the documentation", "raylane help scenes");
+    auto topic = std::make_shared<Argument>();
+    add_option(command, "TOPIC", *topic, "A page or a command (default: list the pages)", "");
+    return {&command, [&app, topic] { return print_help(app, *topic); }};
+}
 
 Command add_manual_command(CLI::App& app) {
     CLI::App& command =
@@ -66,6 +107,9 @@ void name_commands(CLI::App& app) {
     for (const CLI::App* command : commands_of(app))
         all.append(all.empty() ? "" : "|").append(command->get_name());
     app.get_subcommand("manual")->get_option("COMMAND")->type_name(all);
+    for (const Page& page : documentation_pages())
+        all.append("|").append(page.topic);
+    app.get_subcommand("help")->get_option("TOPIC")->type_name(all);
 }
 
 Command add_completion_command(CLI::App& app) {

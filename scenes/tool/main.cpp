@@ -48,11 +48,12 @@ int run(int argc, const char* const* argv) {
     app.footer("Example: raylane render scenes/birthday.json -o birthday.png\n" +
                exit_codes_text());
     app.require_subcommand(1);
-    const std::array<Command, 12> commands = {
-        add_render_command(app),  add_info_command(app),   add_compare_command(app),
-        add_convert_command(app), add_build_command(app),  add_tachyon_command(app),
-        add_trace_command(app),   add_merge_command(app),  add_verify_command(app),
-        add_view_command(app),    add_manual_command(app), add_completion_command(app)};
+    const std::array<Command, 13> commands = {
+        add_render_command(app),    add_info_command(app),  add_compare_command(app),
+        add_convert_command(app),   add_build_command(app), add_tachyon_command(app),
+        add_trace_command(app),     add_merge_command(app), add_verify_command(app),
+        add_view_command(app),      add_help_command(app),  add_manual_command(app),
+        add_completion_command(app)};
     name_commands(app);
     try {
         app.parse(argc, argv);

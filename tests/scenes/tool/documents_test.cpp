@@ -1,4 +1,5 @@
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
 #include <regex>
@@ -77,6 +78,22 @@ TEST_CASE("manual pages and completions have every command and option of the hel
     CHECK(holds(bash, "completion:*) words=\"bash zsh fish\""));
     CHECK(holds(bash, "manual:*) words=\"render info "));
     CHECK(holds(zsh, "{-o+,--output=}'[")); // "-o FILE", not "-o=FILE"
+}
+
+TEST_CASE("help prints each page that it lists and the help of commands") {
+    const Workshop workshop;
+    const std::string list = said(workshop, {"help"});
+    const std::set<std::string> topics = all_of(list, "\n  ([a-z]+) ");
+    CHECK(topics.size() == 8);
+    for (const std::string& topic : topics) {
+        CAPTURE(topic);
+        CHECK(said(workshop, {"help", topic}).starts_with("# "));
+    }
+    CHECK(said(workshop, {"help", "raylane"}) == content_of(RAYLANE_SOURCE_DIR "/README.md"));
+    CHECK(said(workshop, {"help", "render"}) == said(workshop, {"render", "--help"}));
+    const Outcome unknown = workshop.run({"help", "scene"});
+    CHECK(unknown.code == 2);
+    CHECK(holds(unknown.err, "did you mean \"scenes\"?"));
 }
 
 TEST_CASE("a manual page has no unintended requests or escapes") {

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""Runs the commands of the documentation's pages: those of the tool in a folder as a clone is, at small sizes.
+
+    pages_test.py SOURCE RAYLANE
+
+Other commands are run elsewhere, or not at all; each needs its reason below.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+source, raylane = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+PAGES = ["README.md", "CONTRIBUTING.md", "bench/README.md"] + [
+    f"scenes/{folder}README.md" for folder in ("", "tool/", "library/", "python/", "web/")]
+ELSEWHERE = {
+    "./bootstrap.sh": ".ci/run",
+    "cmake": ".ci/run, and packages in .ci/nightly",
+    "ctest": ".ci/run",
+    "doxygen": ".ci/nightly",
+    "mpirun": "ranks_test.sh",
+    "tests/wasm.sh": ".ci/nightly",
+    "bench/": "by hand: they take minutes",
+    "build/release/bin/raylane-": "by hand, or by tests of their programs",
+    "git": "nothing to test",
+}
+TOOL = "build/release/bin/raylane "
+# Files that only people have.
+OWN = ("vmdscene.dat",)
+
+
+def commands_of(page):
+    for block in re.findall(r"^```sh\n(.*?)^```", (source / page).read_text(), re.DOTALL | re.MULTILINE):
+        block = re.sub(r"\\\n", " ", block)
+        # A loop is one command.
+        for command in re.findall(r"^for .*?^done$|^[^\n]+$", block, re.DOTALL | re.MULTILINE):
+            if not command.startswith("#"):
+                yield command
+
+
+def smaller(command):
+    """Renders the same image with few pixels and samples, where the command does not say how many."""
+    def shrink(match):
+        call = match[0]
+        if "--size" in call or ".rl" in call:
+            return call
+        return call + " --size 40x30" + ("" if re.search("--(spp|quality|draft|print)", call) else " --spp 1")
+    return re.sub(re.escape(TOOL) + r"render [^#\n|&]*[^#\n|& ]", shrink, command)
+
+
+def main():
+    failures = 0
+    count = 0
+    with tempfile.TemporaryDirectory() as folder:
+        clone = pathlib.Path(folder)
+        (clone / "build/release/bin").mkdir(parents=True)
+        (clone / "build/release/bin/raylane").symlink_to(raylane)
+        (clone / "scenes").symlink_to(source / "scenes")
+        for page in PAGES:
+            for command in commands_of(page):
+                if not command.startswith((TOOL, "for ")):
+                    if not command.startswith(tuple(ELSEWHERE)):
+                        print(f"{page}: no reason why this is not run: {command}")
+                        failures += 1
+                    continue
+                if any(name in command for name in OWN):
+                    continue
+                done = subprocess.run(["sh", "-ec", smaller(command)], cwd=clone, stdin=subprocess.DEVNULL,
+                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                count += 1
+                wanted = 1 if "exit code 1" in command else 0
+                if done.returncode != wanted:
+                    print(f"{page}: {command}\nexit code {done.returncode}: {done.stdout}")
+                    failures += 1
+    print(f"{count} commands run, {failures} failed")
+    return failures != 0 or count < 20
+
+
+sys.exit(main())
