@@ -6,16 +6,16 @@
 
 namespace raylane::simd {
 
-/// Hands out arrays from one piece of memory, which is asked for once. Made twice over: with no
-/// memory it only counts what would be taken.
+/// Hands out arrays from one block of memory, which is allocated once. An arena without memory only
+/// counts the bytes that the arrays would take; see arena_for.
 class Arena {
   public:
     Arena() = default;
     explicit Arena(std::size_t bytes)
         : memory_(static_cast<std::byte*>(::operator new(bytes, alignment))) {}
 
-    /// `count` values, aligned for the widest registers, and room to read and write a whole packet
-    /// at any of them.
+    /// Returns an array of `count` values, aligned for the widest registers. Whole packets can be
+    /// read and written at any of the values. Returns null if the arena has no memory.
     template <class Value>
     Value* take(std::size_t count) {
         constexpr std::size_t packet = 16;
@@ -43,7 +43,8 @@ class Arena {
     std::size_t used_ = 0;
 };
 
-/// The arena that holds what `take(arena)` takes of it, which is called twice.
+/// Returns an arena with memory for the arrays that `take(arena)` takes. Calls `take` twice: to
+/// count the bytes, then to take the arrays.
 template <class Take>
 Arena arena_for(const Take& take) {
     Arena measure;

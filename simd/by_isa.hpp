@@ -6,10 +6,10 @@
 #include <iterator>
 #include <utility>
 
-/// Choice among functions that raylane_kernel_units compiles once for each instruction set.
+/// Selects among functions that raylane_kernel_units compiles once for each instruction set.
 namespace raylane::simd {
 
-/// Returns choose.operator()<isa>() for one of the built instruction sets: undefined for others.
+/// Returns choose.operator()<isa>(). Undefined unless `isa` is a built instruction set.
 template <class Choose>
 auto of_isa(Isa isa, const Choose& choose) {
     return [&]<std::size_t... index>(std::index_sequence<index...>) {

@@ -12,7 +12,7 @@ namespace {
 using core::Solids;
 using core::Vec3d;
 
-/// `inside`: whether it is what is behind the plane.
+/// `inside`: true if the half-space lies behind the plane, false if in front of it.
 std::optional<HalfSpace> half_space(const Vec3d& point, const Vec3d& normal, bool inside,
                                     core::ShapeId shape) {
     const double length = core::length(normal);
@@ -23,7 +23,8 @@ std::optional<HalfSpace> half_space(const Vec3d& point, const Vec3d& normal, boo
     return HalfSpace{unit, core::dot(unit, point), size, shape, true, false};
 }
 
-/// All that make a part; where it is reversed, it is outside of one of them.
+/// The half-spaces that make a part: their intersection is the part if `inside` is true. Otherwise
+/// these are the complements, whose union is the reversed part.
 class HalfSpacesOf {
   public:
     HalfSpacesOf(const core::Scene& scene, const Solids::Node& part, bool inside)
@@ -39,7 +40,7 @@ class HalfSpacesOf {
     void add(const core::PlaneOf<double>& plane, bool inside) {
         take(half_space(plane.point, plane.normal, inside, shape_));
     }
-    /// Only planes.
+    /// Adds only quadrics that are planes.
     void add(const core::QuadricOf<double>& q, bool inside) {
         if (q.xx == 0.0 && q.yy == 0.0 && q.zz == 0.0 && q.xy == 0.0 && q.xz == 0.0 &&
             q.yz == 0.0 && q.one == 0.0)
@@ -50,7 +51,7 @@ class HalfSpacesOf {
         for (int k = 0; k < 3; ++k) {
             const Vec3d &u = *edges[(k + 1) % 3], &v = *edges[(k + 2) % 3];
             Vec3d normal = core::cross(u, v);
-            // Hardly a digit is lost by the differences.
+            // With a normal this long, the differences of the cross product lose hardly a digit.
             if (!(core::length(normal) > 0x1p-3 * core::length(u) * core::length(v))) continue;
             if (core::dot(normal, *edges[k]) < 0.0) normal = -normal;
             const Vec3d opposite = box.corner + *edges[k];
@@ -58,7 +59,7 @@ class HalfSpacesOf {
             take(half_space(opposite, normal, inside, shape_));
         }
         if (!inside && found_.size() != 6) found_.clear();
-        // Into a box one goes through one face, and out of it by another.
+        // A ray enters a box through one face and leaves it through another.
         for (HalfSpace& half : found_)
             half.stays = !inside;
     }
@@ -78,12 +79,13 @@ std::ptrdiff_t faces_of(const Solids::Node& part) {
     return part.kind == core::Kind::box ? 6 : 1;
 }
 
-/// Half-spaces, in groups, outside of one of which nothing of a solid is left.
+/// Collects the half-spaces that cut a union, in groups. Nothing of the solid is left outside of
+/// all half-spaces of one group.
 class Collector {
   public:
     explicit Collector(const core::Scene& scene) : scene_(scene), solids_(scene.solids()) {}
 
-    /// All that cuts what is below a node.
+    /// Returns the union at a node and everything that cuts it.
     CutUnion around(const Solids::Index below) {
         cut_ = {below, {}, true};
         for (Solids::Index index = below; solids_.node(index).parent != Solids::none;
@@ -105,21 +107,21 @@ class Collector {
     void add(Solids::Index index) {
         const Solids::Node& node = solids_.node(index);
         if (node.op == Solids::Op::part && !node.reversed) {
-            // Outside of any of its half-spaces is outside of it.
+            // A point outside of any of its half-spaces is outside of the part, so each is a group.
             const HalfSpacesOf halves(scene_, node, true);
             for (const HalfSpace& half : halves)
                 add_group({half});
             cut_.is_all = cut_.is_all && halves.size() == faces_of(node);
             return;
         }
-        // Outside of a union is what is outside of all its parts.
+        // A point outside of all parts of a union is outside of the union, so all are one group.
         std::vector<HalfSpace> group;
         bool is_known = !node.many;
         for (Solids::Index part = index; is_known && part < node.end; ++part) {
             const Solids::Node& of = solids_.node(part);
             if (of.op == Solids::Op::part) {
                 const HalfSpacesOf more(scene_, of, !of.reversed);
-                // Of what is not reversed, each half-space would be in another group.
+                // The half-spaces of a part that is not reversed would need one group each.
                 is_known = more.size() == faces_of(of) && (of.reversed || more.size() == 1);
                 group.insert(group.end(), more.begin(), more.end());
             } else {
@@ -186,13 +188,14 @@ void Cuts::find(const core::Scene& scene, SceneView& view, std::uint32_t slots) 
         return;
     }
 
-    // Where a part that is beside one of these unions in an intersection is seen, that is cut.
+    // A part beside one of these unions in an intersection is seen only where it cuts the union.
     cut_by_.resize(solids.nodes().size());
     for (Solids::Index index = 0; index < number_.size(); ++index) {
         const Solids::Index parent = solids.node(index).parent;
         if (number_[index] == 0 || solids.node(parent).op != Solids::Op::all) continue;
         solids.each_child(parent, [&](Solids::Index child) {
-            // Of two unions of many one has to be seen.
+            // If both are unions of many parts, rays have to find one of them, so neither only
+            // cuts.
             const auto begin = solids.nodes().begin();
             if (child == index || std::any_of(begin + child, begin + solids.node(child).end,
                                               [](const Solids::Node& of) { return of.many; }))
@@ -229,7 +232,7 @@ void Cuts::find(const core::Scene& scene, SceneView& view, std::uint32_t slots) 
                         static_cast<std::uint16_t>(only_cut_[block_number] | 1U << lane);
             }
             if (is_cut) of_block_[block_number] = is_of_one ? of_all : cuts_nothing;
-            // What cuts is cut by the others.
+            // A flat part that cuts a union is itself cut by the other half-spaces.
             if (is_flat) of_block_[block_number] = by_all;
             ++block_number;
         }
@@ -241,8 +244,9 @@ void Cuts::find(const core::Scene& scene, SceneView& view, std::uint32_t slots) 
     view.waiting_lanes = waiting_.data();
 }
 
-/// Of those that cut no union with a part in a block that others are in, too, so that its cut is
-/// not known there.
+/// Marks the faces that wait (SceneView::waiting_lanes). A face does not wait if a part of the
+/// union that it cuts shares a block with shapes outside of the union, because the cut is not known
+/// there.
 void Cuts::let_faces_wait(const core::Scene& scene) {
     const Solids& solids = scene.solids();
     const auto for_each_lane = [&](const auto& visit) {

@@ -10,9 +10,9 @@
 
 namespace raylane::simd {
 
-/// While it lives, this thread rounds to nearest, keeps numbers near zero and traps nothing,
-/// whatever the program has made of it: a library that was built with -ffast-math turns that off
-/// for all as it is loaded.
+/// Sets the default floating-point environment for this thread while it lives: rounds to nearest,
+/// keeps subnormal numbers and traps nothing. The program may run in another environment: loading a
+/// library that was built with -ffast-math turns subnormal numbers off for the whole program.
 class DefaultRounding {
   public:
     DefaultRounding(const DefaultRounding&) = delete;
@@ -27,11 +27,11 @@ class DefaultRounding {
     }
 
   private:
-    /// What has happened, and all exceptions masked.
+    /// MXCSR: the status flags, and the default control bits, which mask all exceptions.
     static constexpr unsigned flags = 0x3F, standard = 0x1F80;
     unsigned before_;
 #elif defined(__aarch64__)
-    // What has happened is in a register of its own.
+    // The status flags are in another register.
     DefaultRounding() : before_(control()) {
         if (before_ != standard) set_control(standard);
     }

@@ -12,15 +12,15 @@ namespace raylane::simd {
 
 /// Counts of the vector engine's work.
 struct EngineCounters : core::Counters {
-    std::uint64_t walked = 0;   ///< shadow rays that had to be followed from surface to surface
-    std::uint64_t deferred = 0; ///< paths put off, as a wave had become too long
-    std::uint64_t refined = 0;  ///< rays that have been decided on at second sight
-    /// Rays by the way of their search: shape by shape, in frusta, by lists, or each by itself with
-    /// others in flight.
+    std::uint64_t walked = 0;   ///< shadow rays that were followed from surface to surface
+    std::uint64_t deferred = 0; ///< paths deferred because a wave had grown too long
+    std::uint64_t refined = 0;  ///< rays that were not certified at first and went to the Refinery
+    /// Rays by the method of their search: brute force, frusta, ray lists, or interleaved single
+    /// rays.
     std::uint64_t one_by_one = 0, in_frusta = 0, in_lists = 0, in_flight = 0;
-    /// Left to the reference:
-    std::uint64_t doubtful = 0; ///< rays: to decide which shape is the nearest
-    std::uint64_t followed = 0; ///< paths: to follow, where surfaces meet or waves grow too long
+    /// Work left to the reference tracer:
+    std::uint64_t doubtful = 0; ///< rays whose nearest shape it decides
+    std::uint64_t followed = 0; ///< paths, where surfaces meet or waves grow too long
 
     using core::Counters::operator+=;
     EngineCounters& operator+=(const EngineCounters& other) {
@@ -53,7 +53,7 @@ struct EngineCounters : core::Counters {
         return *this;
     }
 
-    /// All of them, in the order in which they are declared.
+    /// All counters, in the order of their declaration.
     using Numbers = std::array<std::uint64_t, 17>;
     Numbers as_numbers() const { return std::bit_cast<Numbers>(*this); }
     static EngineCounters of_numbers(const Numbers& numbers) {

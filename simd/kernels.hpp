@@ -9,39 +9,41 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Interface of a kernel unit: one per instruction set, all alike. Plain data only, so that nothing
-/// inline is shared with the units that are built for newer processors.
+/// Interface of the kernel units. Each instruction set has one unit, and all have this interface.
+/// Plain data only, so that no inline function is shared with the units built for newer processors.
 namespace raylane::simd {
 
-/// Rays with the shapes that were found for them, structure of arrays of `count` values, readable
+/// Rays with the shapes that were found for them: a structure of arrays of `count` values, readable
 /// and writable up to whole packets of 16. Directions have a length of 1 +- 2^-48.
 struct Found {
     std::size_t count;
     const double* origin[3];
     const double* direction[3];
-    /// The shapes that the ray leaves, first to last; `no_shape` twice if none.
+    /// Ids of the shapes that the ray leaves, first to last; no_shape twice if it leaves none.
     const std::uint32_t* origin_first;
     const std::uint32_t* origin_last;
-    const std::uint32_t* origin_bits; ///< origin_bits
-    /// The shape's slot, or no_slot: such lanes are left as they are.
+    const std::uint32_t* origin_bits; ///< origin_face and origin_inward
+    /// Slot of the shape that was found, or no_slot: such lanes are not changed.
     const std::uint32_t* slot;
 
-    /// Out: its first crossing with t > 0 (for a start on the surface, as core::Start has it).
+    /// Out: t of the first crossing with t > 0. For a ray that starts on the shape, t = 0 is left
+    /// out as core::Start describes.
     double* t;
-    double* error;     ///< exact: what t may be off by, at most 2^-27 t unless doubtful; others: 0
-    double* normal[3]; ///< unit, outward
-    double* shading_normal[3]; ///< interpolated on smooth triangles, else the same; may be null
+    double* error; ///< exact: bound on the error of t, at most 2^-27 t unless doubtful; others: 0
+    double* normal[3];         ///< unit, outward
+    double* shading_normal[3]; ///< interpolated on smooth triangles, otherwise the same as normal;
+                               ///< may be null
     std::uint32_t* hit;        ///< bits, as below
 
-    /// Directions meant, of any length, and their lengths, where `direction` is these brought to
-    /// length 1. What is certain is so of the rays meant. Null: directions are exact.
+    /// Exact directions, of any length, and their lengths. `direction` is then their normalised
+    /// form, and results that are certain hold for the exact rays. Null: `direction` is exact.
     const double* meant_direction[3] = {};
     const double* meant_length = nullptr;
-    /// True if points are wanted, so that t has to hold one.
+    /// True if hit points are wanted: t is then certain only if it is accurate enough for a point.
     bool holds_points = true;
-    /// Limits below, as StreamRays has them. What is crossed before or at them is not looked at; of
-    /// rays that cross a shape there, finish leaves in doubt whether and where they do behind it.
-    /// Null: there are none.
+    /// Lower limits, as in StreamRays. Crossings before or at them are ignored. If a ray crosses
+    /// the shape there, finish leaves in doubt whether and where it crosses the shape behind the
+    /// limit. Null: no limits.
     const double* t_after = nullptr;
     const double* start = nullptr;
 };
@@ -53,22 +55,23 @@ inline constexpr std::uint32_t origin_inward = 0x100;
 /// Bits of Found::hit.
 inline constexpr std::uint32_t hit_face = 0xFF;
 inline constexpr std::uint32_t hit_entering = 0x100;
-inline constexpr std::uint32_t hit_doubtful = 0x200; ///< not certain; the rest means nothing
-inline constexpr std::uint32_t hit_none = 0x400;     ///< certainly none; the rest means nothing
-inline constexpr std::uint32_t hit_normal_doubtful = 0x800; ///< too little known for a float
+inline constexpr std::uint32_t hit_doubtful = 0x200; ///< not certain; other bits are meaningless
+inline constexpr std::uint32_t hit_none = 0x400; ///< certainly no hit; other bits are meaningless
+inline constexpr std::uint32_t hit_normal_doubtful = 0x800; ///< too uncertain to round to float
 inline constexpr std::uint32_t hit_normal_unknown = 0x1000;
 
-/// Kernels that trace by one core::Precision.
+/// Kernels that trace with one core::Precision.
 struct MethodKernels {
     TraceKernels trace;
-    /// First crossings of rays with the shapes that were found for them. The same bits in every
-    /// unit.
+    /// Solves the first crossing of each ray with the shape that was found for it. Results are the
+    /// same bits in every unit.
     void (*finish)(const SceneView& scene, const Found& found);
-    /// The same, and more: what is certain to be missed is said to be, and hit_normal_doubtful.
+    /// Same as finish. It also sets hit_none where a ray certainly misses, and hit_normal_doubtful.
     void (*finish_all)(const SceneView& scene, const Found& found);
-    RefineKernels refine; ///< null where nothing is
-    /// Both at once, in scenes without a hierarchy; null where that would not do. Candidates are in
-    /// and out, as TraceKernels::nearest has them; what came in is not finished.
+    RefineKernels refine; ///< null if the precision refines nothing
+    /// Searches and finishes in one pass, in scenes without a hierarchy. Candidates are in and out,
+    /// as in TraceKernels::nearest; candidates that came in are not finished. Null if the precision
+    /// has no such kernel.
     void (*nearest_of_few)(const SceneView& scene, std::uint32_t kind_bits, const Found& found,
                            const Candidates& candidates, TraceCounters& counters);
 };
@@ -80,10 +83,10 @@ struct Kernels {
 
     RayKernels rays;
     StreamKernels stream;
-    MethodKernels methods[method_count]; ///< core::Precision by number
-    /// shade[media][fog]: for scenes without and with transmissive materials, and fog. Four, as
-    /// both are asked of every lane; what concerns one material, or all lanes alike, is asked per
-    /// run or wave and costs nothing where it is absent.
+    MethodKernels methods[method_count]; ///< indexed by core::Precision
+    /// shade[media][fog]: for scenes without and with transmissive materials, and without and with
+    /// fog. These two have variants because every lane depends on them. A property of one material,
+    /// or of all lanes alike, is checked once per run or wave and costs nothing where it is absent.
     ShadeKernels shade[2][2];
 };
 
@@ -94,7 +97,7 @@ struct KernelParts {
     static RayKernels rays();
     static StreamKernels stream();
     static ShadeKernels shade(bool media, bool fog);
-    /// core::Precision::exact in its parts, and the precisions that it is compared with.
+    /// The parts of core::Precision::exact, and the precisions that it is compared with.
     static decltype(TraceKernels::nearest) nearest();
     static decltype(TraceKernels::occluded) occluded();
     static decltype(MethodKernels::finish) finish();

@@ -8,7 +8,7 @@
 
 namespace raylane::simd {
 
-/// A value for each thread that asks for its own, which it makes then.
+/// Owns one value for each thread that calls local(), made at the first call.
 template <class Value>
 class PerThread {
   public:
@@ -28,7 +28,7 @@ class PerThread {
         return entries_.front().value;
     }
 
-    /// Of all threads, when these are done.
+    /// Visits the values of all threads. To be called when these are done.
     template <class Visit>
     void for_each(const Visit& visit) const {
         for (const Entry& entry : entries_)
@@ -39,7 +39,7 @@ class PerThread {
     struct Entry {
         Entry(std::thread::id id, const std::function<Value()>& make) : thread(id), value(make()) {}
         std::thread::id thread;
-        Value value; // may be one that cannot be moved
+        Value value; // may be a type that cannot be moved
     };
 
     std::function<Value()> make_;

@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// True if this processor, and the system on it, can run an instruction set.
+/// Returns true if both this processor and its operating system can run an instruction set.
 inline bool processor_runs(Isa isa) {
     if (isa == Isa::portable) return true;
 #ifdef __x86_64__

@@ -25,8 +25,8 @@ core::Region whole_of(const core::Settings& settings) {
     return {0, 0, settings.width, settings.height};
 }
 
-/// What is made of first hits, tile by tile, beside the colours and over them. To be used by one
-/// thread.
+/// Computes everything that needs first hits, tile by tile: layers beside the colours, and outlines
+/// over them. To be used by one thread.
 class FirstHitPasses {
   public:
     FirstHitPasses(const SceneData& scene, const core::Settings& settings, const Kernels& kernels)
@@ -62,14 +62,14 @@ void note_samples(const Tracer& tracer, const core::Region& tile, const core::Re
                                   static_cast<unsigned>(x - tile.x0)));
 }
 
-/// One survey for each wavelength, or one; empty if the picture has no quality.
+/// One survey for each wavelength, or a single one. Empty if the image has no quality.
 using Surveys = std::vector<core::Survey>;
 
 core::Survey* survey_of(Surveys& surveys, std::size_t picture) {
     return surveys.empty() ? nullptr : &surveys[picture];
 }
 
-/// `scene`: null if nothing is made of first hits.
+/// `scene`: null if nothing needs first hits.
 template <class Tracer>
 Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
                     const core::Settings& settings, const RenderOptions& options,
@@ -108,7 +108,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
         EngineCounters before;
         before += tracer.counters();
         tracer.render(region, rendering.film);
-        if (is_abandoned()) { // before its end, perhaps
+        if (is_abandoned()) { // perhaps within the tile
             complete = false;
             return;
         }
@@ -120,7 +120,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
             options.progress->rays += of_tile.rays();
             options.progress->pixels += region.pixels();
         }
-        // What it waits for shall not make it draw another tile.
+        // While after_tile waits, this thread must not begin another tile.
         if (options.after_tile)
             isolate([&] {
                 options.after_tile({region, rendering.film, rendering.layers, of_tile});
@@ -133,11 +133,12 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
                     if (!is_stopped()) tracers.local().survey(pass, batch);
                 });
             });
-            if (is_stopped()) break; // perhaps before its end; no tile is drawn then
+            if (is_stopped()) break; // the pass may be incomplete; no tile is drawn then
             for (core::Survey& survey : surveys)
                 survey.end(pass);
         }
-    EngineCounters surveyed; // by each part of a picture
+    // Not counted: each process that renders a part of an image repeats the survey.
+    EngineCounters surveyed;
     tracers.for_each([&](const Tracer& tracer) { surveyed += tracer.counters(); });
     if (options.progress != nullptr)
         options.progress->first_tile = std::chrono::steady_clock::now();
@@ -150,7 +151,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
     return rendering;
 }
 
-/// Draws a picture for each of some wavelengths, and adds their shares up. An alpha is the mean.
+/// Renders an image for each wavelength and adds up their shares. Alpha is the mean.
 template <class Tracer>
 class SpectralTracer {
   public:
@@ -199,7 +200,7 @@ class SpectralTracer {
     core::Film film_;
 };
 
-/// The scene in light of each of its wavelengths, and the shares of these.
+/// A scene in the light of each wavelength, and the colour shares of these.
 struct Spectrum {
     std::vector<core::Scene> scenes;
     std::vector<core::Color> shares;
@@ -241,7 +242,7 @@ const std::atomic<bool>* abandon_of(const RenderOptions& options) {
     return options.progress != nullptr ? &options.progress->abandon : nullptr;
 }
 
-/// Wavefronts stay where they are made.
+/// Wavefronts cannot be moved; this holder can.
 struct MovableWavefront {
     std::unique_ptr<Wavefront> wavefront;
 
@@ -318,7 +319,7 @@ Rendering render(const core::Scene& scene, const core::Settings& settings,
     core::validate(settings);
     require_part(settings, asked.crop);
     RenderOptions options = asked;
-    // Where a solid has its surface is decided exactly or not at all.
+    // Only exact decisions tell where a solid has its surface.
     if (scene.solids().any()) options.precision = core::Precision::exact;
     if (options.engine == Engine::vector) {
         const Tracing tracing{&kernels_of(options.isa), options.precision};

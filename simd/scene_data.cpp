@@ -19,17 +19,19 @@ namespace {
 /// Number of shapes up to which testing all of them costs less than the hierarchy.
 constexpr std::size_t few_shapes = 24;
 
-/// Up to so many slots, what is in them is looked up rather than found: that is 1.3 MB, of which a
-/// tile needs little.
+/// Up to this number of slots, occupants are looked up in a table instead of being computed. The
+/// table takes 1.3 MB, of which a tile needs little.
 constexpr std::uint32_t table_slots = 1U << 16;
 
-/// Size of a core's own cache. Where the tree has more, it is fetched ahead of the rays, which
-/// gains there (5 to 15 % at a million spheres, measured on a noisy machine) and costs where it
-/// fits. A thousand rays that are nowhere near each other go by lists in trees of a sixteenth of
-/// that, and each by itself in others: lists gain 1.1 times at 1,000 balls, lose as much at 3,000,
-/// and 1.3 times at 10,000 (2 MB; 1.4 and 1.0 at 1,000 and 10,000 shapes of a lattice of balls and
-/// sticks). Lists of 8,192 rays gain 1.2 times at 10,000, nothing at 50,000 (1.5 MB), and lose 1.3
-/// times at 100,000.
+/// Returns the size in bytes of a core's own cache. A larger tree is fetched ahead of the rays.
+/// That gains 5 to 15 % at a million spheres (measured on a noisy machine), and costs time where
+/// the tree fits.
+///
+/// A thousand rays that are not near each other go by lists in trees of up to a sixteenth of that
+/// size, and each by itself in larger ones. Lists gain 1.1 times at 1,000 balls, lose as much at
+/// 3,000, and 1.3 times at 10,000 (2 MB; 1.4 and 1.0 at 1,000 and 10,000 shapes of a lattice of
+/// balls and sticks). Lists of 8,192 rays gain 1.2 times at 10,000, nothing at 50,000 (1.5 MB), and
+/// lose 1.3 times at 100,000.
 std::size_t core_cache_bytes() {
 #ifdef _SC_LEVEL2_CACHE_SIZE
     if (const long bytes = ::sysconf(_SC_LEVEL2_CACHE_SIZE); bytes > 0)
@@ -98,7 +100,7 @@ PackedView view_of(const core::PackedSpheres& packed) {
     static_assert(offsetof(PackedBlockView, steps) == offsetof(core::PackedBlock, steps));
     static_assert(offsetof(PackedBlockView, words) == offsetof(core::PackedBlock, words));
     static_assert(core::PackedBlock::empty == no_slot);
-    // Without a tree shapes are looked at where they are.
+    // Without a tree, kernels read shapes where they are stored, so these must not be packed.
     static_assert(core::least_packed > few_shapes);
     static_assert(sizeof(core::PackedSpheres::Row) == sizeof(float[core::block_size]));
     return {reinterpret_cast<const PackedBlockView*>(packed.blocks.data()),
@@ -174,7 +176,7 @@ void SceneData::view_surroundings() {
                            static_cast<double>(material.absorption[1]),
                            static_cast<double>(material.absorption[2])}});
     }
-    materials_.emplace_back(); // of opacity 0
+    materials_.emplace_back(); // opacity 0
     for (const core::Light& light : scene_.lights())
         if (core::is_soft(light.kind))
             soft_lights_.push_back(core::prepared(light));
@@ -231,12 +233,12 @@ void SceneData::view_hierarchy() {
     radius_ = 0.5F * core::length(core::Vec3f(bounds.upper - bounds.lower));
 }
 
-/// False if no ray from the camera surely starts inside of a solid.
+/// Returns false if certainly no camera ray starts inside of a solid.
 bool SceneData::may_see_inside(core::Solids::Index solid) const {
     const core::Camera& camera = scene_.camera();
     const core::Bounds& bounds = scene_.solids().bounds(solid);
     const core::Vec3d from = core::convert<double>(camera.from);
-    // All start in a plane, with a lens or without one.
+    // All camera rays start in one plane, with or without a lens.
     const core::Vec3d forward = core::convert<double>(camera.at) - from;
     bool is_in_front = core::is_finite(bounds);
     for (int corner = 0; is_in_front && corner < 8; ++corner) {
@@ -254,7 +256,7 @@ bool SceneData::may_see_inside(core::Solids::Index solid) const {
     return core::PointSearcher(scene_).side_of(solid, from) != core::Side::outside;
 }
 
-/// True if nothing else is where a solid is.
+/// Returns false if the surface of another shape may reach into a solid's bounds.
 bool SceneData::is_apart(core::Solids::Index solid) const {
     const core::Solids& solids = scene_.solids();
     const core::Bounds& bounds = solids.bounds(solid);
@@ -292,8 +294,9 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
     one_sided_ = std::any_of(materials.begin(), materials.end(), [](const core::Material& m) {
         return m.visible != core::Visible::both;
     });
-    // What a solid has all of blocks rays that start outside, wherever its surface is: those of
-    // pictures do, unless the camera is inside, or they leave what is seen inside of an open one.
+    // A part whose inside belongs to the solid as a whole (`fills`) blocks all rays that start
+    // outside of the solid, wherever the solid's surface is. Rays of images start outside, unless
+    // the camera is inside, or they leave surfaces that are seen inside of an open solid.
     std::vector<bool> blocks(solids.nodes().size());
     for (core::Solids::Index solid = 0, end = 0; solid < blocks.size(); solid = end) {
         end = solids.node(solid).end;

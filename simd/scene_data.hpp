@@ -12,13 +12,13 @@
 
 namespace raylane::simd {
 
-/// Transmissive surfaces in the way of a ray that asks what it is blocked by.
+/// Effect of transmissive surfaces on occlusion queries.
 enum class Transmissive : std::uint8_t {
-    lets_through, ///< pictures: light may pass them
-    blocks,       ///< the library: any surface does
+    lets_through, ///< images: light may pass them
+    blocks,       ///< the library: they block like any surface
 };
 
-/// Data that the kernels need of a scene, in their terms. The scene must outlive it.
+/// Data of a scene in the kernels' format. The scene must outlive it.
 class SceneData {
   public:
     explicit SceneData(const core::Scene& scene,
@@ -26,28 +26,29 @@ class SceneData {
 
     const core::Scene& scene() const { return scene_; }
     const SceneView& view() const { return view_; }
-    /// Those of the scene, and one more of which nothing is seen but what is behind it.
+    /// The scene's materials, followed by an invisible one of opacity 0.
     const std::vector<MaterialView>& materials() const { return materials_; }
-    /// Those without a size.
+    /// Lights without a size.
     const std::vector<LightView>& lights() const { return lights_; }
     const std::vector<core::SoftLight>& soft_lights() const { return soft_lights_; }
     const FogView& fog() const { return fog_; }
 
-    /// The kinds that are tested one by one: all in a scene of a few shapes, else the unbounded.
+    /// Returns the kinds that are tested one by one: all in a scene of few shapes, otherwise the
+    /// unbounded ones.
     std::uint32_t listed_kinds() const {
         return unbounded_kinds_ | (has_tree() ? 0 : bounded_kinds_);
     }
-    /// True if the others are found by way of the hierarchy.
+    /// Returns true if the other kinds are found through the hierarchy.
     bool has_tree() const { return view_.tree_depth != 0; }
-    /// Number of rays without coherence that are best asked at a time what is nearest to them,
-    /// exactly: where that makes lists, these should be long; else what belongs to the rays should
-    /// be in the cache.
+    /// Returns the best number of rays for one exact search for nearest hits, if the rays are
+    /// incoherent. Where the search makes lists, these should be long; otherwise the rays' data
+    /// should stay in the cache.
     std::size_t best_ray_count() const { return has_tree() && !view_.large ? 2 * long_list : 1024; }
-    /// True if a packet's rays that are no neighbours in one of two directions cost more than to
-    /// put them in another order.
+    /// Returns true if it costs less to reorder rays than to trace packets of rays that are not
+    /// neighbours in both directions.
     bool best_in_tiles() const { return has_tree() && slots_ >= 8192; }
-    /// True if some crossings are none of a surface that is seen: of those that are visible from
-    /// one side only, and of parts within solids.
+    /// Returns true if some crossings are not on a visible surface: those with surfaces that are
+    /// visible from one side only, and with parts within solids.
     bool looks_through() const { return one_sided_ || scene_.solids().any(); }
     /// See Cuts::cuts.
     bool is_cut(core::Solids::Index of_many) const { return cuts_.cuts(of_many); }
@@ -61,12 +62,12 @@ class SceneData {
                (view_.only_cut_lanes[slot / 16] >> slot % 16 & 1) != 0;
     }
     bool smooth() const { return smooth_; }
-    /// Of a sphere around all that is in the tree; without one it is infinite.
+    /// Radius of a sphere around all shapes in the tree; infinite without a tree.
     float radius() const { return radius_; }
 
-    /// Medium that a ray is inside of; core::no_medium is empty space.
+    /// The medium that a ray is inside of; core::no_medium is empty space.
     struct Medium {
-        double inside; ///< 1, in empty space 0
+        double inside; ///< 1; 0 in empty space
         double index;
         double absorption[3];
     };
@@ -81,14 +82,14 @@ class SceneData {
         core::IdRange coplanar;
         core::MaterialIndex material;
         core::Kind kind;
-        bool reversed;              ///< a part of a solid by what is outside of it
+        bool reversed;              ///< a part of a solid, of which the outside counts
         core::MaterialIndex medium; ///< the material inside
         bool flat;                  ///< a plane, whatever its kind
 
         bool may_be_met_again(bool inward) const {
             return !flat && core::may_meet_again(kind, inward);
         }
-        /// True if a hit with these bits goes to the inside of it or, reversed, of its solid.
+        /// Returns true if a hit with these bits enters the shape or, if it is reversed, its solid.
         bool is_entered(std::uint32_t hit) const { return ((hit & hit_entering) != 0) != reversed; }
     };
     Occupant occupant_of(std::uint32_t slot) const {
@@ -96,7 +97,7 @@ class SceneData {
             return find_occupant(slot);
         return occupants_[slot];
     }
-    /// What is known of a shape by its id, and the slot where it is: cheap however many there are.
+    /// Properties of a shape by its id and slot. Cheap for any number of shapes.
     struct NamedShape {
         core::IdRange coplanar;
         core::Kind kind;
@@ -113,14 +114,14 @@ class SceneData {
         const core::Solids::Index part = scene_.solids().part_of(id);
         return part != core::Solids::none && scene_.solids().node(part).flat;
     }
-    /// The solid that a shape is a part of; core::no_shape if of none.
+    /// Returns the solid that a shape is a part of, or core::no_shape if it is not a part.
     core::ShapeId solid_with(core::ShapeId id) const {
         return scene_.solids().has(id) ? scene_.solids().solid_of(id) : core::no_shape;
     }
     core::ShapeId id_of(std::uint32_t slot) const { return occupant_of(slot).id; }
     core::Place place_of(std::uint32_t slot) const;
     std::uint32_t slot_of(core::Kind kind, core::Place place) const;
-    /// Slots of all shapes, by id; no_slot of what is there twice, but for the first.
+    /// Returns the slots of all shapes, by id. Duplicates other than the first have no_slot.
     std::vector<std::uint32_t> slots_by_id() const;
 
   private:
@@ -141,17 +142,17 @@ class SceneData {
 
     const core::Scene& scene_;
     SceneView view_{};
-    std::vector<Occupant> occupants_; // by slot, in scenes that are not large
+    std::vector<Occupant> occupants_; // by slot; empty in large scenes
     std::vector<std::uint16_t> plain_lanes_;
     Cuts cuts_;
     std::vector<std::uint64_t> orders_;
     std::vector<MaterialView> materials_;
-    std::vector<Medium> media_; // empty space, then what each material is inside
+    std::vector<Medium> media_; // empty space, then the inside of each material
     std::vector<LightView> lights_;
     std::vector<core::SoftLight> soft_lights_;
     FogView fog_{};
     std::uint32_t slots_ = 0;
-    std::uint32_t bounded_kinds_ = 0, unbounded_kinds_ = 0; // that there are, as bits
+    std::uint32_t bounded_kinds_ = 0, unbounded_kinds_ = 0; // in the scene, as bits
     bool one_sided_ = false;
     bool smooth_ = false;
     float radius_ = std::numeric_limits<float>::infinity();

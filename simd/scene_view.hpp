@@ -8,7 +8,7 @@
 /// that are built for newer processors.
 namespace raylane::simd {
 
-/// core::PackedBlock
+/// Same layout as core::PackedBlock.
 struct alignas(32) PackedBlockView {
     std::uint32_t least[3];
     std::uint32_t whole;
@@ -16,81 +16,83 @@ struct alignas(32) PackedBlockView {
     std::uint32_t words[16];
 };
 
-/// core::PackedSpheres
+/// View of core::PackedSpheres.
 struct PackedView {
     const PackedBlockView* blocks = nullptr; ///< null: the table is not packed
-    const float (*rows)[16] = nullptr;       ///< those that stand by themselves
-    const float* radii = nullptr;            ///< 16 of them at least can be read
+    const float (*rows)[16] = nullptr;       ///< of coordinates that are stored as floats
+    const float* radii = nullptr;            ///< at least 16 can be read
     std::uint32_t radius_count = 0;
-    std::uint32_t id_bits = 0; ///< of a word: above them is the number of the radius
-    std::uint32_t id_mask = 0; ///< these bits
+    std::uint32_t id_bits = 0; ///< of a word; the bits above them are the index of the radius
+    std::uint32_t id_mask = 0; ///< the id's bits
 };
 
-/// All shapes of one kind: an array of core::Block, which is `values` rows of 16 floats and a row
-/// of 16 ids. Shapes are numbered across the kinds by slots: that of lane l in block b is
-/// first_slot + 16 b + l.
+/// All shapes of one kind: an array of core::Block, each of `values` rows of 16 floats and a row of
+/// 16 ids. Slots number the shapes across the kinds: lane l of block b has slot first_slot + 16 b +
+/// l.
 struct TableView {
-    const float* blocks; ///< null: they are packed
+    const float* blocks; ///< null: the blocks are packed
     std::uint32_t block_count;
     std::uint32_t block_floats; ///< from one block to the next, in floats
-    std::uint32_t values;       ///< floats that a shape is
+    std::uint32_t values;       ///< floats per shape
     std::uint32_t first_slot;
-    /// Null, or what the shapes are exactly: an array of core::DoubleBlock, whose numbers are as
-    /// far from its first as the floats are from theirs.
+    /// Null, or the exact numbers of the shapes: an array of core::DoubleBlock. A double has the
+    /// same index here as its float has in `blocks`.
     const double* doubles = nullptr;
-    /// Where there is one, instead of `blocks`.
+    /// Used instead of `blocks` if the table is packed.
     PackedView packed{};
 
     [[gnu::always_inline]] bool is_packed() const { return packed.blocks != nullptr; }
 };
 
-/// core::WideNode
+/// Same layout as core::WideNode.
 struct NodeView {
     float lower[3][16];
     float upper[3][16];
     std::uint32_t children[16]; ///< core::Child's bits
 };
 
-/// Half-spaces outside of which nothing is left of what they cut, in groups: that is so where a
-/// point is outside of all of one group.
+/// Half-spaces that cut a union, in groups. Nothing of the union is left at points that are outside
+/// of all half-spaces of one group.
 struct CutView {
     static constexpr int most = 16;
-    float normal[3][most]; ///< outward, of length 1 but for rounding
+    float normal[3][most]; ///< outward, of length 1 except for rounding
     float offset[most];    ///< outside, normal . point is larger
-    /// Id of the one that has it as a face, if a ray that starts on that and then is outside has
-    /// been so from the start; else no_slot - 1.
+    /// Id of the shape that has the half-space as a face, if a ray that starts on that shape and is
+    /// outside later has been outside since its start; otherwise no_slot - 1.
     std::uint32_t shape[most];
-    /// Slot of the one that has it as a face, if that waits for what it cuts; else no_slot.
+    /// Slot of the shape that has it as a face, if that face waits; otherwise no_slot.
     std::uint32_t face[most];
-    float size; ///< none smaller than offsets, nor than what they have been made of
+    float size; ///< at least twice each offset, and 2^-20 of the terms that an offset is made of
     int count;
     std::uint32_t group_ends; ///< bit k: half-space k is the last of a group
-    bool is_all;              ///< nothing else cuts
+    bool is_all;              ///< nothing else cuts the union
 };
 
 struct SceneView {
     TableView tables[core::kind_count]; ///< by core::Kind
     const NodeView* nodes;              ///< the root first
-    /// Orders by 8 times the node and a ray direction's octant (bit a: component a is negative):
-    /// the node's entries in the order of their distance, 4 bits each, the nearest lowest.
+    /// Element 8 node + octant of a ray's direction (bit a: component a is negative): the node's
+    /// entries in the order of their distance, 4 bits each, the nearest in the lowest bits.
     const std::uint64_t* orders;
-    std::uint32_t tree_depth; ///< levels of nodes; 0: not to be walked
-    float reach;              ///< the largest coordinate of what is in the tree
-    float rounding;           ///< how far the shapes' floats are from what they stand for, at most
-    bool large;               ///< nodes and shapes do not fit in the cache of a core
-    bool small;               ///< they take no more than a sixteenth of it
-    /// Plain lanes by slot / 16: which of a block are opaque and seen from both sides, so that
-    /// whatever hits them is blocked. Null: all are.
+    std::uint32_t tree_depth; ///< levels of nodes; 0: the tree is not traversed
+    float reach;              ///< the largest coordinate of the tree's bounds
+    float rounding; ///< the largest distance between the shapes' floats and their exact numbers
+    bool large;     ///< nodes and shapes do not fit in the cache of a core
+    bool small;     ///< they take no more than a sixteenth of it
+    /// Element slot / 16: lanes of a block that are opaque and visible from both sides, so that
+    /// they block any ray that hits them. Null: all lanes are.
     const std::uint16_t* plain_lanes;
-    /// By slot / 16: which of `cuts` cuts the block's shapes, or some of them; 0: none. Null: none
-    /// is cut. Shapes that are cut are no plain ones; quadrics that are have no quadratic part.
+    /// Element slot / 16: index in `cuts` of the cut of the block's shapes, or of some of them; 0:
+    /// not cut. Null: no shape is cut. Cut shapes are never plain lanes. Cut quadrics have no
+    /// quadratic part.
     const std::uint16_t* cut_of_block;
     const CutView* cuts;
-    /// By slot / 16: lanes of what block no ray that they are not inside of, but for others that
-    /// may block it, too. Null: there are none.
+    /// Element slot / 16: lanes of shapes that only cut. Rays that start outside of their solid may
+    /// be blocked by others wherever these block them. Null: no such lanes.
     const std::uint16_t* only_cut_lanes;
-    /// Those of them that need not be looked for but where rays cross them within what they cut,
-    /// all of which is in blocks with their cut. Null: there are none.
+    /// The only_cut_lanes that are searched only where a ray crosses them within a part of the
+    /// union that they cut. All parts of that union are in blocks with their cut. Null: no such
+    /// lanes.
     const std::uint16_t* waiting_lanes;
 };
 

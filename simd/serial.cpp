@@ -2,7 +2,7 @@
 #include "simd/threads.hpp"
 #include "simd/workers.hpp"
 
-/// What threads.hpp and workers.hpp say, where there is no oneTBB: by the caller's thread alone.
+/// Implements threads.hpp and workers.hpp without oneTBB, on the caller's thread alone.
 namespace raylane::simd {
 
 int default_threads() {

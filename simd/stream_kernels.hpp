@@ -5,14 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Interface of the kernel units to a caller's rays: how they come in, and how answers go out.
+/// Interface between the kernel units and a caller's rays: intake of rays and output of answers.
 /// Plain data only.
 namespace raylane::simd {
 
 struct Coherence;
 
-/// A caller's rays, structure of arrays: values behind `count` may not be read. Limits of floats
-/// compare with the float nearest to t, those of doubles with the true one.
+/// A caller's rays, structure of arrays. Values beyond `count` must not be read. Float limits are
+/// compared with the float nearest to t, double limits with the exact t.
 template <class Real>
 struct CallerRays {
     std::size_t count;
@@ -22,28 +22,29 @@ struct CallerRays {
     const Real* t_max;        ///< null: infinity
 };
 
-/// Rays as kernels have them, structure of arrays of whole packets of 16. The directions meant are
-/// the caller's, brought near length 1 by a power of two: that is exact, and lets no product in the
-/// solvers over- or underflow. A ray that is none, or has no room between its limits, has t_most
-/// < 0, and numbers that mean nothing.
+/// Rays in the kernels' format, structure of arrays of whole packets of 16. The exact directions
+/// (`meant_direction`) are the caller's, scaled to about length 1 by a power of two. Scaling is
+/// exact and prevents overflow and underflow of products in the solvers. A ray that is invalid, or
+/// has no interval between its limits, has t_most < 0; its other numbers are meaningless.
 struct StreamRays {
     double* origin[3];
     double* direction[3]; ///< unit
     double* meant_direction[3];
     double* meant_length;
-    double* unit;     ///< the caller's t per t of the ray meant: the power of two
-    double* per_unit; ///< the same per t of the unit direction, within 2^-51 of itself
-    /// Crossings of the ray meant at less than this t, or at it unless stream_tie_counts, do not
-    /// count; 0: all with t > 0 do.
+    double* unit; ///< the caller's t per t of the exact ray: the power of two
+    double*
+        per_unit; ///< the same per t of the unit direction, with a relative error of at most 2^-51
+    /// Lower limit in t of the exact ray. Crossings before it do not count. Crossings at it count
+    /// only with stream_tie_counts. 0: all crossings with t > 0 count.
     double* t_after;
-    double* start;  ///< the same by the length of the direction: where the ray begins to count
-    double* t_most; ///< likewise; no crossing behind it counts
+    double* start;  ///< t_after times the direction's length: where the ray begins to count
+    double* t_most; ///< the upper limit, likewise times the length; no crossing behind it counts
     std::uint32_t* bits;
 };
 /// Bit of StreamRays::bits: a crossing at t_after counts.
 inline constexpr std::uint32_t stream_tie_counts = 0x20000;
 
-/// Arrays of a caller's for hits. Null: not wanted.
+/// The caller's arrays for hits. Null: not requested.
 struct CallerHits {
     float* t;
     double* t_double;
@@ -53,17 +54,17 @@ struct CallerHits {
     std::uint8_t* face;
 };
 
-/// What hits have to be at or before: the caller's floats, if not null, as t in float is, or else,
-/// if `truly`, StreamRays::t_most.
+/// Upper limits of hits. `t_max`, if not null: the caller's floats, compared with the float nearest
+/// to t. Otherwise, if `truly`: StreamRays::t_most.
 struct UpperLimits {
     const float* t_max;
     bool truly;
 };
 
-/// Lanes for which more is to be done, as kernels list them.
+/// Lanes that need more work, as kernels list them.
 struct LeftOver {
     std::uint32_t* doubtful; ///< their floats are in doubt; nothing has been stored
-    std::uint32_t* unsharp;  ///< hits of which t_double alone is
+    std::uint32_t* unsharp;  ///< hits of which only t_double is in doubt
     std::size_t doubtful_count, unsharp_count;
 };
 
@@ -78,17 +79,17 @@ struct StreamHits {
 
 /// Kernels for streams of a caller's rays.
 struct StreamKernels {
-    /// Takes rays in. Returns how many are none.
+    /// Takes rays in. Returns the number of invalid or empty ones.
     std::size_t (*take)(const CallerRays<float>& rays, const StreamRays& taken);
     std::size_t (*take_doubles)(const CallerRays<double>& rays, const StreamRays& taken);
 
-    /// Looks at whole rays for what they have in common. Returns false if that is nothing.
+    /// Finds a property that all of the first `count` rays share. Returns false if they share none.
     /// `radius`: of the scene.
     bool (*find_coherence)(std::size_t count, const StreamRays& rays, float radius,
                            Coherence& coherence);
 
-    /// Hands hits of the first `count` rays over to the caller: t in units of the caller's. `left`
-    /// has room for `count` each.
+    /// Hands the hits of the first `count` rays over to the caller, with t in the caller's units.
+    /// Each list of `left` has capacity for `count` lanes.
     void (*hand_over)(const SceneView& scene, std::size_t count, const UpperLimits& limits,
                       const StreamRays& taken, const StreamHits& found, const CallerHits& hits,
                       LeftOver& left);

@@ -20,7 +20,7 @@ StreamTracer::StreamTracer(const core::Scene& scene, int threads, Isa isa,
 
 StreamTracer::~StreamTracer() = default;
 
-/// All threads get some of what there is.
+/// Splits `count` rays so that all threads get some of them.
 StreamTracer::Parts StreamTracer::parts_of(std::size_t count) const {
     const int threads = threads_ > 0 ? threads_ : default_threads();
     const std::size_t share = count / (std::size_t{4} * static_cast<std::size_t>(threads));
@@ -29,7 +29,7 @@ StreamTracer::Parts StreamTracer::parts_of(std::size_t count) const {
     return {size, (count + size - 1) / size};
 }
 
-/// Calls answer(worker, first, count) for ranges that together are all rays.
+/// Calls answer(worker, first, count) for ranges that together cover all rays.
 template <class Answer>
 void StreamTracer::answer(std::size_t count, const Answer& answer) const {
     if (count == 0) return;
@@ -45,7 +45,8 @@ void StreamTracer::answer(std::size_t count, const Answer& answer) const {
     on_threads(threads_, [&] { parallel_for(parts.count, answer_part); });
 }
 
-/// Calls answer(worker, first, count, rows, part) for the same, each part with rows of its own.
+/// Calls answer(worker, first, count, rows) for the same ranges, with separate rows for each, and
+/// joins these.
 template <class AnyRows, class Answer>
 void StreamTracer::answer_in_rows(std::size_t count, AnyRows& rows, const Answer& answer) const {
     rows = {};

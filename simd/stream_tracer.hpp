@@ -20,47 +20,48 @@ class StreamWorker;
 struct CrossingCounters;
 struct CrossingRequest;
 
-/// Answers streams of rays about one scene, which must outlive it. May be called by any number of
-/// threads at a time. The answer to a ray depends on the scene and that ray alone.
+/// Answers streams of rays in one scene, which must outlive it. Any number of threads may call it
+/// at a time. The answer to a ray depends on the scene and that ray alone.
 ///
-/// Of rays in float a crossing counts by its t as it is answered: the nearest float, but never 0 or
-/// infinity; of rays in double by its true t. What its material's `visible` says cannot be seen
-/// from there does not count. A ray with a component that is not in the range of RayStream, a
-/// direction of 0 or a limit that is NaN hits nothing.
+/// For rays in float, a crossing counts by its t as it is answered: the nearest float, but never 0
+/// or infinity. For rays in double, it counts by its exact t. Sides that the material's `visible`
+/// hides do not count. A ray hits nothing if a component is outside of RayStream's range, its
+/// direction is 0, or a limit is NaN.
 class StreamTracer {
   public:
-    /// `threads`: 0 is default_threads(). `isa`: an available one; default: the best.
+    /// `threads`: 0 is default_threads(). `isa`: must be available; default: the best.
     explicit StreamTracer(const core::Scene& scene, int threads = 0, Isa isa = best_isa(),
                           core::Precision precision = core::Precision::exact);
     ~StreamTracer();
 
-    /// The nearest crossing. Of several at the same t, one that is entered comes before one that is
-    /// left, then the lower id.
+    /// Finds the nearest crossing of each ray. At the same t, entering precedes leaving, then the
+    /// lower id precedes.
     template <class Real>
     void nearest(const RayStream<Real>& rays, const HitStream& hits) const;
 
-    /// 1 where there is any crossing, 0 elsewhere.
+    /// Writes 1 where a ray has any crossing, otherwise 0.
     template <class Real>
     void occluded(const RayStream<Real>& rays, std::uint8_t* occluded) const;
 
-    /// All crossings in their order, or the first ones. Rows are replaced. What counts, does so as
-    /// above; of triangles of one polygon that meet at an edge, the one with the lower id. Whatever
-    /// the precision, this and the following are exact.
+    /// Finds all crossings of each ray in their order, or the first ones. Replaces `rows`.
+    /// Crossings count as above. Where triangles of one polygon meet at an edge, the one with the
+    /// lower id counts. This function and the following ones are exact with every precision.
     template <class Real>
     void crossings(const RayStream<Real>& rays, const CrossingRequest& wanted, CrossingRows& rows,
                    CrossingCounters& counters) const;
 
-    /// How much of each ray, between its limits, is inside of each material's solids: as if these
-    /// were one solid, in the scene's unit, within an ulp. Sides that cannot be seen count.
+    /// Computes how much of each ray, between its limits, is inside of each material's solids,
+    /// taken together as one solid. Lengths are in the scene's unit, within an ulp. Sides that
+    /// cannot be seen count.
     template <class Real>
     void path_lengths(const RayStream<Real>& rays, LengthRows& rows) const;
 
-    /// The solids that points are in.
+    /// Finds the solids that contain each point.
     template <class Real>
     void containing(const PointStream<Real>& points, SolidRows& rows) const;
 
   private:
-    /// How a call is shared out among threads: so many parts, each of so many.
+    /// Split of a call among threads: `count` parts of `size` rays.
     struct Parts {
         std::size_t size, count;
     };

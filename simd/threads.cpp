@@ -50,9 +50,9 @@ AllowedThreads::~AllowedThreads() = default;
 
 namespace {
 
-/// An arena from those that calls before have left, or a new one. oneTBB gives back what ended ones
-/// hold later than short calls would make new ones: some 10 kB each. All threads of one round as
-/// the one that has made it did.
+/// An arena that an earlier call has returned, or a new one. oneTBB frees the memory of ended
+/// arenas, some 10 kB each, later than short calls would make new ones. All threads of an arena
+/// round like the thread that made it.
 class LentArena {
   public:
     explicit LentArena(int threads) {
@@ -82,7 +82,7 @@ class LentArena {
     };
     static constexpr std::size_t most_idle = 64;
     static constinit std::mutex idle_mutex;
-    /// Never destroyed: threads that nobody waits for may call until the process ends.
+    /// Never destroyed: threads that are never joined may call until the process ends.
     static constinit std::list<Arena>* idle;
 
     std::list<Arena> own_;
@@ -103,7 +103,8 @@ void on_threads(int threads, const std::function<void()>& body) {
 
 namespace {
 
-/// What comes before tasks and after them, for the thread sanitizer.
+/// Reports to the thread sanitizer that tasks run after the code before the fork, and before the
+/// code after it.
 class Fork {
   public:
     Fork() { release(start_); }

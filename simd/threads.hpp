@@ -6,14 +6,15 @@
 
 namespace raylane::simd {
 
-/// More than any machine has of use.
+/// More than any machine can use.
 inline constexpr int max_threads = 4096;
 
-/// Number of threads that the environment's RAYLANE_THREADS says, else what the machine has for
-/// this process. Throws InvalidValue for one that is no number of threads.
+/// Returns the number of threads in the environment variable RAYLANE_THREADS or, if that is unset
+/// or empty, the number that the machine offers this process. Throws InvalidValue if the variable
+/// is not a whole number from 1 to max_threads.
 int default_threads();
 
-/// While it lives, so many threads are allowed even where there are fewer processors: oneTBB would
+/// Allows this number of threads while it lives, even on fewer processors. Without it, oneTBB would
 /// print a warning.
 class AllowedThreads {
   public:
@@ -25,17 +26,17 @@ class AllowedThreads {
     std::unique_ptr<Control> control_;
 };
 
-/// Calls body(), whose parallel loops then run on `threads` threads (0: default_threads()). An
-/// exception comes out of it.
+/// Calls body(). Its parallel loops run on `threads` threads (0: default_threads()). Exceptions
+/// propagate.
 void on_threads(int threads, const std::function<void()>& body);
 
-/// Tasks of the arena's threads, as tbb::parallel_for and tbb::parallel_invoke run them; an
-/// exception comes out of it. The thread sanitizer, which cannot look into oneTBB (threads.cpp is
-/// built without it), is told when they start and end.
+/// Run tasks on the arena's threads, like tbb::parallel_for and tbb::parallel_invoke. Exceptions
+/// propagate. The thread sanitizer cannot see into oneTBB, and threads.cpp is built without it, so
+/// these functions report to it when tasks start and end.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& task);
 void parallel_invoke(const std::function<void()>& one, const std::function<void()>& other);
 
-/// Calls body() from a task; what it waits for does not make this thread begin another one.
+/// Calls body() from a task. While body() waits, this thread does not begin another task.
 void isolate(const std::function<void()>& body);
 
 } // namespace raylane::simd

@@ -7,8 +7,9 @@ namespace raylane::simd {
 
 namespace {
 
-/// Multiples of that, modulo the number of tiles, go through all of them, and each few that follow
-/// one another are spread evenly: by the golden ratio, as nearly as that has no factor in common.
+/// Returns a stride whose multiples, modulo the number of tiles, visit all of them. Each few
+/// consecutive multiples are spread evenly, as the stride is the golden ratio of the number,
+/// increased until both have no common factor.
 std::size_t stride_of(std::size_t tiles) {
     constexpr double golden_ratio = 0.6180339887498949;
     auto stride = static_cast<std::size_t>(std::llround(golden_ratio * static_cast<double>(tiles)));

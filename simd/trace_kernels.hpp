@@ -6,40 +6,40 @@
 #include <cstdint>
 
 /// Interface of the kernel units to the wavefront loop and to streams of rays: plain data only.
-/// Arrays have `count` values and are readable and writable up to whole packets of 16; what is
-/// behind `count` means nothing, before and after.
+/// Arrays have `count` values and are readable and writable up to whole packets of 16. Values
+/// beyond `count` are meaningless, before and after.
 namespace raylane::simd {
 
 struct Found;
 
-/// Rays rounded to float (FilterRays in kernel/shapes/filter.hpp), with the shapes that they
-/// leave, which no filter sees: ids first to last, no_shape twice if none.
+/// Rays rounded to float (FilterRays in kernel/shapes/filter.hpp), with the ids of the shapes that
+/// they leave, first to last; no_shape twice if they leave none. Filters do not see these shapes.
 struct RoundedRays {
     float* origin[3];
     float* direction[3];
     float* slack;
     const std::uint32_t* origin_first;
     const std::uint32_t* origin_last;
-    const double* meant_origin[3]; ///< before they were rounded
+    const double* meant_origin[3]; ///< exact, before rounding
     const double* meant_direction[3];
-    /// How far along the rays meant these start: before that nothing is looked for, and from there
-    /// their t counts. Null: they all start where they start.
+    /// Distances along the exact rays at which the rounded ones start. The search ignores
+    /// everything before, and t counts from there. Null: 0.
     const double* before = nullptr;
 };
 
 /// Candidates for the nearest crossing of each ray. In and out.
 struct Candidates {
-    float* first;        ///< the smallest lower bound, infinity if there is none
-    float* second;       ///< the next smallest of another shape
-    std::uint32_t* slot; ///< the shape that has the smallest; no_slot if there is none
+    float* first;        ///< the smallest lower bound; infinity without a candidate
+    float* second;       ///< the next smallest, of another shape
+    std::uint32_t* slot; ///< the shape with the smallest bound; no_slot without a candidate
 };
 
-/// Number of random rays from which on they are better off as one list where the hierarchy is in
-/// the cache.
+/// Number of random rays from which one list for all is faster, where the hierarchy fits in the
+/// cache.
 inline constexpr std::size_t long_list = 4096;
 
-/// A candidate's t is within this factor of its lower bound, or not certain to be the nearest:
-/// what lies beyond has not been looked at.
+/// Factor between a candidate's lower bound and the largest t that can be certain to be the
+/// nearest. The search skips everything beyond.
 inline constexpr float culling_slack = 1.0F + 0x1p-10F;
 
 /// Occlusion of each ray before t_most.
@@ -48,30 +48,32 @@ struct Occlusions {
     std::uint8_t* state; ///< in and out: Occlusion
 };
 
-/// Lanes that are blocked on the way in are not looked at.
+/// Result for a ray. Rays that are blocked on input are skipped.
 enum Occlusion : std::uint8_t {
     unblocked = 0,
-    doubtful = 1, ///< perhaps something, or something that light may pass
+    doubtful = 1, ///< perhaps a shape is in the way, or one that light may pass
     blocked = 2,
 };
 
-/// Number of rays under way in the hierarchy at a time: their state fits in the first-level cache.
+/// Number of interleaved single rays in the hierarchy at a time. Their state fits in the
+/// first-level cache.
 inline constexpr int in_flight = 32;
 
-/// Room for what rays are still to visit in the hierarchy: for each of those in flight,
-/// pending_entries(levels).
+/// Memory for the entries that rays have yet to visit in the hierarchy: pending_entries(levels) for
+/// each interleaved ray.
 struct Pending {
-    std::uint16_t* key; ///< null: there is no hierarchy to walk
+    std::uint16_t* key; ///< null: no hierarchy is traversed
     std::uint32_t* child;
 };
-/// 16 that are none, and then up to 30 a level: whichever of the last 16 is taken, its children
-/// come behind the other 15. What is written at once may reach 20 beyond.
+/// Capacity for one ray: 16 empty entries, and then up to 30 for each level. Whichever of the last
+/// 16 entries is taken, its children are appended behind the other 15. One write may reach 20
+/// entries beyond.
 [[gnu::always_inline]] constexpr std::size_t pending_entries(std::uint32_t levels) {
     return std::size_t{16} * (2 * levels + 1);
 }
 
-/// Workspace of kernels: the above, and, if `capacity` is not 0, room for so many rays (less than
-/// 65536) at a time that go together.
+/// Memory of kernels: the above and, if `capacity` is not 0, space for this number of rays (less
+/// than 65536) that are traced together.
 struct Workspace : Pending {
     std::size_t capacity;
     std::byte* records;   ///< list_record_bytes for each ray, aligned to 64
@@ -85,7 +87,7 @@ constexpr std::size_t list_entries(std::size_t rays, std::uint32_t levels) {
 struct CameraView {
     double from[3], forward[3], right[3], up[3]; ///< right and up are half a pixel long
     double lens_right[3], lens_up[3];            ///< unit
-    double focus;                                ///< distance of the plane that is sharp
+    double focus;                                ///< distance of the plane in focus
     bool orthographic;
 };
 
@@ -93,43 +95,45 @@ struct TraceCounters {
     std::uint64_t nodes;  ///< visited by a ray, a list or a frustum
     std::uint64_t shapes; ///< tests of a ray against a shape
     std::uint64_t one_by_one, in_frusta, in_lists,
-        in_flight; ///< rays, as EngineCounters has them
+        in_flight; ///< rays, as in EngineCounters
 };
 
-/// Rays that start at one point, or end there, or are parallel; or that would have come from one
-/// point, as those that a flat mirror reflects. Consecutive ones are near each other, so that what
-/// many of them miss need be found only once.
+/// Common property of rays: they start at one point, end at one point, or are parallel. Rays that a
+/// flat mirror reflects count as rays from the mirror image of their point. Consecutive rays are
+/// near each other, so anything that many of them miss need be found only once.
 struct Coherence {
-    float apex[3];   ///< unless they are parallel
+    float apex[3];   ///< meaningless if they are parallel
     bool converging; ///< they end at the apex
     bool parallel;
-    bool loose;          ///< they are near each other and no more: the rest means nothing
+    bool loose;          ///< they are only near each other: the other members are meaningless
     bool beyond;         ///< they start beyond the apex
-    float spread = 0.0F; ///< by which they miss the apex, at most
+    float spread = 0.0F; ///< largest distance by which they miss the apex
 };
 constexpr Coherence neighbours{{}, false, false, true, false};
 
 /// Kernels for rays before and after they are traced.
 struct RayKernels {
-    /// Through points of the picture and, if there is a lens, of that: null if there is none.
+    /// Makes rays through points of the image and of the lens. Without a lens, lens_right and
+    /// lens_up are null.
     void (*camera_rays)(const CameraView& camera, std::size_t count, const double* across,
                         const double* upward, const double* lens_right, const double* lens_up,
                         double* const origin[3], double* const direction[3]);
 
-    /// Fills origin, direction and slack, by the others. Rays are taken to be off by as much as
-    /// shapes are whose floats are `rounding` away from them.
+    /// Computes `origin`, `direction` and `slack` from the other members. The slack includes
+    /// `rounding`, the largest distance of shapes' floats from their exact numbers.
     void (*round_rays)(std::size_t count, const RoundedRays& rays, float rounding);
 
-    /// Lists the lanes whose candidate is not certain to be the nearest, as none is before another
-    /// nearer than `least`, and those that are `doubtful` anyway. What was found for the candidate
-    /// is as in Found. Returns how many.
+    /// Lists the lanes whose candidate is not certain to be the nearest, and those that are
+    /// `doubtful` anyway. The lanes with bounds on other candidates below `least` are never
+    /// certain. `t`, `error` and `hit` are those of the candidate, as in Found. Returns the number
+    /// of lanes.
     std::size_t (*list_uncertain)(std::size_t count, const Candidates& candidates, const double* t,
                                   const double* error, const std::uint32_t* hit,
                                   const std::uint8_t* doubtful, float least, std::uint32_t* lanes);
 };
 
-/// The shapes of the kinds in `kind_bits` one by one, and the hierarchy if there is one to walk.
-/// `coherence` is null if the rays have nothing in common, nor are near each other.
+/// Search the shapes of the kinds in `kind_bits` one by one, and the hierarchy if there is one.
+/// `coherence`: null if the rays share no property and are not near each other.
 struct TraceKernels {
     void (*nearest)(const SceneView& scene, std::uint32_t kind_bits, const Coherence* coherence,
                     std::size_t count, const RoundedRays& rays, const Candidates& candidates,
@@ -142,34 +146,35 @@ struct TraceKernels {
 /// Candidates for a ray's first crossing, in no order.
 struct CandidateList {
     std::uint32_t* slot;
-    float* lower; ///< bounds
+    float* lower; ///< lower bounds of t
     std::size_t room, count;
-    /// Limit, in and out: what lies beyond is not listed.
+    /// Limit, in and out: candidates beyond it are not listed.
     float limit;
-    /// True if RoundedRays has the ray as it is: of many, what it surely misses is not listed.
+    /// True if RoundedRays has the exact ray: long lists then omit shapes that it certainly misses.
     bool sifts;
 };
 
-/// Factor between the limit of a list and the upper bound that it is taken from, so that what is
-/// nearly as near is listed, too.
+/// Factor between the limit of a list and the upper bound that it is computed from, so that
+/// candidates that are nearly as near are listed, too.
 inline constexpr float candidate_grace = 1.0F + 0x1p-18F;
 
-/// Crossings in twice the digits: t as the sum of two doubles, and what that may be off by.
+/// Crossings in extended precision: t as the sum of two doubles, and a bound on its error.
 struct WideCrossings {
     double *high, *low, *error;
-    /// Outward normals of length 1, each component correctly rounded where `rounded` is 1: a bit
-    /// for each of the three. Null if nobody asks.
+    /// Outward normals of length 1. Each component is correctly rounded where `rounded` is 1: one
+    /// bit for each of the three. Null: not requested.
     float* normal[3] = {};
     std::uint8_t* rounded = nullptr;
 };
 
-/// Pairs of a ray and a shape that it may cross. Those that there is no room for are only counted.
+/// Pairs of a ray and a shape that it may cross. Pairs beyond the capacity `room` are only counted.
 struct PairList {
     std::uint32_t *ray, *slot;
     std::size_t room, count;
 };
 
-/// Rays and shapes of which all crossings with t > 0 are asked, of rays that do not start on them.
+/// Pairs of a ray and a shape, for which all crossings with t > 0 are computed. The rays do not
+/// start on the shapes.
 struct CrossingPairs {
     std::size_t count;
     const double* origin[3]; ///< of rays, by ray
@@ -178,29 +183,29 @@ struct CrossingPairs {
     const std::uint32_t* ray;        ///< of a pair; those of one ray are together
     const std::uint32_t* slot;
 
-    /// Out: of pair k the crossings 2 k and 2 k + 1, in order. t is the sum of two doubles, and is
-    /// off by at most the error.
+    /// Out: crossings 2 k and 2 k + 1 of pair k, in order. t is the sum of two doubles, with an
+    /// error of at most `error`.
     double *high, *low, *error;
     std::uint32_t* hit; ///< hit_none, hit_doubtful where little is known, or face and hit_entering
 };
 
-/// Kernels for rays that are left in doubt.
+/// Kernels for rays that remain in doubt.
 struct RefineKernels {
-    /// Lists all that ray i may cross before the limit, in the kinds and the hierarchy as
-    /// TraceKernels::nearest has them. Returns whether there was room.
+    /// Lists all shapes that ray i may cross before the limit, among those that
+    /// TraceKernels::nearest searches. Returns false if the list's capacity does not suffice.
     bool (*list_candidates)(const SceneView& scene, std::uint32_t kind_bits,
                             const RoundedRays& rays, std::size_t i, const Pending& pending,
                             CandidateList& list, TraceCounters& counters);
-    /// MethodKernels::finish once more for lanes that it left doubtful. The others are left as they
-    /// are.
+    /// Repeats MethodKernels::finish in extended precision for the lanes that it left doubtful.
+    /// Other lanes are not changed.
     void (*finish_again)(const SceneView& scene, const Found& found);
-    /// Widens `count` crossings that have been found, at some places of `found`, of the rays that
-    /// are meant. The error is infinite, and no normal is rounded, where they are not known, as of
-    /// rays that start on the shape.
+    /// Extends the precision of `count` crossings that have been found, at `places` of `found`, for
+    /// the exact rays. The error is infinite, and no normal is rounded, for unknown crossings, such
+    /// as those of rays that start on the shape.
     void (*widen)(const SceneView& scene, const Found& found, const std::size_t* places,
                   std::size_t count, const WideCrossings& wide);
-    /// Adds all that rays may cross before t_most, each as TraceKernels::nearest has it, in any
-    /// order; nothing of rays where that is not more than 0.
+    /// Adds all pairs that may cross before t_most, among the shapes that TraceKernels::nearest
+    /// searches, in any order. Rays whose t_most is not positive get no pairs.
     void (*list_all)(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
                      const RoundedRays& rays, const float* t_most, const Pending& pending,
                      PairList& list);

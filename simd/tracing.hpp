@@ -7,7 +7,8 @@
 
 namespace raylane::simd {
 
-/// Kernels that trace rays: an instruction set's, and which of their methods.
+/// Kernels that trace rays: those of one instruction set, and the precision that selects their
+/// method.
 struct Tracing {
     const Kernels* kernels;
     core::Precision precision = core::Precision::exact;
@@ -16,14 +17,14 @@ struct Tracing {
         static_assert(method_count == std::size(core::all_precisions));
         return kernels->methods[static_cast<std::size_t>(precision)];
     }
-    /// True if candidates that cannot be told apart are left to who can.
+    /// Returns true if candidates that cannot be told apart are passed on to a more precise stage.
     bool certifies() const { return !core::is_single(precision); }
 };
 
-/// A ray that has walked through so many surfaces, one search for each, is left to the reference,
-/// which finds all that are still to come in one. Between surfaces that lie closer together than
-/// numbers do, a walk would go round in circles: each step is lost in its origin, and what it has
-/// passed is ahead of it again.
+/// A ray that has walked through this many surfaces, with one search for each, is left to the
+/// reference tracer, which finds all further ones in one search. Between surfaces that are closer
+/// together than adjacent numbers, a walk would never end: each step is lost in the rounding of its
+/// origin, and surfaces that it has passed are ahead of it again.
 inline constexpr int longest_walk = 64;
 
 } // namespace raylane::simd

@@ -22,7 +22,7 @@ void ParallelWorkers::both(const Task& one, const Task& other) {
 }
 
 void ParallelWorkers::each(std::size_t count, const std::function<void(std::size_t)>& task) {
-    if (count <= 1) return Workers::each(count, task); // wakes nobody up for a small scene
+    if (count <= 1) return Workers::each(count, task); // wakes no thread for a small scene
     arena_->arena.execute([&] { parallel_for(count, task); });
 }
 

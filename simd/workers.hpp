@@ -6,7 +6,7 @@
 
 namespace raylane::simd {
 
-/// Builds with `threads` threads (0: default_threads()).
+/// Runs the tasks of a build on `threads` threads (0: default_threads()).
 class ParallelWorkers : public core::Workers {
   public:
     explicit ParallelWorkers(int threads = 0);
