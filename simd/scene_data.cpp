@@ -294,9 +294,9 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
     one_sided_ = std::any_of(materials.begin(), materials.end(), [](const core::Material& m) {
         return m.visible != core::Visible::both;
     });
-    // A part whose inside belongs to the solid as a whole (`fills`) blocks all rays that start
-    // outside of the solid, wherever the solid's surface is. Rays of images start outside, unless
-    // the camera is inside, or they leave surfaces that are seen inside of an open solid.
+    // A part whose whole inside belongs to the solid (`fills`) blocks all rays that start outside
+    // of the solid, wherever the solid's surface is. Rays of images start outside, unless the
+    // camera is inside, or they leave surfaces that are seen inside of an open solid.
     std::vector<bool> blocks(solids.nodes().size());
     for (core::Solids::Index solid = 0, end = 0; solid < blocks.size(); solid = end) {
         end = solids.node(solid).end;

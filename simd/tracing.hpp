@@ -17,7 +17,8 @@ struct Tracing {
         static_assert(method_count == std::size(core::all_precisions));
         return kernels->methods[static_cast<std::size_t>(precision)];
     }
-    /// Returns true if candidates that cannot be told apart are passed on to a more precise stage.
+    /// Returns true if candidates that cannot be distinguished are passed on to a more precise
+    /// stage.
     bool certifies() const { return !core::is_single(precision); }
 };
 

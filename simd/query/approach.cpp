@@ -9,10 +9,11 @@ namespace raylane::simd {
 
 namespace {
 
-/// Radii. Nearer rays are off by less than a thousandth of the scene wherever they go.
+/// In radii of the scene. Rays that start nearer are off by less than a thousandth of the scene
+/// everywhere.
 constexpr double far_away = 64.0;
 
-/// True where each term of the product has a factor 0.
+/// Returns true if each term of the product has a factor 0.
 bool is_parallel(const core::Vec3d& normal, const core::Vec3d& direction) {
     bool is = true;
     for (int axis = 0; axis < 3; ++axis)
@@ -22,7 +23,8 @@ bool is_parallel(const core::Vec3d& normal, const core::Vec3d& direction) {
 
 } // namespace
 
-/// Finds the sphere about the tree. Without one there is little to tell apart.
+/// Finds the sphere around the tree. Without a tree, there is little to distinguish, and no ray is
+/// moved from far away.
 Approach::Approach(const SceneData& scene) : scene_(scene) {
     if (!scene.has_tree()) return;
     const core::Bounds& bounds = scene.scene().hierarchy().bounds;
@@ -58,7 +60,7 @@ void Approach::find_starts(const RayColumns& from, RoundedRays& rays) {
 bool Approach::are_far(const RayColumns& rays) const {
     if (radius_ < 0.0) return false;
     const double most = far_away * radius_;
-    std::uint64_t signs = 0; // in lanes, which a maximum is not
+    std::uint64_t signs = 0; // in lanes, unlike a maximum
     for (int axis = 0; axis < 3; ++axis) {
         const double* const origin = rays.origin[axis];
         const double center = center_[axis];
@@ -68,11 +70,12 @@ bool Approach::are_far(const RayColumns& rays) const {
     return signs >> 63 != 0;
 }
 
-/// No further than to a radius before the sphere about all that is bounded, and before any plane
-/// that it may cross until there.
+/// Returns how far a ray may be moved: up to a radius before the sphere around all bounded shapes,
+/// and before any plane that it may cross until there.
 double Approach::before_of(const core::Ray<double>& ray) const {
     const core::Vec3d to_center = center_ - ray.origin;
-    // The product is off by less than a few ulps of both lengths, and so is what t is compared to.
+    // The error of the product is less than a few ulps of both lengths. So is that of the value
+    // that t is compared with.
     double before = core::dot(to_center, ray.direction) - 2.0 * radius_ -
                     0x1p-49 * (core::length(ray.origin) + core::length(to_center));
     if (!(before > far_away * radius_)) return 0.0;
@@ -83,7 +86,7 @@ double Approach::before_of(const core::Ray<double>& ray) const {
         const double size = core::length(normal);
         const double approach = core::dot(normal, ray.direction);
         const double t = core::dot(normal, to_plane) / approach;
-        // Each product is off by less than a few ulps of its vectors' lengths.
+        // The error of each product is less than a few ulps of its vectors' lengths.
         const double error =
             0x1p-49 * size * (core::length(to_plane) + std::abs(t)) / std::abs(approach);
         if (t + error < 0.0 || t - error > before + radius_) return;

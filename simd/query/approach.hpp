@@ -6,27 +6,27 @@
 
 namespace raylane::simd {
 
-/// Starts of rays further along, before they are rounded. A float direction leads to a point a few
-/// ulps of the distance beside the one that is meant, which from a million sizes away is anywhere
-/// in the scene: so rays that start far away are brought near it, no further than before all that
-/// they may cross. And where a ray has a limit below, it starts there. Its t then counts from where
-/// it has been brought.
+/// Moves starts of rays further along, before rays are rounded. A float direction leads to a point
+/// a few ulps of the distance beside the exact one. From a million scene sizes away, that point may
+/// be anywhere in the scene. So rays that start far away are moved near the scene, but not past
+/// anything that they may cross. A ray with a lower limit starts there. The t of a ray then counts
+/// from its new start.
 class Approach {
   public:
     explicit Approach(const SceneData& scene);
 
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// Finds how far along rays start, RoundedRays::before, if any of them does.
+    /// Finds how far along rays start (RoundedRays::before), if any of them starts further along.
     void find_starts(const RayColumns& from, RoundedRays& rays);
 
     /// True if any of the last rays starts further along.
     bool any() const { return before_ != nullptr; }
-    /// True if any of them has been brought from far away.
+    /// True if any of them was moved from far away.
     bool is_from_afar() const { return is_from_afar_; }
-    /// Excess of t over the t of the rounded ray.
+    /// Returns the excess of t over the t of the rounded ray.
     double before(std::size_t lane) const { return any() ? before_[lane] : 0.0; }
-    /// Each t less that.
+    /// Returns each t minus that excess.
     const double* from_there(const double* t);
 
   private:
@@ -35,7 +35,7 @@ class Approach {
 
     const SceneData& scene_;
     core::Vec3d center_{};
-    double radius_ = -1.0; ///< of all that is bounded; < 0: no ray is brought anywhere
+    double radius_ = -1.0; ///< of all bounded shapes; < 0: no ray is moved from far away
     std::size_t count_ = 0;
     bool is_from_afar_ = false;
     const double* before_ = nullptr;

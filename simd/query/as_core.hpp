@@ -6,7 +6,7 @@
 
 namespace raylane::simd {
 
-/// Core's view of the ray that a lane means, and of what it leaves.
+/// Returns the exact ray of a lane.
 template <class Real = double>
 core::Ray<Real> ray_of(const Paths& paths, std::size_t lane) {
     const auto vector = [lane](double* const(&columns)[3]) {
@@ -17,7 +17,7 @@ core::Ray<Real> ray_of(const Paths& paths, std::size_t lane) {
             vector(paths.stand_for_others() ? paths.meant_direction : paths.direction)};
 }
 
-/// Its hit: t is per unit of the direction meant.
+/// Returns the hit of a lane. Its t is per unit of the exact direction.
 inline core::Hit<double> hit_of(const SceneData& scene, const Paths& paths, const Hits& hits,
                                 std::size_t lane) {
     core::Hit<double> hit;
@@ -36,6 +36,7 @@ inline core::Hit<double> hit_of(const SceneData& scene, const Paths& paths, cons
     return hit;
 }
 
+/// Returns the surfaces that a lane's ray leaves.
 template <class Real = double>
 core::OriginSurfaces<Real> origin_surfaces_of(const SceneData& scene, const Paths& paths,
                                               std::size_t lane) {

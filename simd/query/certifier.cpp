@@ -10,7 +10,7 @@ namespace raylane::simd {
 
 namespace {
 
-/// A float that is not above a value >= 0, nor far below it.
+/// Returns a float that is not above a value >= 0, and not far below it.
 float rounded_down(double value) {
     return static_cast<float>(value) * (1.0F - 0x1p-22F);
 }
@@ -102,7 +102,7 @@ void Certifier::find_of_few(const Paths& paths, const Candidates& candidates, co
         finish_one(paths, lane, hits);
 }
 
-/// What has been found for one lane.
+/// Solves the shape that was found for one lane.
 void Certifier::finish_one(const Paths& paths, std::uint32_t lane, const Hits& hits) {
     gathered_.copy_ray(paths, lane, 0);
     gathered_hits_.slot[0] = hits.slot[lane];
@@ -116,9 +116,9 @@ void Certifier::finish(Found found) const {
     (found.holds_points ? method.finish : method.finish_all)(scene_.view(), found);
 }
 
-/// The kernels take of several crossings at the same t whichever they meet first, and note that
-/// there is another. That is rare: most packets are done with at a glance. Returns the lanes that
-/// meet another shape than was found.
+/// Breaks ties. The kernels keep one of several crossings at the same t, whichever they meet first,
+/// and record that there is another. Ties are rare, so most packets take one check. Returns the
+/// lanes whose shape has changed.
 std::span<const std::uint32_t>
 Certifier::break_ties(const Paths& paths, const Candidates& candidates, const Hits& hits) {
     std::size_t changed = 0;
@@ -142,7 +142,7 @@ Certifier::break_ties(const Paths& paths, const Candidates& candidates, const Hi
     return {lanes_, changed};
 }
 
-/// The shape is decided; the numbers are those that the kernel has for it.
+/// Decides the shape of each lane. The numbers are those that the kernel computes for it.
 void Certifier::compare_in_double(const Paths& paths, std::span<const std::uint32_t> lanes,
                                   const Hits& hits, EngineCounters& counters) {
     counters.doubtful += lanes.size();

@@ -11,18 +11,18 @@ double sum_of_sizes(const core::Vec3d& v) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-/// Whether one half-space of those is crossed there, one of the shape, and that is what decides
-/// whether the point is cut off.
+/// Returns yes if the ray crosses exactly one half-space at the point, one of the shape, and this
+/// alone decides whether the point is cut off.
 core::Value decides(const CutUnion& cut, core::ShapeId shape, const core::Vec3d& direction,
                     const core::Vec3d& point, double error) {
     const double rounding = 0x1p-48 * sum_of_sizes(point);
     int crossed = 0;
-    bool is_cut_off = true, crosses = false; // of a group
+    bool is_cut_off = true, crosses = false; // of the current group
     for (const HalfSpace& half : cut.by) {
         const double outside = core::dot(half.normal, point) - half.offset;
         const double off = error + rounding + 0x1p-48 * half.size;
         if (!(std::abs(outside) > off)) {
-            // A touch changes nothing.
+            // The ray has to cross clearly: a touch changes nothing.
             if (half.shape != shape || !(std::abs(core::dot(half.normal, direction)) > 0x1p-20))
                 return core::Value::unknown;
             ++crossed;

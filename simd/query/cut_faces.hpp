@@ -7,18 +7,18 @@
 
 namespace raylane::simd {
 
-/// Says quickly where a face that cuts a union of many is a surface of its solid: where it is alone
-/// and inside of a sphere of the union, most likely of one that it has been inside of just before.
-/// To be used by one thread.
+/// Decides quickly where a face that cuts a union of many parts is a surface of its solid. It is
+/// one where no other face is and a sphere of the union contains the point. That is most likely a
+/// sphere that contained another point just before. To be used by one thread.
 class CutFaces {
   public:
     explicit CutFaces(const core::Scene& scene) : scene_(scene) {}
 
-    /// Whether a crossing with a part that cuts is one of the solid's surface. `error` is what its
-    /// point may be off by.
+    /// Decides whether a crossing with a part that cuts is on the solid's surface. `error` bounds
+    /// the error of its point.
     core::Value is_surface(const CutUnion& cut, core::ShapeId shape, const core::Vec3d& direction,
                            const core::Vec3d& point, double error);
-    /// A part of the union that was found around a point.
+    /// Stores a part of the union that was found around a point, if it is a sphere.
     void remember(const CutUnion& cut, core::Solids::Index part);
 
   private:
@@ -28,7 +28,7 @@ class CutFaces {
     };
 
     const core::Scene& scene_;
-    std::array<Sphere, 8> spheres_; // the one that was needed last is the first
+    std::array<Sphere, 8> spheres_; // most recently used first
 };
 
 } // namespace raylane::simd

@@ -7,14 +7,15 @@
 
 namespace raylane::simd {
 
-/// Form in which hits are asked for.
+/// Form in which hits are requested.
 enum class Asked : std::uint8_t {
-    points, ///< for pictures: points and normals, in double
-    floats, ///< for the library: the floats nearest to t and normals; rays may stand for others
-            ///< (Paths), and hits have hit_normal_doubtful
+    points, ///< for images: points and normals, in double
+    /// for the library: the floats nearest to t and normals; rays may have exact directions
+    /// (Paths), and hits have hit_normal_doubtful
+    floats,
 };
 
-/// A hit point that the ray and its t in double do not lead to.
+/// A hit point that differs from the point to which the ray and its t in double lead.
 struct HitPoint {
     std::uint32_t lane;
     core::Vec3d point;
@@ -22,7 +23,7 @@ struct HitPoint {
 
 /// Hits of rays, by lane.
 struct Hits {
-    std::uint32_t* slot; ///< no_slot: nothing
+    std::uint32_t* slot; ///< no_slot: no hit
     double* t;
     double* error;
     double* normal[3];
@@ -39,7 +40,7 @@ struct Hits {
         hit = arena.take<std::uint32_t>(capacity);
     }
 
-    /// Lane `from` of `other` to lane `to`.
+    /// Copies lane `from` of `other` to lane `to`.
     void copy(const Hits& other, std::size_t from, std::size_t to) const {
         slot[to] = other.slot[from];
         hit[to] = other.hit[from];
@@ -71,7 +72,7 @@ struct Hits {
         }
     }
 
-    /// `count` of these and of the rays, from one on, for a kernel to finish.
+    /// Returns `count` hits and their rays, from `begin` on, for a kernel to finish.
     Found found(const Paths& paths, std::size_t begin, std::size_t count) const {
         Found found{};
         found.count = count;

@@ -10,7 +10,8 @@ namespace raylane::simd {
 
 namespace {
 
-/// Point of the lane among those that are known; else where the ray and its t lead to.
+/// Returns the lane's point among the known ones, or otherwise the point that the ray and its t
+/// lead to.
 core::Vec3d point_among(std::span<const HitPoint> points, const Hits& hits, const Paths& paths,
                         std::size_t lane) {
     for (const HitPoint& known : points)
@@ -56,7 +57,7 @@ core::Vec3d LookThrough::point_of(const Paths& paths, std::size_t lane) const {
 void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCounters& counters) {
     const Hits& hits = query_.hits();
     for (const std::uint32_t lane : at_contacts_)
-        hits.slot[lane] = no_slot; // the reference goes on
+        hits.slot[lane] = no_slot; // the reference tracer follows these
     onward_paths_.count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         core::WayInUnion way;
@@ -74,7 +75,7 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
         move_on(hits, lane, to);
         std::erase_if(points_, [&](const HitPoint& of) { return of.lane == lane; });
     }
-    // They no longer start at one point.
+    // Rays that go on no longer start at one point.
     if (coherence != nullptr && !coherence->converging && !coherence->parallel)
         coherence = &neighbours;
     for (int passed = 1; onward_paths_.count != 0; ++passed) {
@@ -97,7 +98,8 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
             if (is_visible(onward_paths_, found, i, ways_[i])) {
                 hits.copy(found, i, lane);
                 hits.t[lane] += passed_[i];
-                // What lies behind several is not where the first origin and a sum lead to.
+                // Behind several surfaces, the first origin and the sum of t do not lead to this
+                // point.
                 for (const HitPoint& known : onward_->points())
                     if (known.lane == i) points_.push_back({lane, known.point});
                 continue;
@@ -116,7 +118,7 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
     }
 }
 
-/// Has the scalar search find what a ray sees first.
+/// Finds the first visible surface of a ray by the scalar search.
 void LookThrough::settle(const Paths& paths, std::size_t lane) {
     const core::Ray<double> ray = ray_of(paths, lane);
     const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths, lane);
@@ -150,8 +152,8 @@ void LookThrough::settle(const Paths& paths, std::size_t lane) {
     points_.push_back({static_cast<std::uint32_t>(lane), surface.point});
 }
 
-/// True where a ray that is inside of no part of a union of many surely enters one that its solid
-/// has all of.
+/// Returns true if a ray that is inside of no part of a union of many certainly enters a part whose
+/// whole inside belongs to the solid.
 bool LookThrough::fills_first(const Paths& paths, const Hits& hits, std::size_t lane,
                               core::ShapeId shape) const {
     const core::Solids& solids = scene_.scene().solids();
@@ -164,7 +166,7 @@ bool LookThrough::fills_first(const Paths& paths, const Hits& hits, std::size_t 
     double slope = 0.0;
     for (int axis = 0; axis < 3; ++axis)
         slope += paths.direction[axis][lane] * hits.normal[axis][lane];
-    constexpr double no_touch = -0x1p-20; // several times what it is off by
+    constexpr double no_touch = -0x1p-20; // several times the error of the slope
     if (!(slope < no_touch)) return false;
     if (paths.origin_slot[lane] == no_slot)
         return !solids.bounds(part.parent).contains(ray_of(paths, lane).origin);
@@ -173,7 +175,8 @@ bool LookThrough::fills_first(const Paths& paths, const Hits& hits, std::size_t 
            (paths.origin_bits[lane] & origin_inward) == 0;
 }
 
-/// Where it is not, `way` goes on behind it; it is found out where a ray goes to its first hit.
+/// Returns true if a hit is visible. Otherwise `way` passes the hit. `way` is set at a ray's first
+/// hit.
 bool LookThrough::is_visible(const Paths& paths, const Hits& hits, std::size_t lane,
                              core::WayInUnion& way) {
     if (hits.slot[lane] == no_slot) return true;
@@ -204,7 +207,7 @@ bool LookThrough::is_visible(const Paths& paths, const Hits& hits, std::size_t l
     return false;
 }
 
-/// Whether a part that cuts a union is seen there, as far as that is easily told.
+/// Decides whether a part that cuts a union is visible at a hit, if that is easy to decide.
 core::Value LookThrough::is_cut_face(const Paths& paths, const Hits& hits, std::size_t lane,
                                      core::ShapeId shape, const CutUnion& cut) {
     const core::Ray<double> ray = ray_of(paths, lane);
@@ -217,7 +220,7 @@ core::Value LookThrough::is_cut_face(const Paths& paths, const Hits& hits, std::
                                  hits.error[lane] + 0x1p-48 * size);
 }
 
-/// Starts a ray anew behind what it has hit, where it has been moved to.
+/// Restarts a ray behind its hit. The ray has been moved to the hit point.
 void LookThrough::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
     passed_[to] += hits.t[lane];
     const std::uint32_t slot = hits.slot[lane];

@@ -9,9 +9,8 @@
 
 namespace raylane::simd {
 
-/// The third of what finds a hit, for pictures: rays pass surfaces that cannot be seen from where
-/// they come, and parts of solids where these have no surface, as if these were not there. Answers
-/// are points.
+/// Third step of the search for hits, for images: rays pass surfaces that are invisible from their
+/// side, and parts of solids where these have no surface. Hits have the form Asked::points.
 class LookThrough {
   public:
     LookThrough(const SceneData& scene, const Tracing& tracing);
@@ -25,7 +24,7 @@ class LookThrough {
     std::span<const HitPoint> points() const { return points_; }
     core::Vec3d point_of(const Paths& paths, std::size_t lane) const;
 
-    /// Whatever can be seen from where.
+    /// Returns the query to which all surfaces are visible.
     Query& query() { return query_; }
 
   private:
@@ -47,10 +46,10 @@ class LookThrough {
     CutFaces cut_faces_;
     std::vector<core::WayInUnion> ways_; // of rays that go on
 
-    // Search behind surfaces that cannot be seen; null where all can, from both sides.
+    // Search behind invisible surfaces; null if rays pass no surface.
     std::unique_ptr<Query> onward_;
-    std::unique_ptr<core::Searcher<double>> searcher_; // for what is too close to start between
-    Paths onward_paths_{};                             // sample: the lane
+    std::unique_ptr<core::Searcher<double>> searcher_; // for surfaces too close to start between
+    Paths onward_paths_{};                             // `sample` is the lane
     double* passed_ = nullptr;
 };
 

@@ -10,46 +10,47 @@
 
 namespace raylane::simd {
 
-/// Rays in double, structure of arrays, with the shapes that they leave, first to last.
+/// Rays in double, structure of arrays, with the ids of the shapes that they leave, first to last.
 struct RayColumns {
     std::size_t count;
     const double* origin[3];
     const double* direction[3]; ///< of length 1
     const std::uint32_t* origin_first;
     const std::uint32_t* origin_last;
-    const double* start = nullptr; ///< nothing is crossed until there; null: 0
+    const double* start = nullptr; ///< crossings before it do not count; null: 0
 };
 
 /// Lengths below this may lose digits as floats.
 inline constexpr float least_length = 0x1p-100F;
 
-/// Origin bit beside the kernels': the ray may cross again the shape that it starts on.
+/// Origin bit in addition to the kernels': the ray may cross again the shape that it starts on.
 inline constexpr std::uint32_t origin_may_return = 0x10000;
 static_assert(stream_tie_counts != origin_may_return);
 
-/// Rays underway, structure of arrays: what core::ReferenceTracer::Path holds, but the depth, which
-/// a whole wave shares.
+/// Rays in progress, structure of arrays: the members of core::ReferenceTracer::Path except for the
+/// depth, which a whole wave shares.
 struct Paths {
     std::size_t count = 0;
     double* origin[3];
     double* direction[3];
     double* throughput[3];
     std::uint32_t* sample;
-    /// The shapes left, first to last id, the one that was hit, and origin_bits.
+    /// The shapes that a ray leaves: first and last id, slot of the one that was hit, and origin
+    /// bits.
     std::uint32_t* origin_first;
     std::uint32_t* origin_last;
     std::uint32_t* origin_slot;
     std::uint32_t* origin_bits;
-    core::Media* media; ///< media that it is inside of; null where nothing transmits
-    /// See-through surfaces gone straight through, and the way on its line before the ray's start.
-    /// Null where nothing is see-through, or there is no fog.
+    core::Media* media; ///< media that the ray is inside of; null without transmissive materials
+    /// Transparent surfaces passed in a straight line, and the length of this line before the ray's
+    /// start. Null without transparent surfaces; `travelled` is null without fog, too.
     std::uint32_t* passed = nullptr;
     double* travelled = nullptr;
-    /// Directions meant, of any length, and their lengths, where `direction` stands for these:
-    /// brought to length 1 and so rounded. Null: directions are exact.
+    /// Exact directions, of any length, and their lengths. `direction` is then their normalised
+    /// form, which is rounded. Null: `direction` is exact.
     double* meant_direction[3];
     double* meant_length;
-    /// Limits below, as StreamRays has them, of rays that stand for others. Null: none has any.
+    /// Lower limits, as in StreamRays, of rays with exact directions. Null: no limits.
     double* t_after;
     double* start;
 
@@ -76,7 +77,7 @@ struct Paths {
     }
 
     bool stand_for_others() const { return meant_length != nullptr; }
-    /// Length of the direction meant.
+    /// Returns the length of the exact direction.
     double length_of(std::size_t lane) const {
         return stand_for_others() ? meant_length[lane] : 1.0;
     }
@@ -107,9 +108,9 @@ struct Paths {
             origin[axis][lane] = point[axis];
     }
 
-    /// The lane's ray starts on a shape: on that side of it which the ray that hit it there, with
-    /// these hit_bits, goes to if it passes `through`, or else came from. Shape:
-    /// SceneData::Occupant, or as much of it as NamedShape has.
+    /// Starts the lane's ray on a shape, at a hit with these bits: on the side to which the ray
+    /// that hit it goes if it passes `through`, otherwise on the side from which it came. Shape:
+    /// SceneData::Occupant, or the members of it that NamedShape has.
     template <class Shape>
     void start_on(std::size_t lane, std::uint32_t slot, const Shape& shape, std::uint32_t hit,
                   bool through) const {
@@ -121,7 +122,7 @@ struct Paths {
                             (shape.may_be_met_again(inward) ? origin_may_return : 0);
     }
 
-    /// Lanes `begin` to `end` start on no surface.
+    /// Starts lanes `begin` to `end` on no surface.
     void start_nowhere(std::size_t begin, std::size_t end) const {
         for (std::uint32_t* column : {origin_first, origin_last, origin_slot})
             std::fill(column + begin, column + end, no_slot);
@@ -137,7 +138,7 @@ struct Paths {
                 start};
     }
 
-    /// Lane `from` of `other` to lane `to`.
+    /// Copies lane `from` of `other` to lane `to`.
     void copy(const Paths& other, std::size_t from, std::size_t to) const {
         copy_ray(other, from, to);
         for (int channel = 0; channel < 3; ++channel)
@@ -148,7 +149,7 @@ struct Paths {
         if (travelled != nullptr) travelled[to] = other.travelled[from];
     }
 
-    /// The ray alone, and what it leaves.
+    /// Copies the ray alone, and the shapes that it leaves.
     void copy_ray(const Paths& other, std::size_t from, std::size_t to) const {
         for (int axis = 0; axis < 3; ++axis) {
             origin[axis][to] = other.origin[axis][from];

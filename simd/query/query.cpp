@@ -10,7 +10,8 @@ namespace raylane::simd {
 
 namespace {
 
-/// A float that is not below what has been rounded to this one; for what is negative, 0.
+/// Returns a float that is not below the number that was rounded to `value`; 0 if `value` is
+/// negative.
 float rounded_up(float value) {
     return value < 0.0F ? 0.0F : std::max(value, least_length) * (1.0F + 0x1p-21F);
 }
@@ -36,7 +37,7 @@ void Query::nearest(const Paths& paths, const Coherence* coherence, EngineCounte
     if (!few) search_.take(paths.columns());
     if (t_most == nullptr)
         std::fill_n(candidates.first, padded, core::infinity<float>);
-    else // as if something unknown were there
+    else // like an unknown candidate there
         for (std::size_t lane = 0; lane < paths.count; ++lane)
             first_[lane] = rounded_up(search_.t_most(lane, t_most[lane]));
     certifier_.find_own_exits(paths, search_, candidates);
@@ -52,12 +53,12 @@ bool Query::is_apart(const Paths& paths, std::size_t lane) const {
     for (int axis = 0; axis < 3; ++axis)
         reach = std::max(reach, std::abs(paths.origin[axis][lane]));
     const double second = static_cast<double>(second_[lane]) + search_.approach().before(lane);
-    // Several times what a point, its t and its ray are rounded by.
+    // Several times the rounding errors of a point, its t and its ray.
     return second > hits_.t[lane] + 0x1p-44 * reach;
 }
 
-/// A distance, less what lies before where a ray has been brought, may be off by little more than
-/// half an ulp of itself, which is what kernels grant it.
+/// Subtracting the length by which a ray was moved from its distance leaves an error of little more
+/// than half an ulp of the difference. The kernels tolerate that error.
 void Query::occluded(const RayColumns& rays, const double* distance, std::uint8_t* state,
                      const Coherence* coherence, EngineCounters& counters) {
     search_.take(rays);

@@ -4,38 +4,38 @@
 
 namespace raylane::simd {
 
-/// The two questions that the renderer, the library and the benchmarks ask of rays: what they hit
-/// first, and whether anything is in their way. All surfaces are seen from both sides.
+/// The two queries of the renderer, the library and the benchmarks: the first hits of rays, and
+/// whether anything is in their way. All surfaces are visible from both sides.
 ///
-/// With core::Precision::exact as real arithmetic would answer: in float, shapes are bounded
-/// (CandidateSearch); in double, the one that may be nearest is solved; and where that is not
-/// certain, it is decided (Certifier).
+/// With core::Precision::exact, results are those of real arithmetic. CandidateSearch bounds shapes
+/// in float. Certifier solves the shape that may be nearest in double and, where that is not
+/// certain, decides it.
 class Query {
   public:
     Query(const SceneData& scene, const Tracing& tracing, Asked asked)
         : scene_(scene), tracing_(tracing), search_(scene, tracing),
           certifier_(scene, tracing, asked) {}
 
-    /// Arrays for this many rays.
+    /// Takes arrays for this many rays.
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// `coherence` may be null: the rays have nothing in common. Hits behind `t_most` are of no
-    /// interest: whether there is one or not, nothing may be found; null: all are.
+    /// Finds the first hit of each ray. `coherence`: null if the rays have nothing in common.
+    /// `t_most` (one per ray, or null for infinity): hits beyond it may be omitted.
     void nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters,
                  const double* t_most = nullptr);
-    /// Hits of the last rays.
+    /// Returns the hits of the last rays.
     const Hits& hits() const { return hits_; }
-    /// True if nothing else is crossed as near behind the lane's hit as its point in double may be
-    /// off: what starts there loses nothing.
+    /// Returns true if the ray crosses nothing else within the error of its point in double behind
+    /// the lane's hit. A ray that starts there then misses nothing.
     bool is_apart(const Paths& paths, std::size_t lane) const;
-    /// Lanes that meet several surfaces at one point, where only the reference can go on. They have
-    /// the one that comes first.
+    /// Returns lanes that meet several surfaces at one point, where only the reference tracer can
+    /// go on. Their hits are the surface that comes first.
     std::span<const std::uint32_t> at_contacts() const { return certifier_.at_contacts(); }
-    /// Hit points that rays and t in double do not lead to.
+    /// Returns hit points to which rays and t in double do not lead.
     std::span<const HitPoint> points() const { return certifier_.points(); }
 
-    /// Raises state, an Occlusion of each ray, by what is in its way before a distance. What is
-    /// doubtful is for nearest() to say.
+    /// Raises `state`, an Occlusion of each ray, if anything is in its way before a distance.
+    /// nearest() decides doubtful rays.
     void occluded(const RayColumns& rays, const double* distance, std::uint8_t* state,
                   const Coherence* coherence, EngineCounters& counters);
 
@@ -45,7 +45,7 @@ class Query {
     CandidateSearch search_;
     Certifier certifier_;
     Hits hits_{};
-    float* first_ = nullptr; // by lane, what a search has found
+    float* first_ = nullptr; // by lane, bounds that a search has found
     float* second_ = nullptr;
 };
 

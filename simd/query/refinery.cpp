@@ -13,14 +13,14 @@ namespace raylane::simd {
 
 namespace {
 
-/// Places behind the last candidate that kernels may write to.
+/// Elements behind the last candidate that kernels may write to.
 constexpr std::size_t beyond = 32;
 
-/// So many candidates are listed before the nearest of them are asked whether there is need of
-/// more.
+/// Number of candidates to list before the nearest of them are solved, to see whether more are
+/// needed.
 constexpr std::size_t at_first = 64;
 
-/// The least limit of a list that bounds of 0 are within.
+/// The smallest limit of a list that includes bounds of 0.
 constexpr float least_limit = std::numeric_limits<float>::min();
 
 bool crosses(std::uint32_t hit) {
@@ -86,13 +86,13 @@ std::size_t Refinery::refine(const Paths& paths, const CandidateSearch& search,
     return met_several;
 }
 
-/// All that a ray may cross before the limit, or what is surely crossed.
+/// Lists all shapes that a ray may cross before the limit, or before a certain crossing.
 void Refinery::list(const Paths& paths, const CandidateSearch& search, std::size_t lane,
                     double limit, EngineCounters& counters) {
     const double before = search.approach().before(lane);
     for (std::size_t room = at_first;; room *= 8) {
-        // Not before what is behind a certain crossing by as little as does not tell them apart,
-        // nor by what the difference is off by.
+        // The limit is so far behind a certain crossing that crossings that cannot be distinguished
+        // from it are listed, too. It also includes the error of the difference.
         const double beyond_there = before == 0.0 ? limit : limit * (1.0 + 0x1p-50) - before;
         const float limit_there =
             std::max(static_cast<float>(beyond_there) * candidate_grace, least_limit);
@@ -101,7 +101,7 @@ void Refinery::list(const Paths& paths, const CandidateSearch& search, std::size
             bounds_.resize(room);
         }
         CandidateList list = {slots_.data(), bounds_.data(), room, 0, limit_there, before == 0.0};
-        // No filter sees the shape that it starts on.
+        // Filters do not see the shape on which the ray starts.
         if ((paths.origin_bits[lane] & origin_may_return) != 0) {
             list.slot[0] = paths.origin_slot[lane];
             list.lower[list.count++] = 0.0F;
@@ -117,8 +117,8 @@ void Refinery::list(const Paths& paths, const CandidateSearch& search, std::size
     }
 }
 
-/// Lists what has been found, too: a part of a solid may be crossed outside of its bounds, which
-/// are those of what is seen of it.
+/// Lists the shape that has been found, too: a part of a solid may be crossed outside of its
+/// bounds, which enclose its visible surface only.
 void Refinery::list_too(std::uint32_t slot) {
     if (!scene_.scene().solids().any() ||
         std::any_of(listed_.begin(), listed_.end(),
@@ -131,14 +131,14 @@ void Refinery::list_too(std::uint32_t slot) {
 void Refinery::take(const CandidateList& list, double before) {
     listed_.clear();
     for (std::size_t i = 0; i < list.count; ++i)
-        if (list.lower[i] <= list.limit) // which may have moved
+        if (list.lower[i] <= list.limit) // the limit may have decreased
             listed_.push_back(
                 {(before + static_cast<double>(list.lower[i])) * (1.0 - 0x1p-50), list.slot[i]});
     std::sort(listed_.begin(), listed_.end(),
               [](const Listed& a, const Listed& b) { return a.lower < b.lower; });
 }
 
-/// Upper bound of the first crossing's t, by the nearest that are listed.
+/// Returns an upper bound of the first crossing's t, from the nearest listed candidates.
 double Refinery::end_of_first(const Paths& paths, std::size_t lane, EngineCounters& counters) {
     const std::size_t begin = count_;
     add(paths, lane, std::span(listed_).first(std::min({at_first, listed_.size(), most - begin})));
@@ -156,7 +156,7 @@ void Refinery::add(const Paths& paths, std::size_t lane, std::span<const Listed>
     }
 }
 
-/// Finishes candidates, from one on.
+/// Finishes candidates from `begin` on.
 void Refinery::finish(std::size_t begin) {
     Found found = hits_.found(paths_, begin, count_ - begin);
     found.holds_points = for_points_;
@@ -164,7 +164,7 @@ void Refinery::finish(std::size_t begin) {
     tracing_.method().refine.finish_again(scene_.view(), found);
 }
 
-/// first_of() of all that is listed, which is more than there is room for.
+/// Same as first_of() for all listed candidates, which exceed the capacity.
 std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
                                     EngineCounters& counters) {
     count_ = 0;
@@ -180,7 +180,8 @@ std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
     return count_;
 }
 
-/// Upper bound of t of the first crossing with some candidates. Solves those in doubt.
+/// Returns an upper bound of the first crossing's t with candidates `begin` to `end`. Solves those
+/// in doubt.
 double Refinery::end_of_first(std::size_t begin, std::size_t end, EngineCounters& counters) {
     double last = core::infinity<double>;
     for (std::size_t i = begin; i < end; ++i)
@@ -193,8 +194,8 @@ double Refinery::end_of_first(std::size_t begin, std::size_t end, EngineCounters
     return last;
 }
 
-/// Puts first, of one ray's candidates, what it crosses first, and behind that another that it
-/// crosses at the same point. Returns how many these are: 0, 1 or 2.
+/// Moves the candidate that its ray crosses first to `begin` and, behind it, another one that the
+/// ray crosses at the same point. Returns the number of these: 0, 1 or 2.
 std::size_t Refinery::first_of(std::size_t begin, std::size_t end, EngineCounters& counters) {
     const double last = end_of_first(begin, end, counters);
     close_.clear();
@@ -207,7 +208,7 @@ std::size_t Refinery::first_of(std::size_t begin, std::size_t end, EngineCounter
     return 1;
 }
 
-/// The hits of what is close, with as much of t as comes at little cost.
+/// Computes the hits of the close candidates, with as many digits of t as cost little.
 void Refinery::widen_close() {
     const std::size_t count = close_.size();
     wide_.resize(3 * count);
@@ -220,7 +221,7 @@ void Refinery::widen_close() {
                             wide.error[k]);
 }
 
-/// first_of() of what is close, by core's order.
+/// Same as first_of() for the close candidates, in core's order.
 std::size_t Refinery::first_of_close(std::size_t begin) {
     const core::Ray<double> ray = ray_of(paths_, begin);
     const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths_, begin);
@@ -248,7 +249,7 @@ std::size_t Refinery::first_of_close(std::size_t begin) {
     return 2;
 }
 
-/// First crossing of a ray with one shape, certified, without the normal.
+/// Solves a ray's first crossing with one shape, certified, without the normal.
 void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
     ++counters.doubtful;
     const std::uint32_t slot = hits_.slot[candidate];
@@ -274,7 +275,7 @@ void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
     });
 }
 
-/// True if a crossing with the candidate is behind the limit below.
+/// Returns true if a crossing with the candidate counts by the lower limit.
 bool Refinery::counts(std::size_t candidate, const core::Crossing<double>& crossing) const {
     if (paths_.t_after == nullptr || !(paths_.t_after[candidate] > 0.0)) return true;
     const SceneData::Occupant shape = scene_.occupant_of(hits_.slot[candidate]);
@@ -312,7 +313,7 @@ void Refinery::hand_over(std::size_t candidate, const Hits& hits, std::uint32_t 
                                                                               at, flat);
                                            }));
     }
-    // Of points, floats are none of their concern.
+    // Points need no normals that round to floats.
     if (for_points_) hits_.hit[candidate] &= ~(hit_normal_unknown | hit_normal_doubtful);
     hits.copy(hits_, candidate, lane);
 }

@@ -9,12 +9,13 @@
 
 namespace raylane::simd {
 
-/// Decides what rays hit that bounds in float, and the nearest of these in double, have left in
-/// doubt: all that each may cross first is solved in double and, where that leaves a doubt, once
-/// more with numbers that carry bounds, in double and wider, and at last exactly. What these bounds
-/// do not tell apart core::CrossingOrder does. The numbers of a hit are those that kernels have for
-/// that ray and that shape, whatever else was in doubt, unless something is all but at the same
-/// point: then they are as good as double can have them.
+/// Decides hits that bounds in float, and the nearest candidates in double, have left in doubt. All
+/// shapes that a ray may cross first are solved in double. Those still in doubt are solved again in
+/// numbers that carry error bounds, in double and wider, and at last exactly. core::CrossingOrder
+/// orders crossings that these bounds do not distinguish.
+///
+/// The numbers of a hit are the kernels' for that ray and that shape, whatever else was in doubt.
+/// If another crossing is almost at the same point, they are as accurate as double can be.
 class Refinery {
   public:
     Refinery(const SceneData& scene, const Tracing& tracing, Asked asked)
@@ -22,27 +23,27 @@ class Refinery {
 
     void take_from(Arena& arena);
 
-    /// True if the method has kernels for it.
+    /// Returns true if the method has kernels for refinement.
     bool works() const { return tracing_.method().refine.finish_again != nullptr; }
 
-    /// Decides on `lanes`, for which hits has what has been found so far, but for those that are
-    /// `doubtful`. Puts first, and counts, those that meet several surfaces at one point; they have
-    /// the one that comes first.
+    /// Decides `lanes`. `hits` holds the hits found so far, except for those that are `doubtful`.
+    /// Moves lanes that meet several surfaces at one point to the front, and returns their number.
+    /// Their hits are the surface that comes first.
     std::size_t refine(const Paths& paths, const CandidateSearch& search,
                        const std::uint8_t* doubtful, std::span<std::uint32_t> lanes,
                        const Hits& hits, EngineCounters& counters);
 
-    /// Points of the lanes that the last call has decided on.
+    /// Returns points of lanes that the last call has decided.
     std::span<const HitPoint> points() const { return points_; }
 
   private:
-    /// A ray and its candidates: those from `begin` on, up to the next one's.
+    /// A ray and its candidates: from `begin` up to the next ray's.
     struct Ray {
         std::uint32_t lane;
         std::uint32_t begin;
     };
     struct Listed {
-        double lower; ///< of t
+        double lower; ///< bound of t
         std::uint32_t slot;
     };
 
@@ -77,8 +78,8 @@ class Refinery {
 
     std::vector<std::uint32_t> slots_; ///< that kernels list
     std::vector<float> bounds_;
-    std::vector<Listed> listed_;        ///< of one ray, the nearest first
-    std::vector<std::size_t> close_;    ///< candidates that bounds do not tell from the first
+    std::vector<Listed> listed_;     ///< of one ray, the nearest first
+    std::vector<std::size_t> close_; ///< candidates that bounds do not distinguish from the first
     std::vector<core::SharpHit> sharp_; ///< their hits
     std::vector<double> wide_;          ///< their t
     std::vector<HitPoint> points_;

@@ -43,7 +43,7 @@ const Coherence* CandidateSearch::common(const Coherence* coherence) {
     return &moved_;
 }
 
-/// Bounds in double are those of shapes in float: of shapes that are none, exact's are right.
+/// Plain double bounds shapes in float. If shapes are not floats, only the bounds of `exact` hold.
 const TraceKernels& CandidateSearch::trace() const {
     const bool by_exact =
         tracing_.precision == core::Precision::plain_double && scene_.view().rounding > 0.0F;

@@ -6,7 +6,7 @@
 
 namespace raylane::simd {
 
-/// The first of what finds a hit: by bounds in float, what rays may meet.
+/// First step of the search for hits: finds shapes that rays may meet by bounds in float.
 class CandidateSearch {
   public:
     CandidateSearch(const SceneData& scene, const Tracing& tracing)
@@ -14,13 +14,14 @@ class CandidateSearch {
 
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// Rounds rays, which are asked about from now on: brought near first, if they are far.
+    /// Rounds rays for the following queries. Rays that start far away are moved near first.
     void take(const RayColumns& rays);
 
-    /// `coherence` may be null: the rays have nothing in common.
+    /// `coherence`: null if the rays have nothing in common.
     void nearest(const Coherence* coherence, const Candidates& candidates,
                  EngineCounters& counters);
-    /// Occlusion before some distances, which t_most says of the rounded rays: t_most() of them.
+    /// Finds occlusion before distances. Occlusions::t_most holds those of the rounded rays, as
+    /// t_most() returns them.
     void occluded(const Coherence* coherence, const Occlusions& occlusions,
                   EngineCounters& counters);
     float t_most(std::size_t lane, double distance) const {
@@ -35,7 +36,7 @@ class CandidateSearch {
   private:
     const TraceKernels& trace() const;
 
-    /// What rays still have in common where they start further along.
+    /// Returns the coherence that remains where rays start further along.
     const Coherence* common(const Coherence* coherence);
 
     const SceneData& scene_;
@@ -47,7 +48,7 @@ class CandidateSearch {
     Workspace workspace_{};
 };
 
-/// Workspace of kernels, for so many rays.
+/// Takes memory of kernels for `capacity` rays.
 Workspace workspace_for(const SceneData& scene, Arena& arena, std::size_t capacity);
 
 } // namespace raylane::simd

@@ -8,19 +8,19 @@
 
 namespace raylane::simd {
 
-/// Says which crossing comes first where a method that certifies nothing cannot tell two apart: as
-/// everywhere, what is entered before what is left, then the lower id. The scalar formulas have the
-/// kernels' bits, so it sees the same t. To be used by one thread.
+/// Decides which crossing comes first where a method that certifies nothing cannot distinguish two.
+/// The order is the usual one: entering precedes leaving, then the lower id precedes. The scalar
+/// formulas give the kernels' bits, so it sees the same t. To be used by one thread.
 class TieBreaker {
   public:
     TieBreaker(const SceneData& scene, const Tracing& tracing);
 
-    /// Slot of the first shape of all that the lane's ray crosses at t, in float; `found` if there
-    /// is none.
+    /// Returns the slot of the first shape that the lane's ray crosses at t, in float, or `found`
+    /// if it crosses none.
     std::uint32_t first_at(float t, const Paths& paths, std::size_t lane, std::uint32_t found);
 
-    /// First crossing of all, in double, where candidates in float are too close, and whether there
-    /// are others at the same t.
+    /// First crossing in double, for lanes whose float candidates are too close. `is_alone`: no
+    /// other crossing has the same t.
     struct First {
         core::Hit<double> hit;
         bool is_alone;
