@@ -11,8 +11,8 @@ namespace raylane::simd {
 
 namespace {
 
-/// Turned to where a ray comes from. An apex has no normal, and what stands in for it may be on the
-/// wrong side.
+/// Sets the normals, turned to where the ray comes from. An apex has no normal, and its substitute
+/// may point to the wrong side; then the ray's reverse direction replaces it.
 void set_normals(FirstHit& hit, core::Vec3d flat, core::Vec3d shading, bool entering) {
     if (!entering) {
         flat = -flat;
@@ -93,7 +93,7 @@ FirstHit FirstHits::hit_at(std::size_t lane) const {
     return hit;
 }
 
-/// The scalar search finds what a ray sees first where several surfaces meet.
+/// Finds a ray's first visible surface by the scalar search, where several surfaces meet.
 void FirstHits::settle(std::size_t lane, FirstHit& hit) {
     const core::Scene& scene = scene_.scene();
     hit = FirstHit{ray_of(paths_, lane)};

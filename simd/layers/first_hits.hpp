@@ -9,12 +9,12 @@
 
 namespace raylane::simd {
 
-/// What a ray from the camera hits first of what can be seen from there.
+/// First hit of a camera ray with a surface that is visible from there.
 struct FirstHit {
     core::Ray<double> ray; ///< unit
     double t = std::numeric_limits<double>::infinity();
-    core::Vec3d flat_normal{0.0};    ///< unit, on the side that is seen
-    core::Vec3d shading_normal{0.0}; ///< the same, but for smooth triangles
+    core::Vec3d flat_normal{0.0};    ///< unit, on the visible side
+    core::Vec3d shading_normal{0.0}; ///< the same, except on smooth triangles
     core::ShapeId shape = core::no_shape;
     core::MaterialIndex material = core::no_material;
     core::Face face = core::body;
@@ -22,22 +22,22 @@ struct FirstHit {
     bool any() const { return shape != core::no_shape; }
 };
 
-/// Traces rays from the camera, all of them through the middle of a lens, and always exactly: what
-/// they hit depends on scene and settings alone. To be used by one thread.
+/// Traces camera rays, all through the middle of a lens, and always exactly: hits depend on scene
+/// and settings alone. To be used by one thread.
 class FirstHits {
   public:
     FirstHits(const SceneData& scene, const core::Settings& settings, const Kernels& kernels);
-    FirstHits(const FirstHits&) = delete; // parts of it refer to others
+    FirstHits(const FirstHits&) = delete; // parts refer to others
     FirstHits& operator=(const FirstHits&) = delete;
 
-    /// Each pixel has per_pixel x per_pixel points, spread evenly; they are numbered through the
-    /// whole picture, from 0 at its left and upper edge, and there are such beyond its edges, too.
-    /// `hits` becomes those of some, row by row.
+    /// Traces rays through points. Each pixel has per_pixel x per_pixel evenly spread points.
+    /// Points are numbered through the whole image, from 0 at its left and upper edges, and
+    /// continue beyond its edges. Replaces `hits` by those of the region `points`, row by row.
     void trace(const core::Region& points, int per_pixel, std::vector<FirstHit>& hits);
 
   private:
-    /// Rays at a time, and points on a side of the squares that they are taken from: as many as a
-    /// frustum has.
+    /// Rays at a time, and points on a side of the squares from which they are taken: a frustum has
+    /// as many.
     static constexpr std::size_t chunk = 1024;
     static constexpr int square = 16;
 
@@ -52,7 +52,7 @@ class FirstHits {
     CameraView camera_;
     Coherence coherence_;
     LookThrough finder_;
-    core::Searcher<double> searcher_; // for where surfaces meet
+    core::Searcher<double> searcher_; // where surfaces meet
     EngineCounters counters_;
     int width_, height_;
 

@@ -5,7 +5,8 @@
 
 namespace raylane::simd {
 
-/// Fills in a region of the layers of a picture, or of a part of it, `of`, but for the samples.
+/// Fills in a region of an image's layers, except for the samples. The layers cover the part `of`
+/// of the image.
 void fill_layers(FirstHits& tracer, const core::Region& region, const core::Region& of,
                  core::Layers& layers);
 

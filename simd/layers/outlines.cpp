@@ -10,8 +10,8 @@ namespace raylane::simd {
 
 namespace {
 
-/// Where a ray crosses the plane that touches a surface at its hit: nowhere if it never comes to
-/// the side that is hidden.
+/// Returns t where a ray crosses the plane that touches a surface at its hit, or infinity if the
+/// ray never reaches the hidden side.
 double t_of_plane(const FirstHit& hit, const core::Ray<double>& ray) {
     const double slope = core::dot(hit.flat_normal, ray.direction);
     if (!(slope < 0.0)) return core::infinity<double>;
@@ -19,16 +19,16 @@ double t_of_plane(const FirstHit& hit, const core::Ray<double>& ray) {
     return core::dot(hit.flat_normal, core::Vec3d(point - ray.origin)) / slope;
 }
 
-/// Between the points of two rays at the depth of the nearer hit.
+/// Returns the distance between the points of two rays at the depth of the nearer hit.
 double spacing(const FirstHit& a, const FirstHit& b) {
     const double t = std::min(a.t, b.t);
     return core::length(core::Vec3d(core::mul_add(t, b.ray.direction, b.ray.origin) -
                                     core::mul_add(t, a.ray.direction, a.ray.origin)));
 }
 
-/// True if one is seen before the other: if by the planes that touch them there, the same one is
-/// the nearer on both rays, and by more than a pixel. Where surfaces meet between the rays, or one
-/// is bent there, the planes cross, however steep they are.
+/// Returns true if one hit is in front of the other: if, by the planes that touch the surfaces
+/// there, the same hit is the nearer one on both rays, by more than a pixel. The planes cross if
+/// surfaces meet or one is bent between the rays, however steep they are.
 bool is_step(const FirstHit& a, const FirstHit& b) {
     const double along_a = a.t - t_of_plane(b, a.ray), along_b = t_of_plane(a, b.ray) - b.t;
     if ((along_a < 0.0) != (along_b < 0.0)) return false;
@@ -51,7 +51,8 @@ bool Outlines::is_edge(const FirstHit& a, const FirstHit& b) const {
     return is_step(a, b) || (outline_.has_creases() && is_crease(a, b));
 }
 
-/// A face by itself is smooth, however much it is bent from point to point.
+/// Returns true if there is a crease between two hits. A single face is smooth, however much it is
+/// bent between points.
 bool Outlines::is_crease(const FirstHit& a, const FirstHit& b) const {
     if (a.material != b.material) return true;
     return (a.shape != b.shape || a.face != b.face) &&
@@ -80,7 +81,8 @@ void Outlines::draw(const core::Region& region, core::Film& film) {
         }
 }
 
-/// True if there are any. Row 2 j has those between the points of row j, 2 j + 1 those to the next.
+/// Returns true if there are any edges. Row 2 j has the edges between points of row j, row 2 j + 1
+/// those between rows j and j + 1.
 bool Outlines::find_edges() {
     const auto columns = static_cast<std::size_t>(columns_);
     bool any = false;
@@ -106,7 +108,7 @@ void Outlines::find_distances() {
 void Outlines::find_distances_in(int row) {
     const std::uint8_t* const edges = &edges_[static_cast<std::size_t>(row) * columns_];
     int* const aside = &aside_[static_cast<std::size_t>(row) * columns_];
-    const int behind = row % 2 == 0 ? 1 : 0; // in halves: where a column's edge is
+    const int behind = row % 2 == 0 ? 1 : 0; // the edge's offset in halves of the spacing
     const int far = 2 * columns_ + 2 * reach_ + 1;
     int last = -far, next = 2 * columns_ + far;
     for (int column = 0; column < columns_; ++column) {
@@ -120,8 +122,8 @@ void Outlines::find_distances_in(int row) {
     }
 }
 
-/// The share of a point's square, of which a line has all, none, or what lies on this side of its
-/// border.
+/// Returns the share of a point's square that a line covers: all, none, or the part on this side of
+/// the line's border.
 double Outlines::hidden_at(int column, int row) const {
     const int far = 2 * reach_;
     const int end = std::min(2 * row + far, 2 * rows_ - 1);

@@ -6,11 +6,11 @@
 
 namespace raylane::simd {
 
-/// Draws the lines of an outline over a region of a picture. To be used by one thread.
+/// Draws the lines of an outline over a region of an image. To be used by one thread.
 ///
-/// Edges are looked for between neighbours among the points of a grid finer than the pixels. The
-/// share of a point's square that a line hides follows from its distance to the nearest edge, so
-/// lines are as smooth as the grid allows, and as wide as they are asked to be in any picture.
+/// Edges are searched between neighbouring points of a grid finer than the pixels. The share of a
+/// point's square that a line covers follows from its distance to the nearest edge. So lines are as
+/// smooth as the grid allows, and have the requested width in any image.
 class Outlines {
   public:
     Outlines(FirstHits& tracer, const core::Outline& outline);
@@ -32,14 +32,16 @@ class Outlines {
     core::Outline outline_;
     double most_bent_; // cosine of the angle
     double radius_;    // of a line, in points
-    int reach_;        // points from a line's middle where none of it is any more
+    int reach_;        // distance in points from a line's middle at which the line has ended
 
-    // The points around a region. An edge is in the middle between two of them: the rows of edges
-    // are the points' and those in between.
+    // The points around a region. An edge is in the middle between two of them, so edges have rows
+    // at the points' rows and in between.
     int columns_ = 0, rows_ = 0;
     std::vector<FirstHit> hits_;
-    std::vector<std::uint8_t> edges_; // by row of edges and column of points: one here or behind
-    std::vector<int> aside_; // along the row to its nearest edge, in halves of the points' spacing
+    // by row of edges and column of points: an edge here or behind
+    std::vector<std::uint8_t> edges_;
+    // distance along the row to its nearest edge, in halves of the points' spacing
+    std::vector<int> aside_;
 };
 
 } // namespace raylane::simd

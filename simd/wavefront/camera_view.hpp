@@ -5,7 +5,7 @@
 
 namespace raylane::simd {
 
-/// What kernels need of a camera to make its rays.
+/// Returns the data of a camera with which kernels make its rays.
 inline CameraView view_of(const core::CameraRays<double>& rays) {
     CameraView view{};
     for (int axis = 0; axis < 3; ++axis) {

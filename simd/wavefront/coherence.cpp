@@ -39,7 +39,7 @@ Coherence coherence_off_mirror(const CameraView& camera, const SceneData& scene,
     for (std::size_t k = 0; k < reflected.count; ++k) {
         const auto position = static_cast<std::size_t>(reflected.parent[k]);
         if (vector_at(surfaces.normal, position) != normal) return neighbours;
-        // In one plane, by less than a frustum grants its rays for their roundings to float.
+        // In one plane, with an error below a frustum's tolerance for rounding its rays to float.
         const core::Vec3d point = vector_at(surfaces.point, position);
         const double size = std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
         if (!(std::abs(core::dot(point - from, normal) - height) <= 0x1p-28 * size))

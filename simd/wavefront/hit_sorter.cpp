@@ -50,7 +50,7 @@ void HitSorter::sort(const std::uint32_t* slots, std::size_t count,
                         : 0;
 }
 
-/// One pass of a radix sort, by a digit below `values`.
+/// Does one pass of a radix sort, by a digit below `values`.
 void HitSorter::sort_by_digit(std::size_t count, int shift, std::size_t values) {
     std::array<std::uint32_t, digits + 1> begin;
     std::fill_n(begin.begin(), values + 1, 0U);

@@ -11,7 +11,7 @@ namespace raylane::simd {
 
 namespace {
 
-/// Beside those of Occlusion: only a walk can tell.
+/// State in addition to Occlusion's: only a walk can decide.
 constexpr std::uint8_t unasked = 3;
 
 RayColumns columns_of(const SpawnedRays& rays, const std::uint32_t* origin_first,
@@ -51,7 +51,7 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
 }
 
 void ShadowTracer::trace(const LightView& light, EngineCounters& counters) {
-    // Deeper waves hit here and there: too much is between them and the light.
+    // Deeper waves hit surfaces far apart: too many shapes are between them and the light.
     trace(coherence_of(light), wave_->coherent || !scene_.has_tree(), counters);
 }
 
@@ -63,7 +63,7 @@ void ShadowTracer::let_pass() {
     std::fill_n(state_, rays_.count, std::uint8_t{unblocked});
 }
 
-/// `together`: whether what is in the way is looked for by many rays at a time.
+/// `together`: true if the occlusion search takes many rays at a time.
 void ShadowTracer::trace(const Coherence& coherence, bool together, EngineCounters& counters) {
     counters.shadow += rays_.count;
     start();
@@ -87,7 +87,7 @@ void ShadowTracer::look_at(const Wave& wave) {
         const bool may_return =
             shape.may_be_met_again(inward) && !scene_.only_cuts(wave.hits.slot[lane]);
         leave_state_[position] = in_medium || may_return ? doubtful : unblocked;
-        // Inside of an open solid's parts no part of it blocks by itself.
+        // Inside of an open solid's parts, none of these blocks rays by itself.
         if (!shape.is_entered(wave.hits.hit[lane]) && scene_.scene().solids().has(shape.id))
             leave_state_[position] = unasked;
     }
@@ -126,8 +126,8 @@ void ShadowTracer::start_walk(std::size_t ray) {
     walk_distance_[to] = rays_.distance[ray];
 }
 
-/// Walks from surface to surface, until the light or something opaque. As
-/// core::ReferenceTracer::light_let_through has it.
+/// Walks from surface to surface, until the light or an opaque surface. Same as
+/// core::ReferenceTracer::light_let_through.
 void ShadowTracer::walk(const Coherence& coherence, EngineCounters& counters) {
     counters.walked += walk_.count;
     for (int passed = 0; walk_.count != 0; ++passed) {
@@ -154,7 +154,7 @@ void ShadowTracer::walk(const Coherence& coherence, EngineCounters& counters) {
     }
 }
 
-/// The reference takes a walk to its end.
+/// Lets the reference tracer finish a walk.
 void ShadowTracer::follow(std::size_t lane) {
     const core::Vec3d share =
         reference_.light_let_through(ray_of(walk_, lane), origin_surfaces_of(scene_, walk_, lane),
@@ -164,7 +164,7 @@ void ShadowTracer::follow(std::size_t lane) {
             walk_.throughput[channel][lane] * share[channel];
 }
 
-/// Takes a walk through the surface that it has found. False if it is over.
+/// Takes a walk through the surface that it has found. Returns false if the walk is over.
 bool ShadowTracer::step(std::size_t lane, double& distance) {
     const Hits& found = walker_.hits();
     const std::uint32_t number = walk_.sample[lane], slot = found.slot[lane];

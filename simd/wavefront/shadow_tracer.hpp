@@ -7,10 +7,10 @@
 
 namespace raylane::simd {
 
-/// Arrays for spawned rays.
+/// Takes arrays for spawned rays.
 void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity);
 
-/// Finds what of a light reaches the surfaces of a wave.
+/// Finds the light that reaches the surfaces of a wave.
 class ShadowTracer {
   public:
     ShadowTracer(const SceneData& scene, const Tracing& tracing,
@@ -18,25 +18,26 @@ class ShadowTracer {
 
     void take_from(Arena& arena, std::size_t capacity, bool with_media);
 
-    /// Rays to the light, to be filled, weighted by what arrives if nothing is in the way.
+    /// Rays to the light, to be filled in. Their weight is the light that arrives if nothing is in
+    /// the way.
     SpawnedRays& rays() { return rays_; }
 
-    /// Wave that they come from: position p of it is what lane order[p] has hit.
+    /// The wave from which the rays come. Position p is the surface that lane order[p] has hit.
     struct Wave {
         const Paths& paths;
         const Hits& hits;
         const std::uint32_t* order;
         std::size_t count; ///< of positions
-        bool coherent;     ///< it was hit by rays from the camera
+        bool coherent;     ///< rays from the camera have hit it
     };
 
-    /// Whose rays are traced from now on, to any number of lights.
+    /// Sets the wave for the following traces, to any number of lights.
     void look_at(const Wave& wave);
-    /// Weakens the rays' weights by what is in the way, or blocks them.
+    /// Reduces the rays' weights by the surfaces in the way, or blocks the rays.
     void trace(const LightView& light, EngineCounters& counters);
-    /// The same of rays to all sides.
+    /// Same as trace(), for rays in all directions.
     void trace_softly(EngineCounters& counters);
-    /// Has all of them arrive, whatever is in the way.
+    /// Lets all rays arrive, whatever is in the way.
     void let_pass();
 
     bool arrives(std::size_t ray) const { return state_[ray] != blocked; }
@@ -55,7 +56,7 @@ class ShadowTracer {
     core::ReferenceTracer<double>& reference_;
 
     std::optional<Wave> wave_;
-    // Shapes that rays from each position of the wave leave, and what is known of the rays.
+    // The shapes that rays from each position leave, and the state that is known before a search.
     std::uint32_t* leave_first_ = nullptr;
     std::uint32_t* leave_last_ = nullptr;
     std::uint8_t* leave_state_ = nullptr;
@@ -65,10 +66,10 @@ class ShadowTracer {
     std::uint32_t* origin_last_ = nullptr;
     std::uint8_t* state_ = nullptr;
 
-    // Rays that some surface may let through, or that may cross again what they start on: they walk
-    // from surface to surface.
+    // Rays that a surface may let through, or that may cross again the shape that they start on,
+    // walk from surface to surface.
     LookThrough walker_;
-    Paths walk_{}; // throughput: what is left of the weight; sample: the ray
+    Paths walk_{}; // throughput: the remaining weight; sample: the ray
     double* walk_distance_ = nullptr;
 };
 

@@ -12,9 +12,10 @@ void Wavefront::spawn(int depth) {
         reflected.direction[axis] = next_.direction[axis];
         reflected.weight[axis] = next_.throughput[axis];
     }
-    reflected.parent = shadows_.rays().parent; // not needed any more
+    reflected.parent = shadows_.rays().parent; // no longer needed
     transmitted_.count = 0;
-    // Beyond the depth, a wave holds more rays that are no deeper for what they have gone through.
+    // Beyond the maximum depth, a wave has more rays: transparent surfaces do not add to their
+    // depth.
     for (const Run& run : sorted_.runs())
         if (run.material->reflects || run.material->transmits)
             shade_.spawn(run, static_cast<double>(settings_.min_weight),
@@ -48,8 +49,8 @@ void Wavefront::spawn(int depth) {
     }
 }
 
-/// The columns that the kernels do not write, of rays that are there from next_.count on, but for
-/// those that are too deep. Returns how many.
+/// Fills in the columns that kernels do not write, for the rays from next_.count on, and drops rays
+/// that are too deep. Returns the number of rays left.
 std::size_t Wavefront::add_to_next(const SpawnedRays& spawned, bool through, int depth) {
     const std::size_t before = next_.count;
     for (std::size_t k = 0; k < spawned.count; ++k) {
@@ -68,8 +69,8 @@ std::size_t Wavefront::add_to_next(const SpawnedRays& spawned, bool through, int
     return next_.count - before;
 }
 
-/// Rays that go straight on behind see-through surfaces, in the order of the lanes, so that
-/// neighbours stay neighbours. Returns how many.
+/// Adds the rays that go straight on behind transparent surfaces, in the order of the lanes, so
+/// that neighbours stay neighbours. Returns their number.
 std::size_t Wavefront::pass_on() {
     constexpr std::uint32_t none = no_slot;
     std::fill_n(position_of_.begin(), paths_.count, none);
@@ -99,7 +100,7 @@ std::size_t Wavefront::pass_on() {
     return next_.count - before;
 }
 
-/// A ray of the next wave starts on what a lane has hit.
+/// Starts a ray of the next wave on the surface that a lane has hit.
 void Wavefront::start_next(std::size_t to, std::size_t lane, bool through) {
     const std::uint32_t slot = finder_.hits().slot[lane], hit = finder_.hits().hit[lane];
     const SceneData::Occupant shape = scene_.occupant_of(slot);
@@ -113,8 +114,8 @@ void Wavefront::start_next(std::size_t to, std::size_t lane, bool through) {
                             : media);
 }
 
-/// Leaves the first half of the samples, and the others for later, until they fit. What one sample
-/// alone makes too many of, the reference follows.
+/// Defers the later half of the samples until the others fit in a wave. If a single sample has too
+/// many rays, the reference tracer follows them.
 void Wavefront::split_next(int depth) {
     while (paths_.count > wave_rays) {
         const auto [least, most] = std::minmax_element(paths_.sample, paths_.sample + paths_.count);

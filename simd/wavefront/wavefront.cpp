@@ -17,7 +17,7 @@ namespace raylane::simd {
 
 namespace {
 
-/// Every second bit of a Morton code.
+/// Returns every second bit of a Morton code.
 constexpr int even_bits(unsigned code) {
     int result = 0;
     for (int bit = 0; bit < 8; ++bit)
@@ -25,7 +25,7 @@ constexpr int even_bits(unsigned code) {
     return result;
 }
 
-/// The pixels of a region in the order of their Morton codes: neighbours in the picture are
+/// The pixels of a region in the order of their Morton codes, so that neighbours in the image are
 /// neighbours in a packet.
 constexpr auto pixel_order = [] {
     struct Pixel {
@@ -76,7 +76,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
 }
 
 void Wavefront::take_from(Arena& arena) {
-    // Each ray may leave a reflected and a transmitted one, and one that goes straight on.
+    // Each ray may spawn a reflected ray, a transmitted one, and one that goes straight on.
     const std::size_t most_spawned = wave_rays * (see_through_ ? 3 : 2);
     const auto take_paths = [&](Paths& paths, std::size_t capacity) {
         paths.take_from(arena, capacity, with_media_);
@@ -129,7 +129,7 @@ void Wavefront::render(const core::Region& region, core::Film& film) {
         render_to_quality(region, film);
 }
 
-/// As many samples of each pixel as the settings' grid says.
+/// Takes the number of samples per pixel that the settings' grid gives.
 void Wavefront::render_grid(const core::Region& region, core::Film& film) {
     const int samples = settings_.grid * settings_.grid;
     sums_.assign(static_cast<std::size_t>(region.pixels()), core::Vec3d(0.0));
@@ -160,7 +160,7 @@ void Wavefront::render_grid(const core::Region& region, core::Film& film) {
         }
 }
 
-/// Hands traced samples to the pixels that asked for them.
+/// Returns a function that adds traced samples to the pixels that requested them.
 template <class Pixels>
 auto Wavefront::adder_to(Pixels& pixels) {
     return [this, &pixels](const Samples& some, std::size_t i) {
@@ -183,7 +183,7 @@ void Wavefront::survey(core::Survey::Pass pass, std::size_t batch) {
     } while (!is_abandoned() && pixels.end_round());
 }
 
-/// Round after round, the samples that each pixel still wants.
+/// Takes the samples that each pixel still wants, round after round.
 void Wavefront::render_to_quality(const core::Region& region, core::Film& film) {
     core::RegionSamples& pixels = *to_quality_;
     const auto add = adder_to(pixels);
@@ -215,8 +215,8 @@ void Wavefront::for_each_pixel(const core::Region& region, const Visit& visit) {
     }
 }
 
-/// Traces samples as soon as they fill a chunk. Calls add(samples, their first place in it) of
-/// what has been traced.
+/// Adds samples to the chunk and traces it whenever it is full. Calls add(samples, index of the
+/// first in the chunk) for traced samples.
 template <class Add>
 void Wavefront::take(Samples samples, const Add& add) {
     while (samples.count != 0) {
@@ -290,7 +290,7 @@ void Wavefront::start(std::size_t count) {
     counters_.primary += count;
 }
 
-/// Origins that are neighbours are asked about together: seldom is there a body around them.
+/// Finds the media around neighbouring origins together: they are rarely inside of a body.
 void Wavefront::start_in_media() {
     constexpr std::size_t together = 64;
     const core::Scene& scene = scene_.scene();
@@ -334,7 +334,7 @@ void Wavefront::trace_wave(int depth, const Coherence& coherence) {
     finder_.nearest(paths_, &coherence, counters_);
     const bool is_first = to_quality_ && depth == 0;
     if (is_first) note_first_hits();
-    for (const std::uint32_t lane : finder_.at_contacts()) { // several surfaces meet there
+    for (const std::uint32_t lane : finder_.at_contacts()) { // where several surfaces meet
         follow(lane, depth);
         if (is_first) first_shape_[paths_.sample[lane]] = reference_.first_hit().shape;
     }
@@ -351,7 +351,7 @@ void Wavefront::note_first_hits() {
     }
 }
 
-/// The reference goes on with a lane.
+/// Lets the reference tracer follow a lane to its end.
 void Wavefront::follow(std::size_t lane, int depth) {
     ++counters_.followed;
     const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
@@ -379,7 +379,7 @@ core::Vec3d Wavefront::background_along(std::size_t lane) {
     return (1.0 - fog) * color + fog * core::convert<double>(scene.fog().color);
 }
 
-/// As core::ReferenceTracer has it.
+/// Same as in core::ReferenceTracer.
 double Wavefront::transmittance_to_infinity(std::size_t lane) {
     core::Vec3d share(paths_.throughput[0][lane], paths_.throughput[1][lane],
                       paths_.throughput[2][lane]);
@@ -401,7 +401,7 @@ void Wavefront::see_background(int depth) {
     }
 }
 
-/// Fills in media as core::ReferenceTracer has them at `indices_at`.
+/// Fills in the media as core::ReferenceTracer does in `indices_at`.
 void Wavefront::fill_media() {
     core::MediaStacks& stacks = reference_.media();
     for (const Run& run : sorted_.runs()) {
@@ -444,7 +444,7 @@ void Wavefront::shade(int depth) {
     if (!finder_.points().empty()) {
         std::copy_n(hits.t, paths_.count, way_);
         for (const auto& [lane, point] : finder_.points()) {
-            paths_.move_to(lane, point); // where it came from is not asked for any more
+            paths_.move_to(lane, point); // the previous origin is no longer needed
             way_[lane] = 0.0;
         }
         hit_paths.way = way_;
@@ -462,7 +462,7 @@ void Wavefront::shade(int depth) {
     if (depth < settings_.max_depth || see_through_) spawn(depth);
 }
 
-/// Before the first rays of a wave to any light.
+/// Sets the wave for shadow rays, before the first of them to any light.
 void Wavefront::look_at_lights() {
     if (std::exchange(looked_, true)) return;
     shadows_.look_at({paths_, finder_.hits(), sorted_.order(), sorted_.hit_count(), coherent_});
@@ -482,7 +482,8 @@ void Wavefront::add_lights() {
     }
 }
 
-/// As core::ReferenceTracer::lit_softly has it: sample after sample of each light.
+/// Samples lights with a size, sample after sample of each light, as
+/// core::ReferenceTracer::lit_softly.
 void Wavefront::add_soft_lights(int depth) {
     const std::vector<core::SoftLight>& lights = scene_.soft_lights();
     const auto samples = static_cast<std::uint32_t>(settings_.light_rays());

@@ -13,42 +13,43 @@
 
 namespace raylane::simd {
 
-/// Renders regions of a picture: camera rays in chunks, then wave after wave of what they meet,
-/// until no ray is left. To be used by one thread. All of its memory is asked for once, but
-/// what exact numbers need where a crossing has to be decided in them.
+/// Renders regions of an image: camera rays in chunks, then wave after wave of secondary rays,
+/// until no ray is left. To be used by one thread. Allocates all of its memory once, except for
+/// exact numbers that a crossing may need.
 ///
-/// A picture does not depend on how it is divided: each sample's contributions are added in an
-/// order that knows of no other sample, and samples are added in theirs.
+/// An image does not depend on its division into regions: each sample's contributions are added in
+/// an order that does not depend on other samples, and samples are added in their own order.
 class Wavefront {
   public:
-    /// `survey`: asked if the picture has a quality, and then not null. `abandon`: once it is true,
-    /// the region under way is left as it is.
+    /// `survey`: needed if the image has a quality; otherwise it may be null. `abandon`: once it is
+    /// true, the current region is left unfinished.
     Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing,
               core::Survey* survey = nullptr, const std::atomic<bool>* abandon = nullptr);
 
-    /// Samples a batch of its survey.
+    /// Takes the samples of one batch of the survey.
     void survey(core::Survey::Pass pass, std::size_t batch);
 
-    /// With a quality, the survey is finished, and the region consists of whole squares
-    /// (core::RegionSamples::square_size).
+    /// Renders a region. With a quality, the survey must be finished, and the region must consist
+    /// of whole squares (core::RegionSamples::square_size).
     void render(const core::Region& region, core::Film& film);
 
-    /// Samples that a pixel of the last region had; pixels are numbered row by row.
+    /// Returns the number of samples that a pixel of the last region had. Pixels are numbered row
+    /// by row.
     int samples_of(std::size_t pixel) const {
         return to_quality_ ? to_quality_->taken(pixel) : settings_.grid * settings_.grid;
     }
 
-    Wavefront(const Wavefront&) = delete; // parts of it refer to others
+    Wavefront(const Wavefront&) = delete; // parts refer to others
     Wavefront& operator=(const Wavefront&) = delete;
 
     EngineCounters counters() const;
 
-    /// Pixels on a region's side, at most.
+    /// Largest side of a region in pixels.
     static constexpr int max_region = 64;
 
   private:
-    /// Samples in a chunk, and rays in a wave: some 2 KiB each in all arrays. Half and twice as
-    /// many take as long.
+    /// Samples in a chunk, and rays in a wave: about 2 KiB each in all arrays. Half and twice as
+    /// many take the same time.
     static constexpr std::size_t chunk_samples = 1024;
     static constexpr std::size_t wave_rays = chunk_samples;
     static constexpr std::size_t deferred_waves = 12;
@@ -111,9 +112,9 @@ class Wavefront {
     core::CameraRays<double> camera_rays_;
     CameraView camera_{};
     Coherence camera_coherence_{};
-    Coherence next_coherence_ = neighbours; ///< of what a wave has spawned
+    Coherence next_coherence_ = neighbours; ///< of the rays that a wave has spawned
     bool with_media_;
-    bool see_through_; ///< some surfaces are
+    bool see_through_; ///< some surfaces are transparent
     ShadeKernels shade_;
     core::ReferenceTracer<double> reference_;
     LookThrough finder_;
@@ -125,29 +126,29 @@ class Wavefront {
     std::vector<Deferred> pending_;
 
     std::vector<Samples> samples_;                         // of the chunk
-    std::vector<core::CameraRays<double>::InPixel> cells_; // by sample, if they are regular
+    std::vector<core::CameraRays<double>::InPixel> cells_; // by sample, if regular
     double* way_ = nullptr;                                // HitPaths::way, where it differs from t
     double* across_ = nullptr;
     double* upward_ = nullptr;
     double* lens_right_ = nullptr; // if there is a lens
     double* lens_up_ = nullptr;
     double* radiance_[3] = {};            // by sample
-    double* transmittance_ = nullptr;     // by sample, if the picture has an alpha
+    double* transmittance_ = nullptr;     // by sample, if the image has an alpha
     std::vector<core::SampleName> names_; // by sample
     int common_samples_ = 0;              // SampleName::common
     std::size_t filled_ = 0;              // samples of the chunk
     std::vector<core::Vec3d> sums_;       // by pixel of the region
     std::vector<double> transmittances_;  // the same
 
-    // If the picture has a quality.
+    // Used if the image has a quality.
     core::Survey* survey_;
     std::optional<core::RegionSamples> to_quality_;
-    std::vector<core::ShapeId> first_shape_; // by sample: that the camera's ray hits
+    std::vector<core::ShapeId> first_shape_; // by sample: the shape that the camera ray hits
     // A wave, sorted.
     HitSorter sorted_;
-    bool coherent_ = false;                  // it was hit by rays on lines from the camera
-    std::vector<std::uint32_t> position_of_; // by lane, if some surfaces are see-through
-    bool looked_ = false;                    // ShadowTracer::look_at
+    bool coherent_ = false;                  // hit by rays on straight lines from the camera
+    std::vector<std::uint32_t> position_of_; // by lane, if some surfaces are transparent
+    bool looked_ = false;                    // look_at_lights() has been called for this wave
     Surfaces surfaces_{};
     double* light_u_ = nullptr; // by position, if there are lights with a size
     double* light_v_ = nullptr;
