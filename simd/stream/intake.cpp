@@ -12,7 +12,7 @@ namespace raylane::simd {
 
 namespace {
 
-/// Columns from lane `to` on, a multiple of 16.
+/// Returns the columns from lane `to` on, a multiple of 16.
 StreamRays from(StreamRays rays, std::size_t to) {
     for (int axis = 0; axis < 3; ++axis) {
         rays.origin[axis] += to;
@@ -66,14 +66,14 @@ RayStream<Real> StreamIntake::take(const RayStream<Real>& rays, std::size_t firs
         take(part_of(rays, first + count, more), more, count);
         count += more;
     }
-    // Limits below are for who certifies; the others look at what they have found.
+    // Only `exact` has lower limits in its search. Other precisions check the hits that they find.
     if (tracing_.precision != core::Precision::exact || rays.t_min == nullptr)
         paths_.t_after = paths_.start = nullptr;
     paths_.count = count;
     return part_of(rays, first, count);
 }
 
-/// All of them, from lane `to` on.
+/// Takes all these rays in, from lane `to` on.
 template <class Real>
 void StreamIntake::take(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
     std::size_t none = 0;
@@ -114,8 +114,8 @@ void StreamIntake::start_on(const RayStream<Real>& rays, std::size_t count, std:
     }
 }
 
-/// Lanes without a ray get that of another lane, so that those around them have still in common
-/// what they had.
+/// Replaces lanes without a valid ray by copies of another lane, so that the lanes around them keep
+/// the property that they share.
 void StreamIntake::stand_in(std::size_t begin, std::size_t end) {
     std::size_t other = begin;
     while (other < end && !is_ray(other))

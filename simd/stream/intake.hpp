@@ -10,8 +10,8 @@
 
 namespace raylane::simd {
 
-/// Takes a caller's rays in: into lanes, with what they leave and their limits, as many as are best
-/// answered together.
+/// Takes a caller's rays into lanes, with the shapes that they leave and their limits: as many as
+/// are best answered together.
 class StreamIntake {
   public:
     StreamIntake(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes,
@@ -23,16 +23,16 @@ class StreamIntake {
     /// Takes rays in from `first` on. Returns those that were taken.
     template <class Real>
     RayStream<Real> take(const RayStream<Real>& rays, std::size_t first);
-    /// Keeps some lanes alone, in ascending order.
+    /// Keeps only these lanes, in ascending order.
     void keep(const std::uint32_t* lanes, std::size_t count);
 
     const Paths& paths() const { return paths_; }
     const StreamRays& taken() const { return taken_; }
-    /// What all that were taken have in common; null: nothing.
+    /// Returns the property that all taken rays share; null if they share none.
     const Coherence* coherence() const { return coherence_; }
     bool is_ray(std::size_t lane) const { return taken_.t_most[lane] >= 0.0; }
 
-    /// Ray i of those that were taken, which is in some lane.
+    /// Returns ray i of those that were taken, which is in this lane.
     template <class Real>
     LoneRay lone(const RayStream<Real>& rays, std::size_t i, std::size_t lane) const;
 
@@ -44,7 +44,7 @@ class StreamIntake {
     void start_on(const RayStream<Real>& rays, std::size_t count, std::size_t to);
     void stand_in(std::size_t begin, std::size_t end);
 
-    /// Rays that are looked at for what they have in common.
+    /// Number of rays that are checked for a shared property.
     static constexpr std::size_t together = 1024;
 
     const SceneData& scene_;
@@ -52,7 +52,7 @@ class StreamIntake {
     const ShapesByName& shapes_;
     std::size_t capacity_;
     Paths paths_{};
-    StreamRays taken_{}; // their columns, and those of limits
+    StreamRays taken_{}; // the columns of paths_, and those of limits
     Coherence in_common_{};
     const Coherence* coherence_ = nullptr;
 };

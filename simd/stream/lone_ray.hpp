@@ -8,18 +8,18 @@
 
 namespace raylane::simd {
 
-/// A ray of a stream by itself: in double, with what it leaves, and its limits as they were given.
+/// A single ray of a stream: in double, with the shapes that it leaves, and its limits as given.
 struct LoneRay {
     core::Ray<double> ray;
     core::OriginSurfaces<double> origins;
-    int exponent; ///< the caller's t is ours times 2^exponent
+    int exponent; ///< the caller's t is this ray's t times 2^exponent
     double t_min, t_max;
-    bool by_floats; ///< these compare with the float nearest to t
+    bool by_floats; ///< the limits are compared with the float nearest to t
     double t_most;  ///< no crossing counts from here on
 
     core::LeavingRay leaving() const { return {ray, origins}; }
 
-    /// A crossing's t for the caller.
+    /// Return a crossing's t for the caller.
     float t_of(const core::Scene& scene, const core::Hit<double>& hit) const {
         return core::rounded_t(scene, leaving(), hit, exponent);
     }
@@ -30,7 +30,7 @@ struct LoneRay {
         return std::clamp(std::ldexp(t, exponent), std::numeric_limits<double>::denorm_min(),
                           std::numeric_limits<double>::max());
     }
-    /// True if it counts: between the limits, and where it can be seen.
+    /// Returns true if a hit counts: it is visible and between the limits.
     bool finds(const core::Scene& scene, const core::Hit<double>& hit) const {
         return scene.material_of(hit.shape).is_seen(hit.enters()) && is_behind_t_min(scene, hit) &&
                is_before_t_max(scene, hit);

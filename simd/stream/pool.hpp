@@ -8,12 +8,11 @@
 
 namespace raylane::simd {
 
-/// Workers that nobody uses now: their memory is made once. May be used by any number of threads at
-/// a time.
+/// Idle workers, whose memory is allocated only once. Any number of threads may use it at a time.
 template <class Worker>
 class Pool {
   public:
-    /// A worker as long as it is used: one from the pool or, if there is none, make()'s.
+    /// Holds a worker while it is used: one from the pool or, if the pool is empty, make()'s.
     class Lease {
       public:
         template <class Make>
@@ -31,7 +30,7 @@ class Pool {
             const std::lock_guard lock(pool_.mutex_);
             try {
                 pool_.idle_.push_back(std::move(worker_));
-            } catch (const std::bad_alloc&) { // one less to keep
+            } catch (const std::bad_alloc&) { // the worker is not kept
             }
         }
         Lease(const Lease&) = delete;

@@ -18,7 +18,7 @@ bool is_solid(core::Kind kind) {
 
 enum class Within : std::uint8_t { no, yes, unknown };
 
-/// A ray's limits, in its own units.
+/// A ray's limits, in the caller's units.
 template <class Real>
 class Limits {
   public:
@@ -27,7 +27,7 @@ class Limits {
         if (rays.t_max != nullptr) max_ = static_cast<double>(rays.t_max[i]);
     }
 
-    /// Of t, which is off by less than `error`.
+    /// Compares a t whose error is less than `error` with the limits.
     Within compare(double t, double error) const {
         if (!(min_ > 0.0) && max_ == std::numeric_limits<double>::infinity()) return Within::yes;
         if constexpr (std::is_same_v<Real, float>) {
@@ -36,7 +36,7 @@ class Limits {
             const auto answered = static_cast<double>(rounded);
             return answered > min_ && answered <= max_ ? Within::yes : Within::no;
         } else {
-            // Sums of limits with an error may be rounded by less than that much again.
+            // The doubled error and the other term cover the rounding of t + off and t - off.
             const double off = 2.0 * error + 0x1p-52 * t;
             if (t + off < min_ || t - off > max_) return Within::no;
             return t - off > min_ && t + off < max_ ? Within::yes : Within::unknown;
@@ -63,8 +63,8 @@ RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const Shape
     listed_slot_.resize(listed_ray_.size());
 }
 
-/// Calls visit(the first of those that have been taken in together, lane) for each ray when the
-/// crossings of its pairs are there; for what is no ray, too.
+/// Calls visit(index of the first ray that was taken in with it, lane) for each ray when the
+/// crossings of its pairs are known. Invalid rays are visited, too.
 template <class Real, class Visit>
 void RowWorker::for_each_ray(const RayStream<Real>& rays, const Visit& visit) {
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
@@ -81,8 +81,8 @@ void RowWorker::for_each_ray(const RayStream<Real>& rays, const Visit& visit) {
     }
 }
 
-/// Lists all shapes that the rays of some lanes may cross, by ray. Returns false if these are more
-/// than should be there at a time, unless it is one ray alone.
+/// Lists all shapes that the rays of lanes `begin` to `end` may cross, by ray. Returns false if
+/// these are more than most_pairs, unless there is only one ray.
 bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
     const Paths& paths = intake_.paths();
     constexpr auto most_of_floats = static_cast<double>(std::numeric_limits<float>::max());
@@ -104,7 +104,7 @@ bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
             listed_slot_.resize(listed_ray_.size());
         }
         list = {listed_ray_.data(), listed_slot_.data(), listed_ray_.size(), 0};
-        // No filter sees the shape that a ray starts on.
+        // Filters do not see the shape on which a ray starts.
         for (std::size_t lane = begin; lane < end; ++lane) {
             if ((paths.origin_bits[lane] & origin_may_return) == 0 || !intake_.is_ray(lane))
                 continue;
@@ -118,7 +118,7 @@ bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
                                           search_.rounded(), t_most_, search_.pending(), list);
     } while (list.count > list.room);
 
-    // By ray: how many, where each ray's begin, and then each pair to its place.
+    // Counts the pairs of each ray, finds where they begin, then moves each pair to its place.
     std::fill(first_of_ray_.begin(), first_of_ray_.end(), 0U);
     for (std::size_t k = 0; k < list.count; ++k)
         ++first_of_ray_[list.ray[k]];
@@ -155,8 +155,9 @@ void RowWorker::cross_pairs() {
                                                        bits_.data()});
 }
 
-/// Adds the crossings of a ray if nothing of them is in doubt, neither which are between its limits
-/// nor their order, and it cannot come back to what it leaves. Returns whether that is so.
+/// Adds the crossings of a ray if nothing about them is in doubt, neither their order nor which are
+/// between the limits, and the ray cannot meet again the shape that it leaves. Returns true if they
+/// were added.
 template <class Real>
 bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::size_t most,
                             CrossingRows& rows) {
@@ -199,7 +200,7 @@ bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::
     return true;
 }
 
-/// What the true t of a crossing is off from `high_` by.
+/// Returns a bound on the difference between a crossing's exact t and `high_`.
 double RowWorker::off_by(std::size_t k) const {
     return (std::abs(low_[k]) + error_[k]) * (1.0 + 0x1p-50);
 }
@@ -209,7 +210,7 @@ core::Crossing<double> RowWorker::crossing_at(std::size_t k, const core::DoubleD
             (error_[k] + std::abs(t.low)) * (1.0 + 0x1p-50)};
 }
 
-/// True if a crossing is one of a surface that can be seen.
+/// Returns true if a crossing is on a visible surface.
 template <class Real>
 bool RowWorker::is_seen(const RayStream<Real>& rays, std::size_t lane, std::size_t k) {
     const SceneData::Occupant shape = scene_.occupant_of(slot_[k / 2]);
@@ -222,7 +223,7 @@ bool RowWorker::is_seen(const RayStream<Real>& rays, std::size_t lane, std::size
     return solid_surfaces_.is_surface(ray.leaving(), hit);
 }
 
-/// Finds the crossings of one ray for which counts(hit) is true, in order.
+/// Finds the crossings of one ray for which wanted(hit) is true, in order.
 template <class Counts>
 void RowWorker::find(const LoneRay& ray, std::size_t lane, const Counts& wanted) {
     crossed_.clear();
@@ -307,8 +308,8 @@ void RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wa
     counters += counters_;
 }
 
-/// Of triangles of one polygon that meet at an edge the first: at one t, and on one side, crossings
-/// are in the order of their shapes, and a polygon's have numbers in a row.
+/// Keeps the first of a polygon's triangles that meet at an edge. At one t, and on one side,
+/// crossings are in the order of their shapes, and a polygon's triangles have consecutive ids.
 void RowWorker::leave_one_of_polygons() {
     std::size_t kept = 0;
     for (const Crossed& crossed : crossed_) {
@@ -335,10 +336,10 @@ void RowWorker::add(const LoneRay& ray, const CrossingRequest& wanted, CrossingR
     }
 }
 
-/// Adds crossings at one t, `most` or all of them.
+/// Adds the crossings at one t: the first `most`, or all.
 void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
                              bool normals, CrossingRows& rows) {
-    // What is entered comes first; within both sides it goes by shape.
+    // Entering crossings come first; each side is sorted by shape.
     const auto left = std::find_if(all.begin(), all.end(),
                                    [](const Crossed& crossed) { return !crossed.hit.enters(); });
     const auto is_among = [](auto begin, auto end, core::ShapeId shape) {
@@ -370,7 +371,7 @@ void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, s
 
 template <class Real>
 void RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& rows) {
-    // What is around the start or an end is known by how it is left and entered beyond.
+    // The crossings beyond a limit tell which solids are around it.
     RayStream<Real> lines = rays;
     lines.t_min = lines.t_max = nullptr;
     for_each_ray(lines, [&](std::size_t first, std::size_t lane) {

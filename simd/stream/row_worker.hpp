@@ -13,16 +13,16 @@
 
 namespace raylane::simd {
 
-/// What is wanted of all crossings.
+/// Request for all crossings.
 struct CrossingRequest {
-    std::size_t most = 0; ///< of a ray, its first; 0: all
+    std::size_t most = 0; ///< largest number per ray, its first ones; 0: all
     bool normals = false;
 };
 
 /// Counts of rows of crossings.
 struct CrossingCounters {
     core::OrderCounters order;
-    std::uint64_t widened = 0; ///< rays x shapes that more than double was needed for
+    std::uint64_t widened = 0; ///< pairs of ray and shape that needed more than double
 
     CrossingCounters& operator+=(const CrossingCounters& other) {
         order += other.order;
@@ -31,12 +31,12 @@ struct CrossingCounters {
     }
 };
 
-/// Answers rays and points with rows of any length, for one thread. All is exact.
+/// Answers rays and points with rows of any length, always exactly. For one thread.
 class RowWorker {
   public:
     RowWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes);
 
-    /// Each appends to the rows.
+    /// Each of these appends to the rows.
     template <class Real>
     void crossings(const RayStream<Real>& rays, const CrossingRequest& wanted, CrossingRows& rows,
                    CrossingCounters& counters);
@@ -46,7 +46,7 @@ class RowWorker {
     void containing(const PointStream<Real>& points, SolidRows& rows);
 
   private:
-    /// A crossing of one ray, with t in twice the digits.
+    /// A crossing of one ray, with t in extended precision.
     struct Crossed {
         core::Hit<double> hit;
         core::DoubleDouble t;
@@ -86,8 +86,8 @@ class RowWorker {
     float* t_most_ = nullptr;
     Arena arena_;
 
-    // Shapes that rays may cross: as listed; and by ray, those of one from its first up to the
-    // next one's.
+    // Shapes that rays may cross: as listed, and then by ray, from each ray's first up to the next
+    // ray's.
     std::vector<std::uint32_t> listed_ray_, listed_slot_, first_of_ray_, ray_, slot_;
     std::vector<double> high_, low_, error_; // of their crossings
     std::vector<std::uint32_t> bits_;

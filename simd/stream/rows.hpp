@@ -17,18 +17,18 @@ struct PointStream {
     const Real* at[3] = {};
 };
 
-/// Answers of any number for each ray or point: those to i are in the columns from first[i] up to
+/// Any number of answers for each ray or point: those of i are in the columns from first[i] up to
 /// first[i + 1].
 struct Rows {
     std::vector<std::uint64_t> first{0};
 };
 
-/// Crossings of rays in their order, as raylane::CrossingRows says.
+/// Crossings of rays in their order, as described at raylane::CrossingRows.
 struct CrossingRows : Rows {
     std::vector<double> t;
     std::vector<core::ShapeId> shape;
     std::vector<std::uint8_t> entering, face, tied, touching;
-    std::array<std::vector<float>, 3> normal; ///< if asked for
+    std::array<std::vector<float>, 3> normal; ///< if requested
 };
 
 /// Solids that points are in, by their ids.

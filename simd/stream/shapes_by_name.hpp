@@ -9,8 +9,8 @@
 
 namespace raylane::simd {
 
-/// Slots of shapes by their ids, for rays that name what they leave: made when the first ray does.
-/// May be asked by any number of threads at a time.
+/// Slots of shapes by their ids, for rays that name the shapes that they leave. Made when the first
+/// ray does. Any number of threads may call it at a time.
 class ShapesByName {
   public:
     explicit ShapesByName(const SceneData& scene) : scene_(scene) {}

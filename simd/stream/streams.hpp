@@ -12,44 +12,45 @@ namespace raylane::simd {
 
 /// `count` rays, structure of arrays: the points origin + t direction with t_min < t <= t_max.
 /// Component a of ray i is origin[a][i]. Directions may have any length but zero. Doubles are 0 or
-/// of magnitude 2^-149 to 2^128, as floats are, but for components of a direction, which may be as
-/// small as 2^-276 of its largest.
+/// of magnitude 2^-149 to 2^128, like floats. However, components of a direction may be as small as
+/// 2^-276 of its largest.
 template <class Real>
 struct RayStream {
     std::size_t count = 0;
     const Real* origin[3] = {};
     const Real* direction[3] = {};
-    const Real* t_min = nullptr; ///< null: 0; what is negative is 0
+    const Real* t_min = nullptr; ///< null: 0; negative values count as 0
     const Real* t_max = nullptr; ///< null: infinity
     /// Shapes that rays leave, or no_shape. Such a ray starts exactly on that surface, on the face
-    /// of it that HitStream::face said, and goes to its inside (the back) if origin_inward is 1, or
-    /// else to its outside. Null: none leaves any; the face is the body; all go to the outside.
+    /// that HitStream::face reported. It goes to the inside (the back) if origin_inward is 1,
+    /// otherwise to the outside. Null: no ray leaves a shape; the face is the body; all go to the
+    /// outside.
     const core::ShapeId* origin_shape = nullptr;
     const std::uint8_t* origin_face = nullptr;
     const std::uint8_t* origin_inward = nullptr;
 };
 
-/// Hits of rays, by ray, as far as they are wanted. Null: not wanted.
+/// Hits of rays, by ray. Null: not requested.
 struct HitStream {
-    float* t = nullptr;               ///< infinity: nothing
-    float* normal[3] = {};            ///< unit, on the outside (the front); 0: nothing
-    core::ShapeId* shape = nullptr;   ///< no_shape: nothing
-    std::uint8_t* entering = nullptr; ///< 1: from outside (the front); 0: from inside, or nothing
+    float* t = nullptr;               ///< infinity: no hit
+    float* normal[3] = {};            ///< unit, on the outside (the front); 0: no hit
+    core::ShapeId* shape = nullptr;   ///< no_shape: no hit
+    std::uint8_t* entering = nullptr; ///< 1: from outside (the front); 0: from inside, or no hit
     std::uint8_t* face = nullptr;     ///< for RayStream::origin_face
-    double* t_double = nullptr;       ///< t, nearest to the true one; infinity: nothing
+    double* t_double = nullptr;       ///< the double nearest to the exact t; infinity: no hit
 };
 
 inline bool wants_normals(const HitStream& hits) {
     return hits.normal[0] != nullptr || hits.normal[1] != nullptr || hits.normal[2] != nullptr;
 }
 
-/// The array from one element on; null stays null.
+/// Returns the array from element `first` on; null stays null.
 template <class Value>
 Value* from(Value* values, std::size_t first) {
     return values != nullptr ? values + first : nullptr;
 }
 
-/// `count` rays, from one on; and their hits.
+/// Return `count` rays from `first` on, and their hits.
 template <class Real>
 RayStream<Real> part_of(const RayStream<Real>& rays, std::size_t first, std::size_t count) {
     const auto part = [first](const Real* const(&from_all)[3], int axis) {
@@ -74,7 +75,7 @@ inline HitStream part_of(const HitStream& hits, std::size_t first) {
             from(hits.t_double, first)};
 }
 
-/// Stores one hit, as far as it is wanted; or that there is none.
+/// Store a hit in the requested columns, or that a ray has no hit.
 inline void store(const HitStream& hits, std::size_t i, float t, double t_double,
                   const core::Vec3f& normal, core::ShapeId shape, bool entering, core::Face face) {
     if (hits.t != nullptr) hits.t[i] = t;

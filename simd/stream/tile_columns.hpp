@@ -9,7 +9,7 @@
 
 namespace raylane::simd {
 
-/// Rays and hits by another order than the caller's.
+/// Rays and hits in another order than the caller's.
 class TileColumns {
   public:
     template <class Real>
@@ -18,7 +18,7 @@ class TileColumns {
         HitStream hits;
     };
 
-    /// Puts rays in this order, and makes room for the hits that are wanted.
+    /// Puts rays in this order, and provides columns for the requested hits.
     template <class Real>
     Sorted<Real> take(const RayStream<Real>& rays, const HitStream& hits,
                       std::span<const std::uint32_t> order) {
@@ -42,7 +42,7 @@ class TileColumns {
         return sorted;
     }
 
-    /// Writes hits to where they were asked for.
+    /// Writes hits to the caller's places.
     static void hand_back(const HitStream& sorted, std::span<const std::uint32_t> order,
                           const HitStream& hits) {
         scatter(sorted.t, order, hits.t);
@@ -55,7 +55,7 @@ class TileColumns {
     }
 
   private:
-    /// Of 8 columns of rays and all of hits.
+    /// Size of 8 columns of rays and all columns of hits.
     static constexpr std::size_t bytes_a_ray = 9 * sizeof(double) + 5 * sizeof(float) + 2;
 
     template <class Value>

@@ -10,7 +10,7 @@ namespace {
 
 using core::Vec3f;
 
-/// Rays of a packet, and of a cell; and of a group that is looked at for its shape.
+/// Rays in a packet, and in a cell; and in a group whose extent is measured.
 constexpr std::size_t packet = 16, group = 256;
 constexpr float huge = 0x1p60F;
 
@@ -20,7 +20,7 @@ Vec3f vector_at(const Real* const (&from)[3], std::size_t i) {
             static_cast<float>(from[2][i])};
 }
 
-/// Bits of x with one between each.
+/// Returns the bits of x with one bit between each two.
 int spread(int x) {
     x = (x | x << 8) & 0x00FF00FF;
     x = (x | x << 4) & 0x0F0F0F0F;
@@ -28,19 +28,19 @@ int spread(int x) {
     return (x | x << 1) & 0x55555555;
 }
 
-/// What is not a number is 0.
+/// Clamps a value to [0, most]; NaN becomes 0.
 float clamped(float value, float most) {
     const float positive = value > 0.0F ? value : 0.0F;
     return positive < most ? positive : most;
 }
 
-/// Least and greatest of values; what is not a number changes nothing.
+/// Least and greatest of values. NaN changes nothing.
 struct Extent {
     float low, high;
     float size() const { return high - low; }
 };
 Extent extent_of(const float* values, std::size_t count) {
-    constexpr std::size_t lanes = 8; // a reduction of floats has but one order otherwise
+    constexpr std::size_t lanes = 8; // for vectors: a plain reduction of floats has only one order
     float low[lanes], high[lanes];
     std::fill_n(low, lanes, huge);
     std::fill_n(high, lanes, -huge);
@@ -71,7 +71,8 @@ bool TileOrder::find(const RayStream<Real>& rays, bool parallel) {
         core::normalized(Vec3f(core::normalized(vector_at(direction, 0)) +
                                core::normalized(vector_at(direction, count / 2)) +
                                core::normalized(vector_at(direction, count - 1))));
-    // Where a ray meets the plane before it; of parallel ones, where it starts.
+    // Returns the point where a ray meets the plane before it or, of parallel rays, where it
+    // starts.
     const auto point_of = [&](std::size_t i) {
         if (parallel) return vector_at(origin, i);
         const Vec3f along = vector_at(direction, i);
@@ -106,7 +107,7 @@ bool TileOrder::find_cells(std::size_t count) {
         v = {std::min(v.low, of_v.low), std::max(v.high, of_v.high)};
     }
     float area_of_one = u.size() * v.size() / static_cast<float>(count);
-    for (int round = 0; round < 3; ++round) { // of a grid, the extents are a step short
+    for (int round = 0; round < 3; ++round) { // a grid's extents are one step too short
         const float step = std::sqrt(area_of_one);
         area_of_one = (u.size() + step) * (v.size() + step) / static_cast<float>(count);
     }

@@ -9,21 +9,22 @@
 
 namespace raylane::simd {
 
-/// An order of rays that start at one point, or are parallel, in which those that are next to each
-/// other are so in space: cells of about 16, along a Morton curve. Rays that come line by line are
-/// neighbours in one direction alone, and many a time twice as expensive.
+/// An order of rays that start at one point, or are parallel, in which consecutive rays are
+/// neighbours in space: cells of about 16 rays, along a Morton curve. Rays that come line by line
+/// are neighbours in one direction only, and often twice as expensive.
 class TileOrder {
   public:
-    /// Rays that are put in order together.
+    /// Largest number of rays that are ordered together.
     static constexpr std::size_t most = 8192;
     /// Fewer are not worth it.
     static constexpr std::size_t least = 2048;
 
-    /// Finds it for rays, `least` to `most` of them. False if theirs is about as good.
+    /// Finds an order for `least` to `most` rays. Returns false if their own order is about as
+    /// good.
     template <class Real>
     bool find(const RayStream<Real>& rays, bool parallel);
 
-    /// Numbers of the rays, in that order.
+    /// Returns the indices of the rays in that order.
     std::span<const std::uint32_t> order() const { return order_; }
 
   private:

@@ -15,7 +15,7 @@ CallerHits as_kernels_have_them(const HitStream& hits) {
             hits.shape, hits.entering, hits.face};
 }
 
-/// Normal in float, where 0 has one sign.
+/// Converts a normal to float, without -0.
 core::Vec3f in_float(const core::Vec3d& normal) {
     return core::convert<float>(normal) + core::Vec3f(0.0F);
 }
@@ -45,18 +45,18 @@ StreamWorker::StreamWorker(const SceneData& scene, const Tracing& tracing,
     });
 }
 
-/// Rays that look for what is nearest.
+/// Returns the number of rays that search for nearest hits together.
 std::size_t StreamWorker::at_a_time() const {
     constexpr std::size_t otherwise = 1024;
     return is_exact() ? scene_.best_ray_count() : otherwise;
 }
 
-/// Takes all rays in, some at a time, and calls as_they_are(some, first), or in_tiles(first, count)
-/// for those that the tiles' order is worth it for.
+/// Takes all rays in, some at a time. Calls as_they_are(some, first), or in_tiles(first, count) for
+/// rays for which the tiles' order is worthwhile.
 template <class Real, class AsTheyAre, class InTiles>
 void StreamWorker::in_good_order(const RayStream<Real>& rays, const AsTheyAre& as_they_are,
                                  const InTiles& in_tiles) {
-    std::size_t in_order = 0; // until there, rays have been found to be in one
+    std::size_t in_order = 0; // up to here, the rays' own order is good enough
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
         const RayStream<Real> some = intake_.take(rays, first);
         count = some.count;
@@ -97,7 +97,8 @@ void StreamWorker::occluded(const RayStream<Real>& rays, std::uint8_t* occluded)
         });
 }
 
-/// True if it is worth to look whether the rays taken last, and those behind them, are.
+/// Returns true if it is worthwhile to look for the tiles' order of the rays taken last and those
+/// behind them.
 template <class Real>
 bool StreamWorker::are_better_in_tiles(const RayStream<Real>& rays, std::size_t first) const {
     return intake_.coherence() != nullptr && !intake_.coherence()->loose &&
@@ -105,7 +106,7 @@ bool StreamWorker::are_better_in_tiles(const RayStream<Real>& rays, std::size_t 
            rays.origin_shape == nullptr && rays.count - first >= TileOrder::least;
 }
 
-/// Rays in the order that has been found for them.
+/// Finds the nearest hits of rays in the order that has been found for them.
 template <class Real>
 void StreamWorker::nearest_in_tiles(const RayStream<Real>& rays, const HitStream& hits) {
     const std::span<const std::uint32_t> order = tiles_.order();
@@ -151,7 +152,7 @@ void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits
     answer(rays, {doubtful_, left.doubtful_count}, hits);
 }
 
-/// What is known of some lanes' crossings in twice the digits.
+/// Crossings of some lanes in extended precision.
 struct StreamWorker::Widened {
     static constexpr std::size_t most = 128;
 
@@ -163,7 +164,7 @@ struct StreamWorker::Widened {
     core::DoubleDouble t(std::size_t k) const { return {high[k], low[k]}; }
 };
 
-/// t in double of lanes that have hits.
+/// Computes t in double of lanes that have hits.
 void StreamWorker::sharpen(std::span<const std::uint32_t> lanes, const HitStream& hits) {
     for (std::size_t first = 0; first < lanes.size(); first += Widened::most) {
         const Widened widened = widen(lanes.subspan(first), false);
@@ -172,12 +173,12 @@ void StreamWorker::sharpen(std::span<const std::uint32_t> lanes, const HitStream
     }
 }
 
-/// Of the first ones of `lanes`.
+/// Extends the precision of the first lanes of `lanes`.
 StreamWorker::Widened StreamWorker::widen(std::span<const std::uint32_t> lanes,
                                           bool with_normals) const {
     Widened widened;
     widened.lanes = lanes.first(std::min(lanes.size(), Widened::most));
-    if (!is_exact()) { // t is what has been found
+    if (!is_exact()) { // t as it was found
         for (std::size_t k = 0; k < widened.lanes.size(); ++k) {
             widened.high[k] = hit_at(widened.lanes[k]).t;
             widened.low[k] = widened.error[k] = 0.0;
@@ -199,7 +200,7 @@ StreamWorker::Widened StreamWorker::widen(std::span<const std::uint32_t> lanes,
     return widened;
 }
 
-/// The caller's t of a crossing.
+/// Returns a crossing's t for the caller.
 double StreamWorker::double_t_of(const Widened& widened, std::size_t k) const {
     const std::uint32_t lane = widened.lanes[k];
     if (core::rounds_surely(widened.t(k), widened.error[k]))
@@ -209,14 +210,14 @@ double StreamWorker::double_t_of(const Widened& widened, std::size_t k) const {
     return in_double(lane, core::nearest_double_t(scene_.scene(), from, hit_at(lane)));
 }
 
-/// The caller's t for one of the lane's.
+/// Converts a lane's t to the caller's.
 double StreamWorker::in_double(std::size_t lane, double t) const {
     return std::clamp(t * intake_.taken().unit[lane], std::numeric_limits<double>::denorm_min(),
                       std::numeric_limits<double>::max());
 }
 
-/// Marks hits that are none, or not the first, as doubtful: sides that cannot be seen, and what
-/// a method finds that certifies nothing.
+/// Marks hits as doubtful that are not answers, or not the first: invisible sides, and hits of
+/// methods that certify nothing.
 template <class Real>
 void StreamWorker::mark_unanswered(const RayStream<Real>& rays) {
     const Hits& found = query_.hits();
@@ -224,7 +225,7 @@ void StreamWorker::mark_unanswered(const RayStream<Real>& rays) {
     if (scene_.looks_through())
         for (std::size_t lane = 0; lane < rays.count; ++lane)
             if (found.slot[lane] != no_slot && !is_seen(lane)) mark(lane);
-    if (is_exact()) return; // what meets several shapes at one point has the first
+    if (is_exact()) return; // rays that meet several shapes at one point have the first
     for (const std::uint32_t lane : query_.at_contacts())
         mark(lane);
     if (rays.t_min == nullptr) return;
@@ -235,8 +236,7 @@ void StreamWorker::mark_unanswered(const RayStream<Real>& rays) {
             mark(lane);
 }
 
-/// Answers to doubtful rays, by the scalar search or, where only floats are in doubt, by what has
-/// been found.
+/// Answers doubtful rays by the scalar search or, where only floats are in doubt, by their hits.
 template <class Real>
 void StreamWorker::answer(const RayStream<Real>& rays, std::span<std::uint32_t> lanes,
                           const HitStream& hits) {
@@ -253,7 +253,7 @@ void StreamWorker::answer(const RayStream<Real>& rays, std::span<std::uint32_t> 
     }
 }
 
-/// Answer to a ray that hits what has been found for it, if that is before its end.
+/// Answers a ray with the hit that has been found for it, if that is before the ray's end.
 void StreamWorker::answer(const LoneRay& ray, const Widened& widened, std::size_t k,
                           const HitStream& hits) {
     const std::uint32_t lane = widened.lanes[k];
@@ -285,13 +285,13 @@ core::Vec3f StreamWorker::normal_of(const LoneRay& ray, const core::Hit<double>&
     return core::rounded_normal(scene_.scene(), ray.leaving(), hit, known);
 }
 
-/// Of the lane's hit.
+/// Returns true if the lane's hit is not beyond the upper limit.
 bool StreamWorker::is_before_t_max(std::size_t lane, const LoneRay& ray) const {
     return ray.by_floats ? static_cast<double>(t_at(lane, ray)) <= ray.t_max
                          : ray.is_before_t_max(scene_.scene(), hit_at(lane));
 }
 
-/// The scalar search for one ray.
+/// Answers one ray by the scalar search.
 void StreamWorker::search(const LoneRay& ray, const HitStream& hits, std::size_t i) {
     const auto counts = [&](const core::Hit<double>& hit) {
         return ray.finds(scene_.scene(), hit);
@@ -312,7 +312,7 @@ void StreamWorker::search(const LoneRay& ray, const HitStream& hits, std::size_t
 
 template <class Real>
 void StreamWorker::occluded_of(const RayStream<Real>& rays, std::uint8_t* occluded) {
-    // A t that is none until rounded is no matter for bounds.
+    // A tiny t counts by the float to which it is rounded; bounds cannot decide that.
     constexpr auto least_t = static_cast<Real>(0x1p-102);
     std::fill_n(state_, rays.count, std::uint8_t{unblocked});
     if (rays.t_max != nullptr)
@@ -325,7 +325,7 @@ void StreamWorker::occluded_of(const RayStream<Real>& rays, std::uint8_t* occlud
     EngineCounters counters;
     query_.occluded(intake_.paths().columns(), intake_.taken().t_most, state_, intake_.coherence(),
                     counters);
-    // Nor is a limit from below where nothing is certified.
+    // Without certificates, bounds cannot decide lower limits either.
     if (!is_exact() && rays.t_min != nullptr)
         for (std::size_t lane = 0; lane < rays.count; ++lane)
             if (rays.t_min[lane] > Real(0) && state_[lane] == blocked && intake_.is_ray(lane))
@@ -344,7 +344,7 @@ void StreamWorker::occluded_of(const RayStream<Real>& rays, std::uint8_t* occlud
             occluded[doubtful_[k]] = is_occluded(intake_.lone(rays, doubtful_[k], doubtful_[k]));
 }
 
-/// Occlusion of doubtful rays by what they hit first.
+/// Decides the occlusion of doubtful rays by their first hits.
 template <class Real>
 void StreamWorker::settle(const RayStream<Real>& rays, std::size_t left, std::uint8_t* occluded) {
     intake_.keep(doubtful_, left);
@@ -371,8 +371,8 @@ std::uint8_t StreamWorker::is_occluded(const LoneRay& ray) {
     return found;
 }
 
-/// True if the lane's hit can be seen from where the ray comes, and is what answers say of shapes
-/// by themselves: a part of a solid is its surface, and not reversed.
+/// Returns true if the lane's hit is visible from the ray's side, and its shape alone answers the
+/// ray: a part of a solid must be a surface of it there, and not reversed.
 bool StreamWorker::is_seen(std::size_t lane) {
     const Hits& found = query_.hits();
     const SceneData::Occupant shape = scene_.occupant_of(found.slot[lane]);
@@ -385,19 +385,19 @@ bool StreamWorker::is_seen(std::size_t lane) {
                 hit_at(lane)));
 }
 
-/// t of the lane's hit, for the caller.
+/// Returns t of the lane's hit for the caller.
 float StreamWorker::t_at(std::size_t lane, const LoneRay& ray) const {
     const Hits& found = query_.hits();
     const double per_unit = intake_.taken().unit[lane] / intake_.paths().length_of(lane);
     const double t = found.t[lane] * per_unit;
     float rounded = 0.0F;
-    // The length and both operations are off by a few ulps.
+    // The length and both operations have errors of a few ulps.
     const double error = found.error[lane] * per_unit * (1.0 + 0x1p-50) + 0x1p-50 * t;
     if (core::rounds_surely(t, is_exact() ? error : 0.0, rounded)) return rounded;
     return ray.t_of(scene_.scene(), hit_at(lane));
 }
 
-/// The lane's hit, as core has it.
+/// Returns the lane's hit in core's format.
 core::Hit<double> StreamWorker::hit_at(std::size_t lane) const {
     return hit_of(scene_, intake_.paths(), query_.hits(), lane);
 }
