@@ -5,7 +5,7 @@ namespace raylane::bench {
 
 namespace {
 
-/// The scene's shapes, anew, kind by kind.
+/// Returns a builder with the scene's shapes, kind by kind.
 core::SceneBuilder shapes_of(const core::Scene& scene) {
     core::SceneBuilder builder;
     builder.wants_light = false;

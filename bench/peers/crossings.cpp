@@ -10,7 +10,7 @@ namespace raylane::bench {
 
 namespace {
 
-/// What a user of the library gets.
+/// The library as users call it.
 class Library {
   public:
     Library(const core::Scene& scene, simd::Isa isa, const RaySet& rays)
@@ -49,14 +49,15 @@ class Library {
     simd::CrossingRows rows_;
 };
 
-/// Rays whose crossings are not those of the library, in its order; ties may go either way.
+/// Counts the rays whose crossings differ from the library's, or whose order does. Ties may have
+/// either order.
 std::size_t count_wrong(const simd::CrossingRows& right, const ShapeRows& other) {
     std::size_t wrong = 0;
     for (std::size_t i = 0; i + 1 < right.first.size(); ++i) {
         const std::uint64_t begin = right.first[i], end = right.first[i + 1];
         bool is_same = end - begin == other.first[i + 1] - other.first[i];
         for (std::uint64_t there = begin; is_same && there < end;) {
-            std::uint64_t last = there + 1; // of those at one t
+            std::uint64_t last = there + 1; // of the crossings at one t
             while (last < end && right.tied[last] != 0)
                 ++last;
             const auto all = [&](const std::vector<core::ShapeId>& shapes, std::uint64_t first) {
@@ -91,7 +92,7 @@ Row measure_crossings(const simd::SceneData& scene, const Measuring& how) {
     Measuring alone = how;
     alone.threads = 1;
     row.by = alternate(runs, alone);
-    row.by[0].wrong = 0; // tests hold it to the oracle
+    row.by[0].wrong = 0; // tests compare it with the oracle
     if (embree != nullptr) row.by[1].wrong = count_wrong(library.rows(), embree->rows());
     for (Result& result : row.by)
         result.in_millions_per_second(rays.count);

@@ -9,22 +9,22 @@
 /// All crossings of rays, in order.
 namespace raylane::bench {
 
-/// By ray, from first[i] up to first[i + 1], in order.
+/// Shapes by ray, from first[i] up to first[i + 1], in order.
 struct ShapeRows {
     std::vector<std::uint64_t> first;
     std::vector<core::ShapeId> shape;
 };
 
-/// Somebody who finds them.
+/// A ray tracer that finds all crossings.
 class Gatherer {
   public:
     virtual ~Gatherer() = default;
-    virtual void run() = 0; ///< this is what is timed
+    virtual void run() = 0; ///< this call is timed
     virtual const ShapeRows& rows() const = 0;
 };
 
-/// Embree, as its tutorial has it: a filter that notes each hit and rejects it, and a sort by t.
-/// Null if it does not have the scene's shapes, or was not there when this was built.
+/// Makes Embree's gatherer, as in Embree's tutorial: a filter that stores each hit and rejects it,
+/// and a sort by t. Null if Embree lacks any of the scene's shapes, or was missing in this build.
 std::unique_ptr<Gatherer> embree_gatherer(const core::Scene& scene, simd::Isa isa,
                                           const RaySet& rays);
 

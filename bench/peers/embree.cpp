@@ -8,14 +8,14 @@ namespace raylane::bench {
 
 namespace {
 
-/// Its calls for streams, which are gone from Embree 4, have been the fastest nowhere.
+/// Embree's calls for streams are left out: they were never the fastest, and Embree 4 has none.
 enum class Call { single, wide, coherent };
 constexpr Call calls[] = {Call::single, Call::wide, Call::coherent};
 constexpr const char* call_names[] = {"embree 1", "embree 16", "embree 16 coherent"};
 
 constexpr std::size_t width = 16;
 
-/// Hierarchy that the calls share.
+/// The hierarchy, which all calls share.
 struct Built {
     EmbreeDevice device;
     EmbreeScene scene;
@@ -27,8 +27,8 @@ struct Built {
     }
 };
 
-/// Rays stay in Embree's own arrays, where they have been put before the clock starts; of these,
-/// only what it writes is set anew. Its normals are not brought to unit length.
+/// Rays stay in Embree's arrays, which are filled before the clock starts; only the members that
+/// Embree writes are set again. Its normals are not normalised.
 class Embree : public Contender {
   public:
     Embree(std::shared_ptr<const Built> built, Call call)

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-/// raylane's wavefront by Precision::robust with Embree's calls in place of its own traversal.
+/// raylane's wavefront with Precision::robust, but with Embree's calls in place of its traversal.
 namespace raylane::bench {
 
 namespace {
@@ -19,7 +19,7 @@ constexpr std::size_t width = 16;
 struct Way {
     const char* name;
     bool by_16;
-    bool filters; ///< else rays start a little ahead
+    bool filters; ///< otherwise rays start a little ahead
 };
 constexpr Way ways[] = {{"embree 16 ahead", true, false},
                         {"embree 16 filter", true, true},
@@ -51,11 +51,11 @@ struct Traversal {
     }
 };
 
-// Kernels are plain functions.
+// Kernels are plain functions, so these are global.
 const Traversal* traversal = nullptr;
 Way way{};
 
-/// Rejects hits of the shapes that rays leave.
+/// Rejects hits with the shapes that rays leave.
 void reject_departed(const RTCFilterFunctionNArguments* hits) {
     const auto& rays = *static_cast<const simd::RoundedRays*>(EmbreeQuery::data_for(*hits));
     for (unsigned i = 0; i < hits->N; ++i) {
@@ -68,8 +68,8 @@ void reject_departed(const RTCFilterFunctionNArguments* hits) {
     }
 }
 
-/// A ten-thousandth of the largest coordinate. A thirtieth of it, as RaySet::t_least has it, makes
-/// three times as many pixels of balls.nff wrong by surfaces that shadow themselves.
+/// Returns a ten-thousandth of the largest coordinate. A thirtieth of that, as in RaySet::t_least,
+/// makes three times as many pixels of balls.nff wrong, because surfaces shadow themselves.
 float t_least(const simd::RoundedRays& rays, std::size_t lane) {
     if (way.filters || rays.origin_first[lane] == no_slot) return 0.0F;
     float largest = 0.0F;
@@ -78,8 +78,9 @@ float t_least(const simd::RoundedRays& rays, std::size_t lane) {
     return 1e-4F * largest;
 }
 
-/// True if a ray is numbers. Where a formula in float finds no crossing with what Embree says is
-/// hit, there is nowhere to go on from, and rays are none. Embree does not take such.
+/// Returns true if a ray's numbers are finite. If Embree reports a hit and a float formula finds no
+/// crossing, secondary rays have no start, and their numbers are not finite. Embree does not accept
+/// these.
 bool is_any(const simd::RoundedRays& rays, std::size_t lane) {
     return std::isfinite(rays.origin[0][lane] + rays.direction[0][lane]);
 }
@@ -181,7 +182,7 @@ void occluded(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
     }
 }
 
-/// True if whatever is in the way blocks all light.
+/// Returns true if anything in the way blocks all light.
 bool is_opaque(const core::Scene& scene) {
     return std::none_of(scene.materials().begin(), scene.materials().end(),
                         [](const core::Material& material) { return material.transmits(); });

@@ -1,10 +1,10 @@
-"""Times whole pictures against what they are off by: raylane's and the peers' that are found.
+"""Times whole images against their errors: raylane's and those of the peers that are installed.
 
     errors.py JSON RAYLANE FOLDER SIZE THREADS REPETITIONS SCENES...
 
 FOLDER holds SCENE.nff and SCENE.pov; or SCENE.json and SCENE.nff of a scene under the sky, which Tachyon
-gets by its options. Each program's pictures, of 8 bits, are compared with its own converged one, as
-no two of them shade quite alike. Rows go to JSON: {"scene", "by", "setting", "seconds", "psnr"}.
+gets by its options. Each program's 8-bit images are compared with that program's converged image, as
+no two programs shade quite alike. Rows go to JSON: {"scene", "by", "setting", "seconds", "psnr"}.
 """
 
 import json
@@ -21,7 +21,7 @@ folder = pathlib.Path(folder)
 
 
 class Program:
-    """`command` makes of a scene, options and the picture's name what draws it."""
+    """A renderer: `command` makes the command line from a scene, options and the image's name."""
 
     def __init__(self, name, command, settings, truth):
         self.name, self.command, self.settings, self.truth = name, command, settings, truth
@@ -73,7 +73,7 @@ def programs(scene):
 
 
 def psnr(picture, truth):
-    """Decibels; raylane compare says 1 where pictures differ."""
+    """Returns decibels, or None if the images are the same; raylane compare exits with 1 if they differ."""
     said = subprocess.run([raylane, "compare", str(picture), str(truth)], stdout=subprocess.PIPE)
     for line in said.stdout.decode().splitlines():
         if line.startswith("PSNR"):

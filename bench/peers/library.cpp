@@ -7,9 +7,9 @@ namespace raylane::bench {
 
 namespace {
 
-/// What a user of the library gets: rays in float, in arrays of their own, answered by t, normal
-/// and id, or by 1 and 0. It is told nothing of what rays have in common; what they leave they
-/// name, or start a little ahead of it.
+/// The library as users call it: rays in float, in separate arrays, answered by t, normal and id,
+/// or by 1 and 0. Calls do not mention coherence. Rays name the shapes that they leave, or start a
+/// little ahead of them.
 class Library : public Contender {
   public:
     Library(const simd::SceneData& scene, simd::Isa isa, bool names)

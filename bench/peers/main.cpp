@@ -8,7 +8,7 @@
 #include <fstream>
 #include <new>
 
-/// raylane and Embree, in turn, on the same scenes and rays. See run.sh.
+/// Measures raylane and Embree, in turn, with the same scenes and rays. See run.sh.
 
 namespace {
 
@@ -27,7 +27,7 @@ class Unwritable : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Fails with an exception of CLI11.
+/// Parses the command line. Throws CLI11's exceptions.
 Arguments parse(CLI::App& app, int argc, char** argv) {
     Arguments arguments;
     std::vector<std::string> sets = arguments.wanted, isas;
@@ -70,7 +70,7 @@ void measure(const std::string& name, const std::vector<std::string>& wanted, co
     if (wants("picture")) report(measure_picture(data, how));
 }
 
-/// Measures all. True if raylane is right everywhere.
+/// Measures all scenes. Returns true if all of raylane's answers are right.
 bool measure_all(const Arguments& arguments, simd::Isa isa) {
     const char* const embree = embree_version();
     std::printf("Embree %s\n",

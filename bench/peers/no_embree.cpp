@@ -2,7 +2,7 @@
 #include "bench/peers/crossings.hpp"
 #include "bench/peers/measure.hpp"
 
-/// Stand-in for Embree where it is not there.
+/// Stand-in for Embree where it is missing.
 namespace raylane::bench {
 
 const char* embree_version() {

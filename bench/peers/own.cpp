@@ -7,18 +7,19 @@ namespace raylane::bench {
 
 namespace {
 
-/// One thread's. As the wavefront has it: rays in double, wave by wave, every decision certified;
-/// those that have nothing in common as StreamTracer has it.
+/// Answers rays for one thread. Like the wavefront: rays in double, wave by wave, every decision
+/// certified. Rays without coherence are answered as StreamTracer does.
 class Worker {
   public:
     Worker(const simd::SceneData& scene, simd::Isa isa)
         : scene_(scene), tracing_{&simd::kernels_of(isa)}, most_(scene.best_ray_count()),
           query_(scene, tracing_, simd::Asked::points),
           arena_(simd::arena_for([this](simd::Arena& arena) { take_from(arena); })) {}
-    Worker(const Worker&) = delete; // parts of it refer to others
+    Worker(const Worker&) = delete; // parts refer to others
     Worker& operator=(const Worker&) = delete;
 
-    /// Answers some rays: slots, or, of occlusion, simd::Occlusion. Returns how many these are.
+    /// Answers some rays: with slots or, for occlusion, simd::Occlusion. Returns the number of rays
+    /// answered.
     std::size_t answer(const RaySet& rays, std::size_t begin, std::size_t end,
                        std::uint32_t* answers) {
         const simd::Coherence* const coherence = rays.coherence ? &*rays.coherence : nullptr;
@@ -43,7 +44,7 @@ class Worker {
         state_ = arena.take<std::uint8_t>(most_);
     }
 
-    /// Rays in doubt are decided by their nearest hits.
+    /// Decides rays in doubt by their nearest hits.
     void find_blocked(const simd::Paths& paths, const float* t_most,
                       const simd::Coherence* coherence) {
         std::copy_n(t_most, paths.count, distance_);
@@ -110,7 +111,7 @@ class Own : public Contender {
     const simd::SceneData& scene_;
     std::vector<std::unique_ptr<Worker>> workers_;
     const RaySet* rays_ = nullptr;
-    std::vector<std::uint32_t> answers_; // by ray, as Worker has them
+    std::vector<std::uint32_t> answers_; // by ray, in Worker's form
 };
 
 } // namespace

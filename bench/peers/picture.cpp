@@ -8,7 +8,7 @@ namespace raylane::bench {
 
 namespace {
 
-/// Pixels that would look different: by more than 1 of 255 steps in some channel.
+/// Returns the number of pixels that differ visibly: by more than 1 of 255 steps in some channel.
 std::size_t different_pixels(const core::Film& a, const core::Film& b) {
     std::size_t different = 0;
     for (std::size_t i = 0; i < a.pixels().size(); ++i) {

@@ -1,8 +1,8 @@
-"""Times whole pictures, whole processes, by raylane and by the peers that are found: see run.sh.
+"""Times whole processes that render whole images, by raylane and the installed peers: see run.sh.
 
     pictures.py JSON RAYLANE FOLDER SIZE THREADS REPETITIONS
 
-FOLDER holds SCENE.nff and SCENE.pov; rows as those of raylane-peers go to JSON.
+FOLDER holds SCENE.nff and SCENE.pov. Rows in the form of raylane-peers' go to JSON.
 """
 
 import json
@@ -19,7 +19,7 @@ folder = pathlib.Path(folder)
 
 
 def commands(scene):
-    """What draws a scene, by the program's name. All follow four reflections."""
+    """Returns the commands that render a scene, by the program's name. All follow four reflections."""
     nff, pov, out = (str(folder / (scene + end)) for end in (".nff", ".pov", ""))
     every = {
         "raylane": [raylane, "render", nff, "-o", out + ".raylane.png", "--size",
@@ -44,7 +44,7 @@ def seconds(command):
 
 
 def measure(scene):
-    """One row: the programs in turn; the first round warms up."""
+    """Measures one row: the programs in turn. The first round warms up."""
     times = {name: [] for name in commands(scene)}
     for _ in range(1 + int(repetitions)):
         for name, command in commands(scene).items():

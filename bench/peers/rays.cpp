@@ -14,7 +14,8 @@ namespace raylane::bench {
 
 namespace {
 
-/// All rays once, on several threads by shares of some waves. Seconds, once all threads are there.
+/// Traces all rays once, on several threads, in portions of several waves. Returns the seconds from
+/// when all threads are there.
 double run(Contender& contender, const RaySet& rays, int threads) {
     using Clock = std::chrono::steady_clock;
     constexpr std::size_t share = 8 * RaySet::wave;
@@ -34,7 +35,7 @@ double run(Contender& contender, const RaySet& rays, int threads) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Knows for sure what rays hit.
+/// Decides which answers are right.
 class Judge {
   public:
     Judge(const simd::SceneData& scene, const RaySet& rays)
@@ -47,7 +48,7 @@ class Judge {
             encounter_.hit.any() && encounter_.hit.t < static_cast<double>(*rays_.t_most(ray));
     }
 
-    /// True for a right answer: of surfaces that meet in one point, each will do.
+    /// Returns true if an answer is right. If surfaces meet in one point, each of them is.
     bool is_right(std::uint32_t answer) const {
         if (rays_.occlusion) return (answer != 0) == blocked_;
         if (!encounter_.hit.any()) return answer == core::no_shape;
@@ -62,7 +63,8 @@ class Judge {
     bool blocked_ = false;
 };
 
-/// The reference is asked where contenders disagree, and of a share of the other rays.
+/// Counts wrong answers. The reference tracer decides where contenders disagree, and for a sample
+/// of the other rays.
 void count_wrong(const simd::SceneData& scene, const RaySet& rays, const Contenders& contenders,
                  std::vector<Result>& results) {
     constexpr std::size_t sample = 64;

@@ -1,27 +1,27 @@
 #!/bin/sh
-# Measures raylane beside each other ray tracer that is found here, in turn: the same scenes, the
-# same rays, the same threads, medians of several runs. Prints one table.
+# Measures raylane beside each other ray tracer that is installed, in turn: the same scenes, rays and
+# threads, medians of several runs. Prints one table.
 #
 #   bench/peers/run.sh [BUILD [FOLDER]]   BUILD: a Release build of raylane; default build/release.
 #                                         FOLDER: where peers.json, errors.json and the scenes
 #                                         go; default build/peers
 #
-# Embree 3 or 4, where it was there when raylane was configured (Debian's libembree-dev): rays of several
+# Embree 3 or 4, if it was installed when raylane was configured (Debian's libembree-dev): rays of several
 # sorts on 10 to 10,000,000 balls and on a lattice of 1,000,000 balls and sticks; building; two
-# threads; and whole pictures by raylane's wavefront with Embree's calls inside. POV-Ray 3.7 and
-# Tachyon 0.99 (Debian's povray and tachyon): whole pictures, whole processes; and the same by all
-# their settings of anti-aliasing, against what these are off by. It wants python3.
+# threads; and whole images by raylane's wavefront with Embree's calls inside. POV-Ray 3.7 and
+# Tachyon 0.99 (Debian's povray and tachyon): whole images, whole processes; and the same with all
+# their settings of anti-aliasing, against the images' errors. Needs python3.
 #
-# Environment: QUICK=1, to see within some minutes that it works; SIZE, of pictures in pixels
-# (1024); ERROR_SIZE, of those that are held to converged ones (half of it); REPETITIONS (5); THREADS, of
-# whole processes (1).
+# Environment: QUICK=1, to check within some minutes that it works; SIZE, of images in pixels
+# (1024); ERROR_SIZE, of images that are compared with converged ones (half of SIZE); REPETITIONS (5);
+# THREADS, of whole processes (1).
 #
-# Scenes: balls, rings and tree of the Standard Procedural Databases in ../shared/scenes, where they
-# are, a sphereflake of 66,430 balls and a lattice of 16 x 16 x 16, as raylane convert writes them.
-# All programs get what NFF can say of them. Tachyon's angle of view is 53.13 degrees whatever the file
-# says, as it is in these two; of the others, where it is 45, it shows a little more.
+# Scenes: balls, rings and tree of the Standard Procedural Databases in ../shared/scenes, if they
+# are there, a sphereflake of 66,430 balls and a lattice of 16 x 16 x 16, as raylane convert writes them.
+# All programs get the properties that NFF can express. Tachyon's angle of view is 53.13 degrees whatever
+# the file says. These two scenes have that angle; of the others, which have 45, it shows a little more.
 #
-# Exit code 1: raylane has been wrong somewhere.
+# Exit code 1: raylane has given a wrong answer.
 set -eu
 cd "$(dirname "$0")/../.."
 build=${1:-build/release}
@@ -48,7 +48,7 @@ done
 mkdir -p "$folder/parts"
 rm -f "$folder"/parts/*.json
 
-# Scenes of whole pictures.
+# Scenes for whole images.
 surroundings='"camera": {"from": [0, 2.6, 4.4], "at": [0, 1.1, 0], "field_of_view": 53.130102},
     "background": [0.5, 0.65, 0.85],
     "lights": [{"type": "point", "position": [-7, 12, 8], "color": [0.7, 0.7, 0.7]},
@@ -74,7 +74,7 @@ cat >"$folder/lattice-16.json" <<END
      "n": 16, "spacing": 0.16, "sphere_radius": 0.045, "strut_radius": 0.012}]
 }
 END
-# The protein under one light, as all can draw it, and under the sky; as near as Tachyon sees it.
+# The protein under one light, as all programs can render it, and under the sky. Both have Tachyon's angle of view.
 protein() { # lights
     sed -e '/"lights": \[/,/^    \],/d' -e "s/^    \"materials\"/    \"lights\": [$1],\n&/" \
         -e 's/"from": [^]]*\]/"from": [8.4, 12.3, 46.8]/' \
@@ -95,7 +95,7 @@ picture=$folder/sphereflake-5.nff
 [ ! -f "$folder/balls.nff" ] || picture=$folder/balls.nff
 
 number=10
-measure() { # arguments of raylane-peers; what is wrong, the table says
+measure() { # arguments of raylane-peers, whose exit code 1 is for the table
     number=$((number + 1))
     "$build/bin/raylane-peers" "$@" --size "$size" --repetitions "$repetitions" \
         --json "$folder/parts/$number.json" || [ $? -eq 1 ]

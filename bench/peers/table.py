@@ -1,8 +1,8 @@
-"""Puts what has been measured together, as one file and one table: see run.sh.
+"""Joins measurements into one file and one table: see run.sh.
 
     table.py JSON PART...
 
-Exit code 1: raylane has been wrong somewhere.
+Exit code 1: raylane has given a wrong answer.
 """
 
 import json
@@ -19,7 +19,7 @@ def load(parts):
 
 
 def users(row):
-    """What users of raylane have."""
+    """Returns the result for users of raylane."""
     return next((result for result in row["by"] if result["name"] == row.get("own")),
                 row["by"][0])
 
@@ -61,7 +61,7 @@ def gain(row, result):
 
 
 def print_scaling(rows):
-    """Several threads against one, which took turns."""
+    """Prints the gains of several threads over one; the runs took turns."""
     for row in rows:
         results = [result for result in (users(row), best_peer(row))
                    if result and "alone" in result]

@@ -38,8 +38,8 @@ void add_spheres(core::SceneBuilder& builder, int count) {
     }
 }
 
-/// Each node has a ball and a stick in the direction of each axis: cylinders where the sum of its
-/// coordinates is even, else cones.
+/// Adds a lattice: each node has a ball, and a stick in the direction of each axis. Sticks are
+/// cylinders where the sum of the node's coordinates is even, otherwise cones.
 void add_sticks(core::SceneBuilder& builder, int count) {
     const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(count / 4.0))));
     const float spacing = 1.0F / static_cast<float>(n);
@@ -60,8 +60,8 @@ void add_sticks(core::SceneBuilder& builder, int count) {
             }
 }
 
-/// The parts that a wavefront's tiles are made of: squares of 16 pixels a side, Morton order within
-/// 64 x 64 of them.
+/// Visits the pixels in squares of 64 x 64, in Morton order within each, as a wavefront does in its
+/// tiles.
 template <class Visit>
 void for_each_pixel(int side, const Visit& visit) {
     constexpr int tile = 64;
@@ -91,7 +91,7 @@ simd::Coherence coherence_at(const Vec3f& apex, bool towards) {
     return {{apex.x, apex.y, apex.z}, towards, false, false, false};
 }
 
-/// The way of a picture's first sample of a sky.
+/// Returns the direction of an image's first sample of a sky.
 Vec3d to_sky(const Vec3d& normal, std::size_t pixel) {
     const core::SoftLight sky = core::prepared({core::LightKind::sky});
     const auto number = static_cast<std::uint32_t>(pixel);
@@ -104,7 +104,7 @@ Vec3d to_sky(const Vec3d& normal, std::size_t pixel) {
     return {x, y, z};
 }
 
-/// Adds the rays that start where the camera's rays hit: mirrored, to the light, and to the sky.
+/// Adds the rays that start at the camera rays' hits: mirrored, to the light, and to the sky.
 void add_secondary(const core::Scene& scene, const simd::SceneData& data, const RaySet& camera,
                    RaySet& mirror, RaySet& shadow, RaySet& sky) {
     const simd::Tracing tracing{&simd::kernels_of(simd::best_isa())};
@@ -128,7 +128,7 @@ void add_secondary(const core::Scene& scene, const simd::SceneData& data, const 
             sky.add_from({point, to_sky(cos > 0.0 ? -normal : normal, begin + lane)}, infinity,
                          data, hits.slot[lane], hits.hit[lane], hits.t[lane]);
             const Vec3d to_light = light - point;
-            if (core::dot(to_light, normal) * cos > 0.0) continue; // in its own shadow
+            if (core::dot(to_light, normal) * cos > 0.0) continue; // in the shape's shadow
             const double distance = core::length(to_light);
             shadow.add_from({point, to_light / distance}, static_cast<float>(distance), data,
                             hits.slot[lane], hits.hit[lane], hits.t[lane]);
@@ -158,7 +158,7 @@ core::Scene make_workload(const std::string& name) {
 }
 
 simd::Paths RaySet::paths(std::size_t begin, std::size_t most) const {
-    // Paths know of no arrays that are only read.
+    // Paths have no read-only arrays.
     const auto from = [&]<class Value>(const std::vector<Value>& column) {
         return const_cast<Value*>(column.data()) + begin;
     };
@@ -222,8 +222,8 @@ void RaySet::append(const Ray<double>& ray, const Ray<float>& in_float, float t_
     ++count;
 }
 
-/// t_least is what Embree's own path tracer (tutorials/pathtracer) takes: 32 times the precision of
-/// the largest number that the hit was made of.
+/// Adds a ray from a hit. t_least is that of Embree's path tracer (tutorials/pathtracer): 32 times
+/// the precision of the largest number from which the hit was computed.
 void RaySet::add_from(const Ray<double>& ray, float t_most, const simd::SceneData& scene,
                       std::uint32_t slot, std::uint32_t hit, double t) {
     append(ray, in_float(ray), t_most);

@@ -8,44 +8,44 @@
 #include <string>
 #include <vector>
 
-/// Scenes and rays that raylane and others are measured on.
+/// Scenes and rays on which raylane and other ray tracers are measured.
 namespace raylane::bench {
 
-/// `spheres/N`: N spheres of radius 0.3 / cbrt(N), uniformly in the unit cube. `sticks/N`: about N
-/// shapes of a ball-and-stick lattice in it, a quarter balls, the rest cylinders and cones. Else
-/// the path of a scene file.
+/// Makes a scene. `spheres/N`: N spheres of radius 0.3 / cbrt(N), uniformly in the unit cube.
+/// `sticks/N`: about N shapes of a ball-and-stick lattice in it, a quarter balls, the rest
+/// cylinders and cones. Otherwise `name` is the path of a scene file.
 core::Scene make_workload(const std::string& name);
 
-/// Rays, structure of arrays, and what is asked of them. Those that start on nothing have
-/// directions of float precision, brought to unit length in double, so that those who know only
-/// floats are asked the same.
+/// Rays, structure of arrays, and the query to make with them. Rays that start on no shape have
+/// directions of float precision, normalised in double, so that contenders in float trace the same
+/// rays.
 struct RaySet {
     std::string name;
-    bool occlusion = false; ///< true: any hit before t_most is asked for; false: the first hit
-    std::optional<simd::Coherence> coherence; ///< that all of them have
+    bool occlusion = false; ///< true: any hit before t_most is sought; false: the first hit
+    std::optional<simd::Coherence> coherence; ///< of all rays
     std::size_t count = 0;
 
-    /// Paths from `begin` on, so many or all that are left.
+    /// Returns paths from `begin` on: `most`, or all that are left.
     simd::Paths paths(std::size_t begin, std::size_t most) const;
-    /// Rays of a wave: as many as a tile has at a time.
+    /// Number of rays in a wave: as many as a tile has at a time.
     static constexpr std::size_t wave = 1024;
     const float* t_most(std::size_t begin) const { return t_most_.data() + begin; }
 
     core::Ray<double> ray(std::size_t i) const;
     core::Ray<float> ray_in_float(std::size_t i) const;
-    /// Least t for those who know of no departures: how far ahead a ray has to start lest it hits
-    /// what it leaves.
+    /// Returns the least t for contenders that do not know departures: a ray that starts this far
+    /// ahead does not hit the shape that it leaves.
     float t_least(std::size_t i) const { return t_least_[i]; }
-    /// True if any ray leaves something.
+    /// Returns true if any ray leaves a shape.
     bool leaves_any() const;
 
     void reserve(std::size_t rays);
-    /// Adds a ray in the open.
+    /// Adds a ray that starts on no shape.
     void add(const core::Ray<double>& ray, float t_most);
-    /// Adds a ray from what another has hit after a length of t.
+    /// Adds a ray from a shape that another ray has hit at distance t.
     void add_from(const core::Ray<double>& ray, float t_most, const simd::SceneData& scene,
                   std::uint32_t slot, std::uint32_t hit, double t);
-    /// All rays are there: makes room to read whole packets.
+    /// Completes the set: makes whole packets readable.
     void finish();
 
   private:
@@ -60,12 +60,14 @@ struct RaySet {
 inline constexpr const char* ray_set_names[] = {"camera", "scanlines",  "mirror",   "shadow",
                                                 "sky",    "incoherent", "occlusion"};
 
-/// `camera`: those of a picture of side x side pixels, tile by tile, and `scanlines`: line by line;
-/// `mirror`: what the camera's hits
-/// reflect, `shadow`: from these hits to a point light, and `sky`: from each one anywhere above the
-/// surface, by the cosine; `incoherent`: `side`^2 / 4 rays between
-/// any points of the scene's bounds, onwards; and `occlusion`: whether there is anything between
-/// those points.
+/// Makes the ray sets:
+/// - `camera`: rays of an image of side x side pixels, tile by tile;
+/// - `scanlines`: the same, line by line;
+/// - `mirror`: reflections at the camera rays' hits;
+/// - `shadow`: from these hits to a point light;
+/// - `sky`: from each hit in a random direction above the surface, by the cosine;
+/// - `incoherent`: `side`^2 / 4 rays from a random point of the scene's bounds through another one;
+/// - `occlusion`: whether anything is between those two points.
 std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneData& data, int side);
 
 } // namespace raylane::bench
