@@ -38,7 +38,7 @@ def fail(message):
 
 
 def bundle(room):
-    """The page's script and style sheet."""
+    """Returns the page's script and style sheet."""
     for program in ("node", "npm"):
         if not shutil.which(program):
             fail(f"no {program} here; see Debian's nodejs and npm")
@@ -48,7 +48,7 @@ def bundle(room):
     if not installed.exists() or installed.read_text() != lock:
         for name in ("package.json", "package-lock.json"):
             shutil.copy(HERE / "report" / name, room)
-        # Nothing of what is fetched is run at this.
+        # No script of the fetched packages runs here.
         command = ["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--silent"]
         if subprocess.run(command, cwd=room).returncode != 0:
             fail(f"npm could not fetch the libraries of {HERE / 'report/package-lock.json'}")
@@ -58,7 +58,7 @@ def bundle(room):
 
 
 def licences(modules):
-    """Of what is in the page."""
+    """Returns the licences of the libraries in the page."""
     files = ["tslib/LICENSE.txt", "zrender/LICENSE", "echarts/LICENSE", "echarts/NOTICE"]
     files += sorted(str(each.relative_to(modules)) for each in modules.glob("echarts/licenses/*"))
     return "\n\n".join(f"{name}\n\n{(modules / name).read_text()}" for name in files)
@@ -67,7 +67,7 @@ def licences(modules):
 def page_of(data, script, style, licence):
     parts = {
         "STYLE": style,
-        # Nothing in it ends its element, or begins a comment.
+        # The escapes keep data and script from ending their elements, and from beginning comments.
         "DATA": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
         "SCRIPT": script.replace("</", "<\\/").replace("<!--", "<\\!--"),
         "LICENCES": html.escape(licence),
@@ -76,7 +76,7 @@ def page_of(data, script, style, licence):
 
 
 def write_whole(path, text):
-    """Or not at all."""
+    """Writes the whole file or nothing."""
     unfinished = path.with_name(path.name + ".part")
     unfinished.write_text(text)
     unfinished.replace(path)

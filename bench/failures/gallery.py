@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the pictures of README.md beside this, and writes it: where methods fail.
+"""Draws the images of the README.md beside this file, and writes that file: where methods fail.
 
     bench/failures/gallery.py [BUILD]    a Release build with Python's module; default build/release
 

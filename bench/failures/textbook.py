@@ -1,15 +1,15 @@
-"""The ray tracer that textbooks print, in float: what the field's failures are made of.
+"""The ray tracer that textbooks print, in float. It shows the failures that users of other renderers have reported.
 
-Roots by b^2 - 4ac, and an epsilon against meeting what is left. It reads the scenes of this folder: spheres,
-cylinders, cones, boxes, planes and quadrics, lit by points and suns, mirrors and glass without Fresnel. `how`
-says which remedy of the reports it takes:
+Finds roots by b^2 - 4ac, and has an epsilon so that rays do not hit the surface that they leave. Reads the scenes of
+this folder: spheres, cylinders, cones, boxes, planes and quadrics, lit by points and suns, mirrors and glass without
+Fresnel. `how` selects remedies of the reports:
 
     epsilon       the least t that counts, in units of length
-    offset_ulps   where a ray goes on, it starts so many ulps of the coordinates along the normal instead
-    interval      half the width of an interval about the coordinates of a ray's origin: spheres that are not
-                  surely hit are not
+    offset_ulps   secondary rays start this number of ulps of the coordinates along the normal instead
+    interval      half the width of an interval about the coordinates of a ray's origin: only spheres that are
+                  certainly hit count
     balls         open cylinders and cones end in balls
-    shadows       false: nothing is in the way of light
+    shadows       false: nothing blocks light
 
 Arrays of n rays: origins and directions (n, 3), t (n,), in float32.
 """
@@ -34,7 +34,7 @@ def vector(numbers):
 
 
 def color_of(color):
-    """Linear, as the renderer's reader has it."""
+    """Returns a linear colour, as the renderer's reader does."""
     if isinstance(color, str):
         encoded = np.array([int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)])
         return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4).astype(F)
@@ -54,13 +54,13 @@ def discriminant(a, b, c):
 
 
 def roots(a, b, c):
-    """Both of a t^2 + b t + c = 0, or not a number."""
+    """Returns both roots of a t^2 + b t + c = 0, or NaN."""
     root = np.sqrt(discriminant(a, b, c))
     return (-b - root) / (F(2) * a), (-b + root) / (F(2) * a)
 
 
 def first_of(candidates, least):
-    """The least t beyond `least` of those whose condition holds."""
+    """Returns the least t beyond `least` of the candidates whose condition holds."""
     best = NONE
     for t, holds in candidates:
         best = np.where(holds & (t > least) & (t < best), t, best)
@@ -88,7 +88,7 @@ class Sphere:
 
 
 class Cone:
-    """And cylinder: |p|^2 - (p.a)^2 = (r0 + k p.a)^2 about the unit axis a."""
+    """Cone or cylinder: |p|^2 - (p.a)^2 = (r0 + k p.a)^2 about the unit axis a."""
 
     def __init__(self, of, how):
         self.base, axis = vector(of["base"]), vector(of["axis"])
@@ -113,7 +113,7 @@ class Cone:
             for at, radius in ((F(0), self.r0), (self.height, self.r1)):
                 t = (at - fa) / da
                 q = f + t[..., None] * d - at * self.axis
-                # Where the wall is not crossed, the caps are not asked.
+                # Caps are not tested where the wall is not crossed.
                 candidates.append((t, (dot(q, q) <= radius * radius) & ~(discriminant(*wall) < 0)))
         return first_of(candidates, least)
 
@@ -188,7 +188,7 @@ KINDS = {"sphere": Sphere, "cylinder": Cone, "cone": Cone, "plane": Plane, "box"
 
 
 def balls_of(each):
-    """What curves end in."""
+    """Returns the balls in which curves end."""
     if each["type"] == "cylinder":
         radii = (each["radius"], each["radius"])
     else:
@@ -215,7 +215,7 @@ class Textbook:
         self.epsilon = F(how.get("epsilon", 0))
 
     def first_hits(self, o, d, skip=None):
-        """t, infinite where nothing is hit, and the shape's number."""
+        """Returns t, infinite without a hit, and the shape's number."""
         best, which = np.full(len(o), NONE), np.full(len(o), -1)
         for number, shape in enumerate(self.shapes):
             if skip is not None and skip(number):
@@ -230,7 +230,7 @@ class Textbook:
         return best.astype(F), which
 
     def moved(self, p, normal, direction):
-        """Where a ray goes on."""
+        """Returns the start of a secondary ray."""
         ulps = self.how.get("offset_ulps", 0)
         if ulps == 0:
             return p
@@ -238,7 +238,7 @@ class Textbook:
         return (p + (step * np.sign(dot(normal, direction)))[..., None] * normal).astype(F)
 
     def colors(self, o, d, depth=0):
-        """(n, 3), linear."""
+        """Returns colours (n, 3), linear."""
         result = np.broadcast_to(self.background, (len(o), 3)).copy()
         t, which = self.first_hits(o, d)
         for number in range(len(self.shapes)):
@@ -303,7 +303,7 @@ class Textbook:
 
 
 def camera_rays(scene):
-    """Through the middles of pixels, row by row from the top: origins and unit directions (n, 3) in double."""
+    """Returns rays through pixels' middles, row by row from the top: origins, unit directions (n, 3), in double."""
     camera, image = scene["camera"], scene["image"]
     start, at = np.array(camera["from"], float), np.array(camera["at"], float)
     forward = unit(at - start)
@@ -320,7 +320,7 @@ def camera_rays(scene):
 
 
 def draw(scene, how):
-    """The picture (height, width, 3), and of what is seen first t and the shape's number (height, width)."""
+    """Returns the image (height, width, 3), and t and the shape's number of the first hits (height, width)."""
     tracer = Textbook(scene, how)
     o, d = (rays.astype(F) for rays in camera_rays(scene))
     shape = (scene["image"]["height"], scene["image"]["width"])

@@ -27,7 +27,7 @@ def has_tiers(build):
 
 
 def tiers_of(build, scene, width, height):
-    """As a list of one map, or none if there is no raylane-tiers."""
+    """Returns a list of one map, which is empty without raylane-tiers."""
     if not has_tiers(build):
         return []
     command = [build / "bin/raylane-tiers", scene, str(width), str(height)]
@@ -39,22 +39,22 @@ def tiers_of(build, scene, width, height):
 
 
 def steps(rgb, exact):
-    """Pixels that differ by more than one step of 255."""
+    """Returns the number of pixels that differ by more than one step of 255."""
     return int((np.abs(encoded(rgb).astype(int) - encoded(exact)) > 1).any(-1).sum())
 
 
 def compare_hits(t, shape, exact_t, exact_shape):
-    """Rays that are wrong, and of the others t in ulps of float: median, 99th percentile, maximum."""
+    """Returns the number of wrong rays; of the others, ulps of t in float: median, 99th percentile, maximum."""
     same = shape == exact_shape
     hit = same & np.isfinite(exact_t)
-    # Floats above 0 are in the order of their bits.
+    # Positive floats are in the order of their bits.
     off = np.abs(t[hit].astype(np.float32).view(np.int32).astype(np.int64) - exact_t[hit].view(np.int32))
     ulps = [float(np.percentile(off, share)) for share in (50, 99, 100)] if off.size else [0.0, 0.0, 0.0]
     return {"wrong": int((~same).sum()), "ulps": ulps}
 
 
 def first_hits(scene, precision, origins, directions):
-    """t in float32, infinite where nothing is hit, and the shape's number or -1."""
+    """Returns t in float32, infinite without a hit, and the shape's number or -1."""
     hits = raylane.Tracer(scene, precision=precision).intersect(origins, directions)
     return np.where(hits.hit, hits.t, np.inf).astype(np.float32), np.where(hits.hit, hits.shape.astype(np.int64), -1)
 
@@ -80,7 +80,7 @@ def draw_failure(build, failure):
 
 
 def draw_failures(build):
-    """What is said of them, and a set of pictures for each."""
+    """Returns the failures' texts, and a set of images for each."""
     failures = json.loads((BENCH / "failures/failures.json").read_text())
     told = [{key: each[key] for key in ("name", "reference", "title", "failure", "remedy")} for each in failures]
     return told, [draw_failure(build, each) for each in failures]

@@ -7,7 +7,7 @@ import chart
 
 
 def methods(path):
-    """{shape, rays, isa, method, mrays, ulps_..., wrong}: of Embree the faster way to call it."""
+    """Returns {shape, rays, isa, method, mrays, ulps_..., wrong}; of Embree, the faster way to call it."""
     best = {}
     for (shape, rays, method, isa), runs in chart.runs_of(path, "methods").items():
         name = "Embree" if method.startswith("embree") else method
@@ -29,7 +29,7 @@ def methods(path):
 
 
 def pictures(path):
-    """{scene, way, value, ms, rmse}: `way` is the precision of so many samples, or what else makes it cheaper."""
+    """Returns {scene, way, value, ms, rmse}: `way` is the precision for samples, otherwise the varied setting."""
     rows = [
         {
             "scene": scene,
@@ -40,12 +40,12 @@ def pictures(path):
         }
         for (scene, what, precision, value), runs in chart.runs_of(path, "picture").items()
     ]
-    # Converged pictures differ by 0 from themselves, for which logarithms have no place.
+    # A converged image differs from itself by 0, which has no logarithm.
     return sorted((row for row in rows if row["rmse"] > 0), key=lambda row: (row["scene"], row["way"], row["ms"]))
 
 
 def counts(path):
-    """{rays, by, count, mrays}: one thread, the widest registers."""
+    """Returns {rays, by, count, mrays} for one thread and the widest registers."""
     rows = [row for row in json.loads(path.read_text())["rows"] if row["threads"] == 1 and row.get("unit", "Mrays/s") == "Mrays/s"]
     rows = [row for row in rows if row.get("isa") == rows[0].get("isa")]
     return [
@@ -58,14 +58,14 @@ def counts(path):
 
 
 def peers(path):
-    """{scene, by, setting, seconds, psnr}."""
+    """Returns {scene, by, setting, seconds, psnr}."""
     keys = ("scene", "by", "setting", "seconds", "psnr")
     rows = [{key: row[key] for key in keys} for row in json.loads(path.read_text())["rows"]]
     return [row for row in rows if row["psnr"] and math.isfinite(row["psnr"])]
 
 
 def of_folder(folder):
-    """By figure; without what is not there."""
+    """Returns the rows of each figure; empty if its source is missing."""
     sources = {
         "methods": (methods, "chart.json"),
         "pictures": (pictures, "chart.json"),

@@ -41,10 +41,10 @@ class Set:
     pictures: list
     maps: list = dataclasses.field(default_factory=list)
     reference: str = ""
-    """The picture that the others are held to, or none."""
+    """The image with which the others are compared; empty: none."""
 
     def packed(self):
-        """Each picture's bits but for those that it shares with the one before, byte by byte."""
+        """Returns the set as data: the bits of each image XOR those of the image before it, in planes of bytes."""
         height, width = self.pictures[0].rgb.shape[:2]
         packed, last = [], None
         for number, picture in enumerate(self.pictures):
@@ -94,7 +94,7 @@ def linear(encoded):
 
 
 def encoded(rgb):
-    """Bytes by sRGB."""
+    """Returns bytes in sRGB."""
     x = np.clip(rgb, 0, 1)
     return np.rint(255 * np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)).astype(np.uint8)
 
@@ -112,7 +112,7 @@ def read_png(path):
 
 
 def of_folder(folder):
-    """A set for each folder in it."""
+    """Returns a set for each folder in this one."""
     readers = {".pfm": read_pfm, ".png": read_png}
     sets = []
     for each in sorted(folder.iterdir()) if folder.is_dir() else []:
