@@ -13,7 +13,7 @@ import time
 
 
 def write_dump(path, count):
-    """A cubic crystal of two types whose atoms are a little off their places, as LAMMPS dumps it."""
+    """Writes a cubic crystal of two types whose atoms are a little off their places, as LAMMPS dumps it."""
     side = 1
     while side**3 < count:
         side += 1
@@ -35,7 +35,7 @@ def write_dump(path, count):
 
 
 def run(command):
-    """Seconds of processors, seconds, and bytes at the peak."""
+    """Runs a command. Returns processor seconds, seconds, and bytes of memory at the peak."""
     start = time.monotonic()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
@@ -52,7 +52,7 @@ def main():
         dump, picture = f"{folder}/atoms.lammpstrj", f"{folder}/atoms.png"
         write_dump(dump, count)
         size = os.path.getsize(dump)
-        # Of one atom of all there is no tree to build: that is the reading, and little else.
+        # A single selected atom needs no tree, so this is the time of reading, and little else.
         reading, _, _ = min(run([raylane, "render", dump, "-o", picture, "--select", "index 1",
                                  "--style", "points",
                                  "--size", "16x16", "--spp", "1", "--threads", "1", "--quiet"])

@@ -8,8 +8,9 @@
 
 namespace raylane::bench {
 
-/// Places of the shapes of a table, in the order in which they were added to the scene. The table
-/// itself has them in that of the hierarchy, which would help whoever else gets them.
+/// Returns the places of a table's shapes, in the order in which these were added to the scene. The
+/// table itself has the hierarchy's order, which would help any other renderer that gets the
+/// shapes.
 template <class Shape>
 std::vector<std::pair<core::ShapeId, core::Place>> places_by_id(const core::Table<Shape>& table) {
     std::vector<std::pair<core::ShapeId, core::Place>> places;

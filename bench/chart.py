@@ -1,5 +1,4 @@
-"""Turns the JSON of raylane-bench, and of peers/run.sh, into gnuplot's commands for the figures of
-chart.sh.
+"""Turns the JSON of raylane-bench and of peers/run.sh into gnuplot commands for the figures of chart.sh.
 
     chart.py JSON methods RAYS ISA
     chart.py JSON pictures
@@ -31,7 +30,7 @@ GREY = "#999999"
 
 
 def runs_of(source, family):
-    """Lists of runs by the parts of their names behind the first one, `family`."""
+    """Returns lists of runs of `family`, by the other parts of their names."""
     runs = {}
     with open(source) as file:
         for run in json.load(file)["benchmarks"]:
@@ -46,7 +45,7 @@ def median(runs, counter):
 
 
 class Plot:
-    """One panel: curves, each a block of points that stands in the script itself."""
+    """One panel: curves, each with a block of points in the script itself."""
 
     blocks = 0
 
@@ -62,7 +61,7 @@ class Plot:
         self.again(style)
 
     def again(self, style):
-        """The points of the last `add`, in another style."""
+        """Adds the points of the last `add` in another style."""
         self.curves.append("$points%d %s" % (Plot.blocks, style))
 
     def draw(self):
@@ -78,7 +77,7 @@ def begin(title, layout, xlabel, ylabel):
 
 
 def pareto_front(marks):
-    """Of (speed, error, ...) those that no other one beats in both."""
+    """Returns those of the marks (speed, error, ...) that no other mark beats in both."""
     front, least = [], float("inf")
     for mark in sorted(marks, key=lambda mark: (-mark[0], mark[1])):
         if mark[1] < least:
@@ -100,12 +99,12 @@ def methods_figure(source, rays, isa):
         marks = by_shape.setdefault(shape, {})
         if name not in marks or mark > marks[name]:  # the fastest way to call it
             marks[name] = mark
-        if name != "Embree":  # all shapes are registered with raylane's precisions, in their order
+        if name != "Embree": # raylane's precisions register all shapes, in their order
             places[shape] = runs[0]["family_index"]
     if not by_shape:
         sys.exit("chart.sh: no measurements of %s rays by %s in %s" % (rays, isa, source))
 
-    floor = 0.1  # ulps: what is drawn at the bottom
+    floor = 0.1 # ulps at the bottom of a panel
     begin("Nearest of 12 shapes, normals included: %s rays, one thread, %s" % (rays, isa),
           "%d,4" % (len(by_shape) // 4 + 1),  # with the key in the last row
           "million rays/s", "ulps of t, 99th percentile")
@@ -138,7 +137,7 @@ def methods_figure(source, rays, isa):
 
 
 def draw_key(entries):
-    """In the last row, which it has for itself."""
+    """Draws the key in the last row, which holds nothing else."""
     print("unset title\nunset border\nunset tics\nunset grid\nunset logscale\nunset xlabel\n"
           "unset ylabel\nset xrange [0:1]\nset yrange [0:1]\n"
           "set key at 0,0.95 left top Left reverse samplen 1.5 spacing 1.5 font ',11'")
@@ -187,7 +186,7 @@ def pictures_figure(source):
 
 
 def speeds_by_count(rows, what):
-    """Of spheres: (number, speed for users of raylane's library, of its engine, Embree's best)."""
+    """Returns, for spheres: (number, speed of raylane's library, of its engine, Embree's best)."""
     points = []
     for row in rows:
         kind, _, count = row["scene"].partition("/")

@@ -1,19 +1,21 @@
 #!/bin/sh
-# Draws speed against accuracy from raylane-bench, in two figures: solvers, one panel per shape and
-# one mark per precision (and for Embree, where raylane-bench was built with it); and whole pictures,
-# seconds against their difference from converged ones. Or else, from what
-# bench/peers/run.sh has measured, rays per second against the number of shapes, beside Embree's, and
-# seconds for pictures against what they are off by, beside POV-Ray's and Tachyon's.
+# Draws speed against accuracy from raylane-bench, in two figures:
+# - solvers: one panel per shape, one mark per precision (and for Embree, if raylane-bench was built
+#   with it);
+# - whole images: seconds against their difference from converged ones.
+# With PEERS, draws the measurements of bench/peers/run.sh instead: rays per second against the number
+# of shapes, beside Embree's; and seconds for images against their errors, beside POV-Ray's and
+# Tachyon's.
 #
 #   bench/chart.sh [BUILD [FOLDER]]   BUILD: a Release build with raylane-bench; default
 #                                     build/release. FOLDER: where chart.svg, chart.png,
 #                                     pictures.svg, pictures.png and chart.json go, or peers.svg,
 #                                     peers.png, errors.svg and errors.png; default build/chart
 #
-# Environment: ISA (avx512 where the processor has it, else avx2, else sse4.2); RAYS, random or hard
-# (random); REPETITIONS of each measurement (5), of which the median counts; JSON, a file to draw
-# instead of measuring; PEERS, a peers.json, to draw that, an errors.json beside it, and nothing else.
-# It wants gnuplot and python3 (Debian's packages gnuplot-nox and python3).
+# Environment: ISA (default: the first of avx512, avx2 and sse4.2 that the processor has); RAYS, random
+# or hard (random); REPETITIONS of each measurement (5), of which the median counts; JSON, a file to
+# draw instead of measuring; PEERS, a peers.json, to draw only that and an errors.json beside it.
+# Needs gnuplot and python3 (Debian's packages gnuplot-nox and python3).
 set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}

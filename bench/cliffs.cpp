@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-/// Cliffs that the time for a ray might fall off: many shapes that all but meet it, sizes and
-/// distances far from 1. Nanoseconds a ray through the library, one thread: the mean of one call
-/// for all, and the worst of a call each; beside `robust`, which tests in float, and Embree. And
-/// the same of all crossings.
+/// Measures situations in which the time for a ray might rise sharply: many shapes that almost meet
+/// it, sizes and distances far from 1. Prints nanoseconds per ray through the library, on one
+/// thread: the mean of one call for all rays, and the worst of one call per ray. Prints the same
+/// for `robust`, which tests in float, for Embree, and for all crossings.
 ///
 /// usage: raylane-cliffs [NAME...]   parts of names; default: all
 namespace raylane::bench {
@@ -91,8 +91,8 @@ struct Times {
     double mean = 0.0, worst = 0.0;
 };
 
-/// `ask(first, count)` asks about rays. What a first call sets up is not counted; the worst is that
-/// of three.
+/// Measures `ask(first, count)`, which traces rays. The setup of a first call is not counted.
+/// `worst` is the largest time of a single ray, each of which is the least of three.
 Times times_of(std::size_t count, const std::function<void(std::size_t, std::size_t)>& ask) {
     Times times;
     ask(0, std::min<std::size_t>(count, 16));
@@ -114,7 +114,7 @@ Times raylane_times(const Situation& situation, Precision precision) {
     });
 }
 
-/// All crossings; and how many a ray has.
+/// Times for all crossings, and the number of crossings per ray.
 struct AllTimes : Times {
     double crossings = 0.0;
 };
@@ -161,8 +161,8 @@ Times embree_times(const Situation&) {
 
 constexpr int ray_count = 4000;
 
-/// Spheres in a cube of half a side `size` about `middle`; rays any way through it, and from the
-/// surfaces.
+/// Spheres in a cube of half side `size` around `middle`. Rays go through it in any direction, or
+/// start on surfaces.
 Situation heap(const std::string& name, int count, float size, const Vec3& middle, float distance) {
     Random random;
     SceneBuilder builder;
@@ -178,7 +178,7 @@ Situation heap(const std::string& name, int count, float size, const Vec3& middl
         const Vec3& target = centers[static_cast<std::size_t>(
             random.uniform(0.0F, static_cast<float>(count) - 0.5F))];
         const Vec3 way = random.cube(1.0F);
-        // From a surface, or from so many sizes away.
+        // From a surface, or from `distance` sizes away.
         const float from = distance == 0.0F
                                ? radius / std::sqrt(way.x * way.x + way.y * way.y + way.z * way.z)
                                : distance * size;
@@ -190,7 +190,7 @@ Situation heap(const std::string& name, int count, float size, const Vec3& middl
     return {name, builder.build(), rays};
 }
 
-/// Triangles on the plane y = slope x, and rays along it, so much above.
+/// Triangles on the plane y = slope x, and rays parallel to it, `above` higher.
 Situation floor_of(const std::string& name, int side, float slope, float above, bool any_way) {
     Random random;
     SceneBuilder builder;
@@ -214,7 +214,7 @@ Situation floor_of(const std::string& name, int side, float slope, float above, 
     return {name, builder.build(), rays};
 }
 
-/// Open cylinders end to end, and rays along their surface, so much outside.
+/// Open cylinders end to end, and rays along their surface, `outside` it.
 Situation pipes(const std::string& name, int count, int rows, float outside, bool tilted) {
     Random random;
     SceneBuilder builder;
@@ -235,7 +235,7 @@ Situation pipes(const std::string& name, int count, int rows, float outside, boo
     return {name, builder.build(), rays};
 }
 
-/// The same sphere, or all but the same, so often.
+/// Concentric spheres: all the same, or with radii an ulp apart.
 Situation shells(const std::string& name, int count, bool identical) {
     Random random;
     SceneBuilder builder;
@@ -300,7 +300,7 @@ Situation fan(const std::string& name, int count) {
     return {name, builder.build(), rays};
 }
 
-/// Boxes stacked face on face, and rays along faces, edges and any way.
+/// Boxes stacked face on face. Rays go along faces, along edges, and in any direction.
 Situation crates(const std::string& name, int side) {
     Random random;
     SceneBuilder builder;

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-/// Each elementary function's speed, in numbers per second, beside its error in ulps of double
-/// against the C library's in long double; and the C library's in double in the same run.
+/// Measures each elementary function: its speed in numbers per second, and its error in ulps of
+/// double against the C library in long double. Measures the C library in double in the same run.
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 namespace raylane::bench {
 
-/// The elementary functions of arrays of `count` doubles, a multiple of 8. What has one argument
-/// leaves y alone.
+/// The elementary functions of arrays of `count` doubles, a multiple of 8. Functions of one
+/// argument ignore y.
 struct ElementaryUnit {
     using Function = void (*)(const double* x, const double* y, double* out, int count);
     Function exp, expm1, pow, sin, atan;

@@ -12,12 +12,12 @@ namespace raylane::bench {
 /// Query for rays.
 class EmbreeQuery {
   public:
-    /// `coherent`: that they are near each other, it is told.
+    /// `coherent`: tells Embree that the rays are near each other.
     explicit EmbreeQuery(bool coherent);
-    EmbreeQuery(const EmbreeQuery&) = delete; // parts of it refer to others
+    EmbreeQuery(const EmbreeQuery&) = delete; // parts refer to others
     EmbreeQuery& operator=(const EmbreeQuery&) = delete;
 
-    /// A filter for hits, in a scene with filter_flag, which gets at `data` by data_for.
+    /// Sets a filter for hits, in a scene with filter_flag. The filter gets `data` by data_for.
     void set_filter(RTCFilterFunctionN filter, const void* data);
     static const RTCSceneFlags filter_flag;
     static const void* data_for(const RTCFilterFunctionNArguments& hits) {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <limits>
 
-/// Embree, by its public interface, on the rays and shapes of the methods' benchmarks, where it
-/// has the shape: spheres, cylinders and cones with caps as linear cone curves, discs and
-/// triangles. It takes floats, so the rays are rounded before the clock starts. Its normals are not
-/// brought to unit length.
+/// Measures Embree, by its public interface, with the rays and shapes of the methods' benchmarks,
+/// as far as it has the shape: spheres, cylinders and cones with caps (as linear cone curves),
+/// discs and triangles. It takes floats, so the rays are rounded before the clock starts. It does
+/// not normalise its normals.
 
 namespace raylane::bench {
 
@@ -16,7 +16,7 @@ namespace {
 
 using core::Kind;
 
-/// True if Embree has this kind of shape as such, that is not closed where it is open.
+/// True if Embree has this kind of shape exactly: it closes open ones.
 template <class Shape>
 constexpr bool has_as_such = embree_has<Shape>;
 template <>
@@ -26,7 +26,7 @@ constexpr bool has_as_such<core::OpenCone> = false;
 
 constexpr std::size_t wide = 16;
 
-/// All rays, in structures of 16, aligned as Embree wants them.
+/// All rays, in structures of 16, aligned as Embree requires.
 class WideRays {
   public:
     explicit WideRays(const simd::Paths& paths) : rays_(method_ray_count / wide) {
@@ -69,7 +69,7 @@ Crossed crossed(const RTCRayHit& found, const simd::SceneData& data, Kind kind) 
             static_cast<double>(found.ray.tfar)};
 }
 
-/// `single`: ray by ray; else 16 at a time.
+/// `single`: ray by ray; otherwise 16 at a time.
 template <class Shape, bool hard>
 void find(benchmark::State& state, simd::Isa isa, bool single) {
     const auto& of = MethodRays<Shape, hard>::get();

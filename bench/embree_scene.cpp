@@ -110,7 +110,7 @@ EmbreeScene::EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFla
             }
             rtcSetGeometryBuildQuality(geometry, quality);
             rtcCommitGeometry(geometry);
-            rtcAttachGeometry(scene_.get(), geometry); // numbers them from 0 on
+            rtcAttachGeometry(scene_.get(), geometry); // numbers geometries from 0 on
             rtcReleaseGeometry(geometry);
         }
     });

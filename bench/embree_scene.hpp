@@ -16,10 +16,10 @@ struct DeviceDeleter {
 };
 using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter>;
 
-/// Device for one thread, held to an instruction set.
+/// Makes a device for one thread, limited to an instruction set.
 EmbreeDevice make_embree_device(simd::Isa isa);
 
-/// Embree wants numbers too small to be normal taken for 0, by the calling thread.
+/// Treats subnormal numbers as 0 in the calling thread, as Embree requires.
 class NoDenormals {
   public:
     NoDenormals() { _mm_setcsr(before_ | _MM_FLUSH_ZERO_MASK | _MM_DENORMALS_ZERO_MASK); }
@@ -31,8 +31,8 @@ class NoDenormals {
     unsigned before_ = _mm_getcsr();
 };
 
-/// Embree's geometry for a kind of shape; user geometry stands for none. Cylinders and cones, open
-/// ones too, become curves whose ends are closed.
+/// Embree's geometry for a kind of shape; user geometry if it has none. Cylinders and cones, open
+/// ones too, become curves with closed ends.
 template <class Shape>
 inline constexpr RTCGeometryType geometry_type = RTC_GEOMETRY_TYPE_USER;
 template <>
@@ -51,12 +51,13 @@ inline constexpr RTCGeometryType geometry_type<core::Cone<ends>> =
 template <class Shape>
 inline constexpr bool embree_has = geometry_type<Shape> != RTC_GEOMETRY_TYPE_USER;
 
-/// A scene as Embree has it: spheres, discs and triangles as they are, cylinders and cones, open
-/// ones too, as linear cone curves, whose ends are closed. One geometry for each kind of shape, in
-/// the order of their ids.
+/// A scene in Embree's format: spheres, discs and triangles as they are; cylinders and cones, open
+/// ones too, as linear cone curves with closed ends. One geometry for each kind of shape, in the
+/// order of the shapes' ids.
 class EmbreeScene {
   public:
-    /// True if it has all of the scene's shapes. It knows none that are seen from one side only.
+    /// Returns true if Embree has all of the scene's shapes. It has no surfaces that are visible
+    /// from one side only.
     static bool can_hold(const core::Scene& scene);
 
     EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFlags flags,
@@ -64,13 +65,13 @@ class EmbreeScene {
 
     RTCScene get() const { return scene_.get(); }
 
-    /// Builds its hierarchy; what is above only hands over the shapes.
+    /// Builds the hierarchy; the constructor only hands over the shapes.
     void commit() { rtcCommitScene(scene_.get()); }
 
-    /// The shapes of a geometry, by primitive.
+    /// Returns the shapes of a geometry, by primitive.
     const std::vector<core::ShapeId>& shapes(unsigned geometry) const { return ids_[geometry]; }
     std::size_t geometry_count() const { return ids_.size(); }
-    /// Shape that has been hit; no_shape: none.
+    /// Returns the shape that has been hit, or no_shape.
     core::ShapeId shape(unsigned geometry, unsigned primitive) const {
         return geometry == RTC_INVALID_GEOMETRY_ID ? core::no_shape : ids_[geometry][primitive];
     }

@@ -2,9 +2,9 @@
 
 #include <string>
 
-/// Cost of each feature to a scene that has it, which its absence saves: a plain scene, and the
-/// same with one feature each. The `unseen` ones have it on a ball behind the camera, which no ray
-/// meets: they cost what the code for it does.
+/// Measures the cost of each feature to a scene that has it, which other scenes save: a plain
+/// scene, and the same with one feature each. The `unseen` ones have it on a ball behind the camera
+/// that no ray meets: they cost as much as the code for it.
 
 namespace {
 
@@ -22,7 +22,7 @@ struct Plan {
 };
 
 constexpr int rows = 3, columns = 4;
-constexpr int listed_shapes = 24; ///< more of them have a hierarchy
+constexpr int listed_shapes = 24; ///< scenes of more shapes have a hierarchy
 
 void add_objects(Plan& plan) {
     SceneBuilder& builder = plan.builder;
@@ -69,7 +69,7 @@ void make_glass(Material& material) {
     material.transmission = 1;
 }
 
-/// Adds a feature of a material: on the balls, and unseen.
+/// Adds a feature of a material: once on the balls, once unseen.
 template <class Change>
 void add_material_feature(const std::string& name, const Change& change) {
     add_feature(name, [change](Plan& plan) { change(plan.ball); });
@@ -101,7 +101,7 @@ const bool registered = [] {
                          [](Material& material) { material.visible = Visible::outside; });
     add_feature("smooth_triangles", [](Plan& plan) { plan.smooth = true; });
     add_feature("boxes", [](Plan& plan) { plan.boxes = true; });
-    // One ball more, and there is a hierarchy.
+    // With one more ball, the scene has a hierarchy.
     constexpr int unseen = listed_shapes - 1 - rows * columns;
     add_feature("list_of_24", [](Plan& plan) { plan.unseen_balls = unseen; });
     add_feature("hierarchy_of_25", [](Plan& plan) { plan.unseen_balls = unseen + 1; });

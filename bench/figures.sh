@@ -1,15 +1,15 @@
 #!/bin/sh
-# Times whole processes of raylane, PyMOL and POV-Ray, as far as they are found here (Debian's
-# pymol and povray), on figures of molecules: each by its own default and by its best setting of
-# anti-aliasing, in turn. Prints a table of processor seconds, medians. It wants python3.
+# Times whole processes of raylane, PyMOL and POV-Ray, if these are installed (Debian's pymol and povray), on
+# figures of molecules: each with its default and with its best setting of anti-aliasing, in turn. Prints a table
+# of processor seconds, medians. Needs python3.
 #
 #   bench/figures.sh [BUILD [FOLDER]]   BUILD: a Release build of raylane; default build/release.
 #                                       FOLDER: where structures and pictures go; default build/figures
 #
 # Environment: STRUCTURES, PDB files to draw as well; REPETITIONS (3); SIZE (1200x900); THREADS (2); ISA, such
-# as avx2 (the best there is).
+# as avx2 (default: the best one available).
 #
-# The structures are made here: sixteen alpha helices side by side (1,920 atoms), one of six residues, and
+# This script makes the structures: sixteen alpha helices side by side (1,920 atoms), one of six residues, and
 # 62,500 atoms of copper whose b_factor is the distance from the middle.
 set -eu
 cd "$(dirname "$0")/.."

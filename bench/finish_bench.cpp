@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-/// Each kernel's time per hit that it finishes in double: rays in packets that hit the same shape,
-/// or each another shape of one kind. `doubtful` is the share that is left to a scalar solver.
+/// Measures each kernel's time per hit that it finishes in double: the rays of a packet hit the
+/// same shape, or each another shape of one kind. `doubtful` is the share left to a scalar solver.
 
 namespace {
 
@@ -22,7 +22,7 @@ using bench::Random;
 constexpr std::size_t ray_count = 256; // fits the first-level cache with its hits
 constexpr int shape_count = 64;
 
-/// Rays from outside, each with a shape that it does hit.
+/// Rays from outside, each with a shape that it hits.
 template <class Shape>
 struct Setup {
     Random random;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-/// Tables for fresnel.sh, of the renderer's own functions: reflectance by angle for some indices,
-/// and Schlick's largest error by index.
+/// Prints tables for fresnel.sh, computed by the renderer's functions: reflectance by angle for
+/// some indices, and Schlick's largest error by index.
 namespace {
 
 using namespace raylane::core;

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-/// The bounds in float that all traversals ask for, in rays tested against one shape per second:
-/// as rays of a scene without a hierarchy meet them, 16 shapes of a kind one by one. And the scalar
-/// certified solver in the same run.
+/// Measures the float bounds that all traversals use, in rays tested against one shape per second:
+/// 16 shapes of a kind one by one, as in a scene without a hierarchy. Measures the scalar certified
+/// solver in the same run.
 
 namespace {
 
@@ -23,9 +23,9 @@ using bench::Random;
 
 constexpr std::size_t ray_count = 256; // fits the first-level cache with its candidates
 
-/// Rays from all around at the middle: about as many hit as miss.
+/// Rays from all around towards the middle: about as many hit as miss.
 struct Rays {
-    /// Whole lines of the cache, as the wavefront's arena has them.
+    /// Whole cache lines, as in the wavefront's arena.
     template <class Value>
     struct alignas(64) Array : std::array<Value, ray_count> {};
     Array<double> meant[6];

@@ -1,12 +1,12 @@
 #!/bin/sh
-# How near the AVX-512 filters come to what the processor could do with their code: one shape's bounds
-# for packet after packet of rays, as frusta and lists ask for them, by llvm-mca's model of a
-# processor, against raylane-bench on this one.
+# Compares the speed of the AVX-512 filters with the limit that the processor sets to their code: the bounds
+# of one shape for packet after packet of rays, as frusta and lists compute them. The limit comes from llvm-mca's
+# model of a processor, the speed from raylane-bench on this one.
 #
 #   bench/mca.sh [BUILD]   BUILD: a Release build with raylane-bench; default build/release
 #
 # Environment: LLVM_MCA, the program (Debian's package llvm; the newest that is found); MCPU, the
-# processor to model (this one if llvm-mca knows its AVX-512 units, else icelake-server);
+# processor to model (this one if llvm-mca knows its AVX-512 units, otherwise icelake-server);
 # REPETITIONS of each measurement (9), of which the median counts.
 set -eu
 cd "$(dirname "$0")/.."
@@ -51,9 +51,9 @@ if ! models "$mcpu"; then
     models $mcpu || fail "$mca cannot model $mcpu: $(head -n 1 "$work/probe")"
 fi
 
-# The kernels by the library's own headers, compiler and flags, with everything inlined: each becomes
-# a function with one loop, which has no branches inside. Where the compiler leaves a call in the
-# library's loop, the measured rate pays for it, and the bound does not.
+# Takes the kernels with the library's headers, compiler and flags, and everything inlined: each becomes
+# a function with one loop, which has no branches inside. If the compiler leaves a call in the library's
+# loop, the measured rate includes it, but the bound does not.
 {
     echo '#include "simd/kernel/kernels.hpp"'
     echo 'using namespace raylane::simd;'
@@ -81,7 +81,7 @@ compile=$(sed -n 's/^ *"command": "\(.*RAYLANE_ISA=avx512.*\) -o .*\/simd\/units
 [ -n "$compile" ] || fail "$build/compile_commands.json does not say how to build the kernels"
 eval "$compile -S -o $work/loops.s $work/loops.cpp"
 
-# Of function loop_KIND, the longest stretch from a label to a jump back to it without other labels.
+# Prints the longest stretch of function loop_KIND from a label to a jump back to it, without other labels.
 loop_of() {
     awk -v name="loop_$1" '
         $1 == name ":" { inside = 1; next }
@@ -117,7 +117,7 @@ for kind in $(seq 0 $((count - 1))); do
          /^Block RThroughput:/ { print $3, cycles / n }' "$work/report" >>"$work/cycles"
 done
 
-# Cycles per second: an addition that waits for the one before takes one cycle.
+# Measures cycles per second: an addition that waits for the previous one takes one cycle.
 cat >"$work/frequency.cpp" <<'END'
 #include <algorithm>
 #include <chrono>

@@ -7,7 +7,7 @@ namespace raylane::bench {
 
 namespace {
 
-/// Floats between two of the same sign.
+/// Returns the distance of t, rounded to float, from the truth, in ulps of float.
 double ulps(double t, double truth) {
     const auto exponent = std::max(std::ilogb(truth), -126);
     return std::abs(static_cast<double>(static_cast<float>(t)) - truth) /

@@ -10,21 +10,22 @@
 #include <string>
 #include <vector>
 
-/// A dozen shapes of one kind, rays at them, and what these hit: what raylane's precisions, and
-/// other ray tracers, are measured on.
+/// A dozen shapes of one kind, rays at them, and the true hits of these, to measure raylane's
+/// precisions and other ray tracers.
 namespace raylane::bench {
 
 inline constexpr std::size_t method_ray_count = 4096;
 inline constexpr int method_shape_count = 12;
 
-/// Crossing that core::Searcher<double> finds, which certifies it; or that somebody else found.
+/// The true crossing, which core::Searcher<double> finds and certifies, or the one that a method
+/// found.
 struct Crossed {
     std::uint32_t slot = simd::no_slot;
     bool entering = false;
     double t = 0.0;
 };
 
-/// The name of a kind of shape within a benchmark's.
+/// Returns the name of a kind of shape within a benchmark's name.
 template <class Shape>
 std::string benchmark_name() {
     std::string name(name_of(core::kind_of<Shape>));
@@ -33,8 +34,8 @@ std::string benchmark_name() {
     return name;
 }
 
-/// `hard`: rays made to be so; else random ones. Rays are as the engine has them: their directions
-/// are in double, so what a method loses by rounding them counts.
+/// `hard`: rays of the hard sets; otherwise random ones. Rays are the engine's: their directions
+/// are in double, so errors that a method makes by rounding them count.
 template <class Shape, bool hard>
 struct MethodRays {
     core::Scene scene;
@@ -92,9 +93,9 @@ struct MethodRays {
     }
 };
 
-/// Counters of a benchmark that has found `found`, by ray: `wrong`, the share that hit something
-/// else than they should; ulps_median, ulps_p99 and ulps_max of the floats nearest to t, for the
-/// others.
+/// Sets the counters of a benchmark that has found `found`, by ray. `wrong`: share of the rays that
+/// hit something other than the truth. ulps_median, ulps_p99 and ulps_max: errors of the floats
+/// nearest to t, for the others.
 void report_errors(benchmark::State& state, const std::vector<Crossed>& truths,
                    const std::vector<Crossed>& found);
 

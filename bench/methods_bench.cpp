@@ -2,15 +2,15 @@
 #include "core/shapes/precision.hpp"
 #include "simd/isa.hpp"
 
-/// Each precision's speed beside its error, over the same rays at the same shapes: rays per second
-/// that find the nearest of a few shapes, normals included.
+/// Measures each precision's speed and error with the same rays and shapes: rays per second that
+/// find the nearest of a few shapes, normals included.
 
 namespace raylane::bench {
 
 namespace {
 
-/// Crossings found. Those left open, as surfaces touch there, are the truth's: the reference goes
-/// on from it.
+/// Returns the crossings that were found. Rays that are left open because surfaces touch get the
+/// true crossing: the reference tracer goes on from it.
 std::vector<Crossed> found_in(const simd::Query& finder, const std::vector<Crossed>& truths) {
     const simd::Hits& hits = finder.hits();
     std::vector<Crossed> found(method_ray_count);

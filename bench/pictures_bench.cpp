@@ -11,12 +11,12 @@
 #include <memory>
 #include <string>
 
-/// Cost of a picture, and its distance from a converged one: of 1,024 samples a pixel at places of
-/// their own, long paths and double precision. By precision and samples; by quality; and by the
-/// depth of reflections and the throughput below which paths are left.
+/// Measures the cost of an image, and its distance from a converged one: of 1,024 samples per pixel
+/// at other places, with long paths and in double precision. The benchmarks vary precision and
+/// samples; quality; the depth of reflections; and the throughput below which paths end.
 ///
-/// picture/SCENE/WHAT/PRECISION/VALUE: WHAT is `samples` (a pixel), `quality` (decibels), `depth`
-/// or `weight` (per mille), with counters `seconds` of wall time by one thread and `rmse` of linear
+/// picture/SCENE/WHAT/PRECISION/VALUE: WHAT is `samples` (per pixel), `quality` (decibels), `depth`
+/// or `weight` (per mille), with counters `seconds` of wall time on one thread and `rmse` of linear
 /// light.
 
 namespace {
@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int converged_grid = 32, best_grid = 8, usual_grid = 2;
 
-/// A scene and its converged picture, made when first asked for.
+/// A scene and its converged image, made at the first request.
 struct Subject {
     core::Scene scene;
     core::Settings settings; ///< small enough to measure many
@@ -59,7 +59,8 @@ struct Subject {
     }
 
   private:
-    /// Samples elsewhere than those that are held to it.
+    /// Returns settings whose samples are at other places than those of the images compared with
+    /// it.
     core::Settings to_converge() const {
         core::Settings changed = with_grid(converged_grid);
         changed.samples = core::SamplePattern::stratified;
@@ -76,7 +77,7 @@ struct Subject {
     }
 };
 
-/// Root of the mean square difference of all components.
+/// Returns the root mean square difference of all components.
 double rmse(const core::Film& a, const core::Film& b) {
     double squares = 0.0;
     for (std::size_t i = 0; i < a.pixels().size(); ++i)

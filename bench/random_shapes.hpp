@@ -5,7 +5,7 @@
 #include <random>
 #include <type_traits>
 
-/// Shapes of every kind to measure solvers by.
+/// Shapes of every kind, for measuring solvers.
 namespace raylane::bench {
 
 class Random {
@@ -22,7 +22,7 @@ class Random {
     std::mt19937 engine_{1};
 };
 
-/// Vectors that shapes are made of, of components up to 1.
+/// Vectors from which shapes are made, with components of up to 1.
 struct Vectors {
     core::Vec3f a, b, c, d;
 };
@@ -96,7 +96,7 @@ struct Maker<core::Ellipsoid> {
     static core::Ellipsoid make(const Vectors& v, Random&) { return {v.a, v.b, v.c, v.d}; }
 };
 
-/// A shape of a size of about 1 within 1 of the origin.
+/// Returns a shape of a size of about 1, within 1 of the origin.
 template <class Shape>
 Shape make_shape(Random& r) {
     const Vectors vectors{r.cube(1), r.cube(1), r.cube(1), r.cube(1)};

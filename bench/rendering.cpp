@@ -25,7 +25,7 @@ void draw(benchmark::State& state, const core::Scene& scene, const simd::RenderO
         return Counter(static_cast<double>(count) / pictures);
     };
     state.counters["seconds"] = seconds / pictures;
-    // By the thread's own time, which other work on the machine disturbs less.
+    // Rates use the thread's processor time, which other work on the machine disturbs less.
     state.counters["rays/s"] = Counter(static_cast<double>(counters.rays()), Counter::kIsRate);
     state.counters["per_primary"] =
         Counter(static_cast<double>(counters.primary), Counter::kIsRate | Counter::kInvert);

@@ -7,16 +7,16 @@
 #include <sstream>
 #include <vector>
 
-/// Whole pictures of scene files, of the size and with the samples that they want: by the vector
-/// engine, and by the scalar reference in the same run.
+/// Measures whole images of scene files, with the sizes and samples that the files set: by the
+/// vector engine, and by the scalar reference in the same run.
 
 namespace {
 
 using namespace raylane;
 namespace fs = std::filesystem;
 
-/// RAYLANE_SCENES, folders separated by colons; or else the source tree's, and the NFF scenes in
-/// shared/scenes beside the source tree.
+/// Returns the folders of RAYLANE_SCENES, separated by colons; by default those of the source tree,
+/// and of the NFF scenes in shared/scenes beside the source tree.
 std::vector<fs::path> folders() {
     const fs::path source = RAYLANE_SOURCE_DIR;
     const char* given = std::getenv("RAYLANE_SCENES");
@@ -46,7 +46,7 @@ std::vector<fs::path> scene_files() {
     return files;
 }
 
-/// Loads a file when it is first measured; the next one takes its place.
+/// Loads a file when it is first measured. The next file replaces it.
 std::shared_ptr<const core::Scene> load(const fs::path& path) {
     static fs::path loaded;
     static std::shared_ptr<const core::Scene> scene;

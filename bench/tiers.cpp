@@ -9,20 +9,23 @@
 #include <exception>
 #include <vector>
 
-/// How the rays of each pixel were decided, those of reflections, refractions and shadows included:
-/// the most that any of them took. Each pixel is drawn by itself, so that the engine's counters are
-/// its own.
+/// Finds how the rays of each pixel were decided, including those of reflections, refractions and
+/// shadows: the most that any of them took. Each pixel is rendered separately, so that the engine's
+/// counters are those of the pixel.
+///
+/// usage: raylane-tiers SCENE WIDTH HEIGHT   writes a PGM of these numbers to standard output
 ///
 /// usage: raylane-tiers SCENE WIDTH HEIGHT   writes a PGM of these numbers to standard output
 namespace raylane::bench {
 namespace {
 
 enum Tier : std::uint8_t {
-    certified, ///< bounds in float, and one crossing in double whose error bound tells it apart
-    refined,  ///< all that may be first, in double with bounds, or with twice the digits; or shadow
-              ///< rays from surface to surface
+    certified, ///< bounds in float, and one crossing in double that its error bound separates
+    /// all candidates for the first crossing, in double with bounds or with twice the digits; or
+    /// shadow rays from surface to surface
+    refined,
     scalar,   ///< one crossing by the scalar code, in double with bounds
-    widened,  ///< the same with more than double has, or exactly
+    widened,  ///< the same with more digits than double has, or exactly
     followed, ///< the whole path by the reference: surfaces meet, or too many follow each other
 };
 
@@ -38,7 +41,7 @@ std::vector<std::uint8_t> tiers_of(const core::Scene& scene, int width, int heig
     core::Settings settings = scene.settings();
     settings.width = width;
     settings.height = height;
-    settings.quality = 0.0F; // which squares of pixels share
+    settings.quality = 0.0F; // which squares of pixels would share
     const simd::SceneData data(scene);
     simd::Wavefront wavefront(data, settings, {&simd::kernels_of(simd::best_isa())});
     core::Film film(width, height, settings.alpha);

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-/// Rays that have nothing in common through the hierarchy of many small shapes, rays per second:
-/// the nearest hit with all that follows, up to the scalar reference's word where there is a doubt;
-/// and whether there is any. `left` is the share of rays that are not decided in packets.
+/// Measures incoherent rays through the hierarchy of many small shapes, in rays per second: the
+/// nearest hit with everything that follows, up to the scalar reference's decision in doubtful
+/// cases; and occlusion. `left` is the share of rays that are not decided in packets.
 
 namespace {
 

@@ -9,12 +9,14 @@
 #include <random>
 #include <vector>
 
-/// Particles through a lattice of a reactor's pin cells: planes, nested cylinders, and nested
-/// spheres in a row that touch each other and what is around. Each flight from a point, in double,
-/// to infinity, crosses surfaces in rows of Tracer::crossings. By Tracer::contains it is known what
-/// it starts in; of then on each solid may only be entered from the outside and left from the
-/// inside, t may never fall, and far away nothing is around it. A particle is lost where that is
-/// not so.
+/// Follows particles through a lattice of a reactor's pin cells: planes, nested cylinders, and rows
+/// of nested spheres that touch each other and the shapes around them. Each flight goes from a
+/// point to infinity, in double, and crosses surfaces in the rows of Tracer::crossings.
+/// Tracer::contains tells which solids it starts in. From then on, a solid may only be entered from
+/// the outside and left from the inside, t may never fall, and far away no solid may be around the
+/// particle. A particle for which this fails is lost.
+///
+/// usage: raylane-walk [STEPS]   crossings, default 1e8. Exit code 1: a particle was lost.
 ///
 /// usage: raylane-walk [STEPS]   crossings, default 1e8. Exit code 1: a particle was lost.
 namespace raylane::bench {
@@ -79,8 +81,8 @@ struct Flights {
     }
 };
 
-/// Half of them from anywhere to anywhere; the others from and to where surfaces meet, or along
-/// them, some of these an ulp beside.
+/// Makes flights. Half of them go from anywhere to anywhere. The others go from and to places where
+/// surfaces meet, or along surfaces; some of these are an ulp beside.
 Flights make_flights(std::size_t count, Random& random) {
     Flights flights;
     const double size = static_cast<double>(pitch) * across;
@@ -118,10 +120,11 @@ struct Tally {
     CrossingStatistics by{};
 };
 
-/// What a particle is known to be in.
+/// Known position of a particle, relative to a shape.
 enum class Where : std::uint8_t { outside, inside, on_surface };
 
-/// True if a shape may be crossed so from there; it is on the other side then.
+/// Returns true if a shape may be crossed in this direction from there. The particle is on the
+/// other side then.
 bool crosses(Where& where, bool entering) {
     const Where before = where;
     where = entering ? Where::inside : Where::outside;

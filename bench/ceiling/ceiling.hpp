@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The plainest fast loop there is for a few shapes of one kind: what raylane's methods in float
-/// are held to.
+/// The simplest fast loop for a few shapes of one kind: an upper bound for the speed of raylane's
+/// float methods.
 namespace raylane::bench {
 
 struct CeilingRays {
@@ -16,16 +16,16 @@ struct CeilingRays {
 };
 
 struct CeilingHits {
-    float* t;             ///< infinity: nothing
-    std::uint32_t* shape; ///< by number; anything where there is nothing
+    float* t;             ///< infinity: no hit
+    std::uint32_t* shape; ///< by number; any value without a hit
     float* normal[3];
 };
 
-/// Nearest of `shape_count` shapes, each of which is some floats (see prepare.hpp).
+/// Finds the nearest of `shape_count` shapes, each of which is several floats (see prepare.hpp).
 using CeilingLoop = void (*)(const float* numbers, int shape_count, const CeilingRays& rays,
                              const CeilingHits& hits);
 
-/// By core::Kind.
+/// The loops, by core::Kind.
 struct CeilingUnit {
     CeilingLoop sphere, plane, disc, triangle, box, open_cylinder, capped_cylinder, open_cone,
         capped_cone, quadric, ellipsoid;

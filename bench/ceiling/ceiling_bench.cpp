@@ -3,7 +3,7 @@
 #include "simd/by_isa.hpp"
 #include "simd/isa.hpp"
 
-/// The ceiling of each kind beside raylane's precisions: the same rays at the same shapes.
+/// Measures the ceiling of each kind beside raylane's precisions, with the same rays and shapes.
 namespace raylane::bench {
 
 namespace {
@@ -42,7 +42,7 @@ CeilingLoop loop_of(const CeilingUnit& unit) {
     return nullptr;
 }
 
-/// Columns of floats, as a tracer in float has its rays and hits.
+/// Columns of floats: the rays and hits of a tracer in float.
 struct Columns {
     std::vector<float> origin[3], direction[3], t, normal[3];
     std::vector<std::uint32_t> shape;

@@ -3,8 +3,8 @@
 #include "bench/ceiling/ceiling.hpp"
 #include "simd/kernel/lanes/vectors.hpp"
 
-/// Textbook formulas of a tracer in float, one ray per lane, without a bound on any error. A kind
-/// has `count` floats a shape, first() of a shape, and normal() at a point.
+/// Textbook formulas of a tracer in float, one ray per lane, without error bounds. A kind has
+/// `count` floats for each shape, first() of a shape, and normal() at a point.
 namespace raylane::bench {
 
 /// The same number of one shape in all lanes.
@@ -34,7 +34,7 @@ struct CeilingLoops {
         V origin, direction;
         V at(const F& t) const { return simd::mul_add<Arch>(t, direction, origin); }
     };
-    /// Not > 0: none. The face is 0 on bodies.
+    /// No hit unless t > 0. The face of bodies is 0.
     struct Hit {
         F t, face;
     };
@@ -46,7 +46,7 @@ struct CeilingLoops {
     static V vector(const Numbers& n, int i) {
         return {n[i], n[i + 1], n[i + 2]};
     }
-    /// The first that is ahead, where they are in order.
+    /// Returns the first of two values in order that is ahead.
     static F first_ahead(const F& in, const F& out) { return select(in > none(), in, out); }
     static F square(const V& v) { return dot(v, v); }
 
@@ -58,7 +58,7 @@ struct CeilingLoops {
             const V from_center = ray.origin - vector(n, 0);
             const F shift = -dot(from_center, ray.direction);
             const V foot = simd::mul_add<Arch>(shift, ray.direction, from_center);
-            // Of what is negative the root is not a number, which is neither ahead nor nearest.
+            // The root of a negative number is NaN, which is not ahead and not nearest.
             const F half = sqrt(fused(n[3], n[3], -square(foot)));
             return {first_ahead(shift - half, shift + half), none()};
         }
@@ -112,8 +112,8 @@ struct CeilingLoops {
         }
     };
 
-    /// Corner; for each of three edge coordinates, the vector that it is the product with, and the
-    /// unit normal where it is 1.
+    /// Corner; for each of three edge coordinates, the vector whose product gives the coordinate,
+    /// and the unit normal where it is 1.
     struct Box {
         static constexpr int count = 21;
         template <class Numbers>
@@ -207,7 +207,7 @@ struct CeilingLoops {
                 const F far_face = F(3.0F) - near_face;
                 const F in_face = select(near > in, near_face, none());
                 const F out_face = select(far < out, far_face, none());
-                in = max(near, in); // what is not a number stays so
+                in = max(near, in); // NaN stays NaN
                 out = min(far, out);
                 const M enters = in > none();
                 return {select(in <= out, select(enters, in, out), nothing()),

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-/// What the loops know of shapes, computed in double once per scene.
+/// Prepares the numbers of shapes for the loops, in double, once per scene.
 namespace raylane::bench {
 
 using core::convert;
@@ -62,7 +62,7 @@ inline void prepare(const core::SmoothTriangle& t, Numbers& numbers) {
     prepare(core::Triangle{t.a, t.b, t.c}, numbers);
 }
 
-/// Rows of the inverse of the matrix that has these columns.
+/// Returns the rows of the inverse of the matrix with these columns.
 inline glm::dmat3 inverse_rows(const core::Vec3f& u, const core::Vec3f& v, const core::Vec3f& w) {
     return glm::transpose(
         glm::inverse(glm::dmat3(convert<double>(u), convert<double>(v), convert<double>(w))));
