@@ -155,8 +155,8 @@ void RowWorker::cross_pairs() {
                                                        bits_.data()});
 }
 
-/// Adds the crossings of a ray if nothing about them is in doubt, neither their order nor which are
-/// between the limits, and the ray cannot meet again the shape that it leaves. Returns true if they
+/// Adds the crossings of a ray if its order of crossings, and the choice of those between the
+/// limits, are certain, and it cannot meet again the shape that it leaves. Returns true if they
 /// were added.
 template <class Real>
 bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::size_t most,
