@@ -21,8 +21,8 @@ namespace {
 
 enum Tier : std::uint8_t {
     certified, ///< bounds in float, and one crossing in double that its error bound separates
-    /// all candidates for the first crossing, in double with bounds or with twice the digits; or
-    /// shadow rays from surface to surface
+    /// All candidates for the first crossing, in double with bounds or with twice the digits; or
+    /// shadow rays from surface to surface.
     refined,
     scalar,   ///< one crossing by the scalar code, in double with bounds
     widened,  ///< the same with more digits than double has, or exactly

@@ -79,8 +79,8 @@ std::ptrdiff_t faces_of(const Solids::Node& part) {
     return part.kind == core::Kind::box ? 6 : 1;
 }
 
-/// Collects the half-spaces that cut a union, in groups. Nothing of the solid is left outside of
-/// all half-spaces of one group.
+/// Collects the half-spaces that cut a union (its clip planes), in groups. Nothing of the solid is
+/// left outside of all half-spaces of one group.
 class Collector {
   public:
     explicit Collector(const core::Scene& scene) : scene_(scene), solids_(scene.solids()) {}
@@ -244,9 +244,9 @@ void Cuts::find(const core::Scene& scene, SceneView& view, std::uint32_t slots) 
     view.waiting_lanes = waiting_.data();
 }
 
-/// Marks the faces that wait (SceneView::waiting_lanes). A face does not wait if a part of the
-/// union that it cuts shares a block with shapes outside of the union, because the cut is not known
-/// there.
+/// Marks the faces whose clip tests are deferred (SceneView::waiting_lanes). The test of a face is
+/// not deferred if a part of the union that it cuts shares a block with shapes outside of the
+/// union, because the cut is not known there.
 void Cuts::let_faces_wait(const core::Scene& scene) {
     const Solids& solids = scene.solids();
     const auto for_each_lane = [&](const auto& visit) {

@@ -19,16 +19,16 @@ struct HalfSpace {
     bool ends_group; ///< as in CutView
 };
 
-/// Union of many parts that is cut, and the half-spaces that cut it.
+/// Union of many parts that is cut, and its clip planes: the half-spaces that cut it.
 struct CutUnion {
     core::Solids::Index index;
     std::vector<HalfSpace> by;
     bool is_all; ///< the whole solid consists of nothing else
 };
 
-/// Finds the half-spaces that cut unions of many parts, and owns them in the kernels' format. A
-/// union is cut by planes and boxes beside it in an intersection, or beside an intersection that
-/// contains it.
+/// Finds the clip planes of unions of many parts, and owns them in the kernels' format. A union is
+/// cut by planes and boxes beside it in an intersection, or beside an intersection that contains
+/// it.
 class Cuts {
   public:
     /// Completes `view`, whose tables must be set. The view then refers to this object.

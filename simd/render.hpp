@@ -64,7 +64,7 @@ struct RenderOptions {
     /// The part of the image to render, not empty. Its pixels have the same bits as in the whole
     /// image.
     std::optional<core::Region> crop;
-    bool layers = false; ///< true: render layers, too
+    bool layers = false; ///< true: render layers (AOVs), too
     Progress* progress = nullptr;
     /// Called before each tile by the thread that is to render it, so by several threads at a time.
     /// If it returns true, it has filled the tile, and nothing is rendered.

@@ -51,8 +51,8 @@ struct NodeView {
     std::uint32_t children[16]; ///< core::Child's bits
 };
 
-/// Half-spaces that cut a union, in groups. Nothing of the union is left at points that are outside
-/// of all half-spaces of one group.
+/// Half-spaces that cut a union (its clip planes), in groups. Nothing of the union is left at
+/// points that are outside of all half-spaces of one group.
 struct CutView {
     static constexpr int most = 16;
     float normal[3][most]; ///< outward, of length 1 except for rounding
@@ -60,7 +60,8 @@ struct CutView {
     /// Id of the shape that has the half-space as a face, if a ray that starts on that shape and is
     /// outside later has been outside since its start; otherwise no_slot - 1.
     std::uint32_t shape[most];
-    /// Slot of the shape that has it as a face, if that face waits; otherwise no_slot.
+    /// Slot of the shape that has it as a face, if that face's clip test is deferred; otherwise
+    /// no_slot.
     std::uint32_t face[most];
     float size; ///< at least twice each offset, and 2^-20 of the terms that an offset is made of
     int count;
@@ -90,9 +91,9 @@ struct SceneView {
     /// Element slot / 16: lanes of shapes that only cut. Rays that start outside of their solid may
     /// be blocked by others wherever these block them. Null: no such lanes.
     const std::uint16_t* only_cut_lanes;
-    /// The only_cut_lanes that are searched only where a ray crosses them within a part of the
-    /// union that they cut. All parts of that union are in blocks with their cut. Null: no such
-    /// lanes.
+    /// The only_cut_lanes whose clip tests are deferred: they are searched only where a ray crosses
+    /// them within a part of the union that they cut. All parts of that union are in blocks with
+    /// their cut. Null: no such lanes.
     const std::uint16_t* waiting_lanes;
 };
 

@@ -124,8 +124,8 @@ struct RayKernels {
     void (*round_rays)(std::size_t count, const RoundedRays& rays, float rounding);
 
     /// Lists the lanes whose candidate is not certain to be the nearest, and those that are
-    /// `doubtful` anyway. The lanes with bounds on other candidates below `least` are never
-    /// certain. `t`, `error` and `hit` are those of the candidate, as in Found. Returns the number
+    /// `doubtful` anyway. No candidate is certain if the bound that it has to precede is below
+    /// `least`. `t`, `error` and `hit` are those of the candidate, as in Found. Returns the number
     /// of lanes.
     std::size_t (*list_uncertain)(std::size_t count, const Candidates& candidates, const double* t,
                                   const double* error, const std::uint32_t* hit,

@@ -38,9 +38,9 @@ class Outlines {
     // at the points' rows and in between.
     int columns_ = 0, rows_ = 0;
     std::vector<FirstHit> hits_;
-    // by row of edges and column of points: an edge here or behind
+    // By row of edges and column of points: an edge here or behind.
     std::vector<std::uint8_t> edges_;
-    // distance along the row to its nearest edge, in halves of the points' spacing
+    // Distance along the row to its nearest edge, in halves of the points' spacing.
     std::vector<int> aside_;
 };
 

@@ -10,8 +10,8 @@ namespace raylane::simd {
 /// Form in which hits are requested.
 enum class Asked : std::uint8_t {
     points, ///< for images: points and normals, in double
-    /// for the library: the floats nearest to t and normals; rays may have exact directions
-    /// (Paths), and hits have hit_normal_doubtful
+    /// For the library: the floats nearest to t and normals; rays may have exact directions
+    /// (Paths), and hits have hit_normal_doubtful.
     floats,
 };
 

@@ -57,8 +57,8 @@ bool Query::is_apart(const Paths& paths, std::size_t lane) const {
     return second > hits_.t[lane] + 0x1p-44 * reach;
 }
 
-/// Subtracting the length by which a ray was moved from its distance leaves an error of little more
-/// than half an ulp of the difference. The kernels tolerate that error.
+/// The difference between a distance and the length by which its ray was moved may have an error of
+/// little more than half an ulp of itself. The kernels tolerate that.
 void Query::occluded(const RayColumns& rays, const double* distance, std::uint8_t* state,
                      const Coherence* coherence, EngineCounters& counters) {
     search_.take(rays);

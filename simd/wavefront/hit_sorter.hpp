@@ -38,7 +38,7 @@ class HitSorter {
     void sort_by_digit(std::size_t count, int shift, std::size_t values);
 
     const SceneData& scene_;
-    // by lane: the material, or one of two values behind: missed, left out
+    // By lane: the material, or one of two values behind: missed, left out.
     std::uint32_t* keys_ = nullptr;
     std::uint32_t* order_ = nullptr;
     std::uint32_t* scratch_ = nullptr;

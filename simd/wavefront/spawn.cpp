@@ -14,8 +14,8 @@ void Wavefront::spawn(int depth) {
     }
     reflected.parent = shadows_.rays().parent; // no longer needed
     transmitted_.count = 0;
-    // Beyond the maximum depth, a wave has more rays: transparent surfaces do not add to their
-    // depth.
+    // A wave beyond the maximum depth still has rays that are not as deep: transparent surfaces
+    // that a ray has passed do not count.
     for (const Run& run : sorted_.runs())
         if (run.material->reflects || run.material->transmits)
             shade_.spawn(run, static_cast<double>(settings_.min_weight),
