@@ -14,8 +14,6 @@
 /// counters are those of the pixel.
 ///
 /// usage: raylane-tiers SCENE WIDTH HEIGHT   writes a PGM of these numbers to standard output
-///
-/// usage: raylane-tiers SCENE WIDTH HEIGHT   writes a PGM of these numbers to standard output
 namespace raylane::bench {
 namespace {
 

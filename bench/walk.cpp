@@ -17,8 +17,6 @@
 /// particle. A particle for which this fails is lost.
 ///
 /// usage: raylane-walk [STEPS]   crossings, default 1e8. Exit code 1: a particle was lost.
-///
-/// usage: raylane-walk [STEPS]   crossings, default 1e8. Exit code 1: a particle was lost.
 namespace raylane::bench {
 namespace {
 
