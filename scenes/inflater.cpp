@@ -41,7 +41,19 @@ struct Inflater::State {
     std::string name, packed;
     Source source;
     z_stream stream{};
-    bool is_between = false; // between two members
+    std::uint64_t packed_before = 0, before = 0; // bytes of earlier members, packed and not
+    bool is_between = false;                     // between two members
+
+    void begin_member() {
+        packed_before += stream.total_in;
+        before += stream.total_out;
+        ::inflateReset(&stream);
+    }
+    bool is_too_large() const {
+        const std::uint64_t size = before + stream.total_out;
+        return size > most_besides &&
+               (size - most_besides) / most_for_each > packed_before + stream.total_in;
+    }
 };
 
 Inflater::Inflater(std::string name, std::string begin, Source source)
@@ -58,7 +70,7 @@ std::size_t Inflater::read(std::span<char> buffer) {
             if (state_->is_between) return 0;
             throw BadInput(state_->name, "", "must be whole: what is compressed ends too early");
         }
-        if (state_->is_between) ::inflateReset(&stream);
+        if (state_->is_between) state_->begin_member();
         state_->is_between = false;
         const int result = ::inflate(&stream, Z_NO_FLUSH);
         if (result == Z_STREAM_END) {
@@ -71,8 +83,7 @@ std::size_t Inflater::read(std::span<char> buffer) {
                                (stream.msg != nullptr ? stream.msg : "it is damaged"));
         }
     }
-    if (stream.total_out > most_besides &&
-        (stream.total_out - most_besides) / most_for_each > stream.total_in)
+    if (state_->is_too_large())
         throw BadInput(state_->name, "",
                        "must not be more than 200 times as large as it is compressed");
     return room - stream.avail_out;

@@ -26,6 +26,11 @@ touch "$root/var/lib/dpkg/status"
 # shellcheck disable=SC2086 # one word or none
 quietly $as_root dpkg --root="$root" --force-depends --log=/dev/null \
     --install "$build"/packages/*.deb
+for package in $(sed -n 's/^ *find_dependency(\([A-Za-z]*\).*/\1/p' scenes/library/raylaneConfig.cmake.in); do
+    case $package in TBB) name=libtbb-dev ;; PNG) name=libpng-dev ;; ZLIB) name=zlib1g-dev ;; *) name="$package" ;; esac
+    dpkg-deb --field "$build"/packages/libraylane-dev_*.deb Depends | grep -qwF "$name" ||
+        { echo "packages: libraylane-dev does not depend on $name"; exit 1; }
+done
 [ "$(dpkg --root="$root" -l raylane libraylane-dev raylane-doc | grep -c '^ii')" -eq 3 ]
 
 raylane=$root/usr/bin/raylane

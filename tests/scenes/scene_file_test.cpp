@@ -182,14 +182,16 @@ TEST_CASE("Scenes of each format include regular files alone and have a limit of
 }
 
 TEST_CASE("The size that a small file decompresses to has a limit") {
+    const int members = GENERATE(1, 4);
     const tests::TemporaryDirectory directory;
     const auto path = directory.path() / "a.xyz.gz";
-    gzFile file = ::gzopen(path.c_str(), "wb9");
-    REQUIRE(file != nullptr);
-    for (int megabyte = 0; megabyte < 200; ++megabyte)
-        for (int i = 0; i < 1024; ++i)
+    for (int member = 0; member < members; ++member) {
+        gzFile file = ::gzopen(path.c_str(), "ab9");
+        REQUIRE(file != nullptr);
+        for (int kilobyte = 0; kilobyte < 200 * 1024 / members; ++kilobyte)
             ::gzwrite(file, std::string(1023, ' ').append("\n").c_str(), 1024);
-    REQUIRE(::gzclose(file) == Z_OK);
+        REQUIRE(::gzclose(file) == Z_OK);
+    }
     REQUIRE(std::filesystem::file_size(path) < (1 << 20));
     InputFile compressed(path);
     CHECK(tests::message_of<BadInput>([&] { compressed.read_all(); }) ==
