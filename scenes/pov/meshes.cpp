@@ -73,6 +73,15 @@ struct Face {
     Place place{};
 };
 
+/// Accepts the vector that gives a mesh an inside, which has no effect. Returns whether it is
+/// there.
+bool accept_inside(Tokens& tokens) {
+    if (!tokens.at("inside_vector")) return false;
+    tokens.remark(tokens.next().place, "has meshes with an inside, which are surfaces here");
+    read_vector(tokens);
+    return true;
+}
+
 class Mesh2Reader {
   public:
     explicit Mesh2Reader(Tokens& tokens) : tokens_(tokens) {}
@@ -112,12 +121,8 @@ class Mesh2Reader {
             faces_ = read_faces(true);
         } else if (tokens_.accept("normal_indices")) {
             normal_faces_ = read_faces(false);
-        } else if (tokens_.at("inside_vector")) {
-            tokens_.remark(tokens_.next().place,
-                           "has meshes with an inside, which are surfaces here");
-            read_vector(tokens_);
         } else {
-            return false;
+            return accept_inside(tokens_);
         }
         return true;
     }
@@ -201,9 +206,7 @@ Shared<Mesh> read_mesh(Tokens& tokens) {
             read_mesh_triangle(tokens, mesh, false);
         else if (tokens.accept("smooth_triangle"))
             read_mesh_triangle(tokens, mesh, true);
-        else if (tokens.accept("inside_vector"))
-            read_vector(tokens);
-        else
+        else if (!accept_inside(tokens))
             return std::make_shared<const Mesh>(std::move(mesh));
     }
 }

@@ -28,7 +28,6 @@ struct TachyonCamera {
 };
 
 TachyonCamera read_camera(TachyonWords& words);
-TachyonFog read_fog_kind(TachyonWords& words, TachyonFog::Falloff falloff);
 /// Reads the statement after FOG; returns nothing for OFF.
 std::optional<TachyonFog> read_fog(TachyonWords& words);
 /// Read the statements after LIGHT, DIRECTIONAL_LIGHT and SPOTLIGHT.

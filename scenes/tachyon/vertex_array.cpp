@@ -6,8 +6,6 @@
 
 namespace raylane::scenes {
 
-namespace {}
-
 core::Color mean_color(const core::Color& a, const core::Color& b, const core::Color& c) {
     core::Color mean = (a + b + c) / 3.0F;
     for (int channel = 0; channel < 3; ++channel)

@@ -18,6 +18,16 @@ std::size_t shapes(const std::string& text) {
 
 } // namespace
 
+TEST_CASE("a mesh with an inside gives a warning in both forms of meshes") {
+    const std::string inside = " inside_vector z }", told = "which are surfaces here";
+    const std::string triangle = "mesh { triangle { 0, x, y }",
+                      list = "mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 2> }";
+    for (const std::string& mesh : {triangle, list}) {
+        CHECK(read(mesh + inside).remarks.find(told) != std::string::npos);
+        CHECK(read(mesh + " }").remarks.find(told) == std::string::npos);
+    }
+}
+
 TEST_CASE("POV-Ray: a gradient gets a remark since it repeats in POV-Ray") {
     const std::string gradient =
         "sphere { 0, 3 pigment { gradient y color_map { [0 rgb 0] [1 rgb 1] } } }";
