@@ -125,13 +125,14 @@ Vectors<Arch> fast_mul_add(const Floats<Arch>& s, const Vectors<Arch>& a, const 
             fast_mul_add<Arch>(s, a.z, b.z)};
 }
 
-/// a . b + c; off by at most 3 u of the sum of the products' absolute values (and u of c).
+/// Returns a . b + c; off by at most 4 u of the sum of the products' sizes, plus 3 u of |c|.
 template <class Arch>
 Floats<Arch> fast_dot(const Vectors<Arch>& a, const Vectors<Arch>& b, const Floats<Arch>& c) {
     return fast_mul_add<Arch>(a.x, b.x,
                               fast_mul_add<Arch>(a.y, b.y, fast_mul_add<Arch>(a.z, b.z, c)));
 }
 
+/// Returns a . b; off by at most 3 u of the sum of the products' sizes.
 template <class Arch>
 Floats<Arch> fast_dot(const Vectors<Arch>& a, const Vectors<Arch>& b) {
     return fast_mul_add<Arch>(a.x, b.x, fast_mul_add<Arch>(a.y, b.y, a.z * b.z));

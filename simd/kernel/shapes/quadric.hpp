@@ -54,10 +54,10 @@ struct QuadricNumbers {
 /// operands,
 ///   A = d . M d is off by 10 u K,
 ///   B = d . (M f + linear) by K (slack + u (3 start + 10 |f|)) + 6 u k,
-///   C = f . (M f + 2 linear) + one by 2 (K |f| + k) (slack + u (3 start + 6 |f|)) + u |one|
+///   C = f . (M f + 2 linear) + one by 2 (K |f| + k) (slack + u (3 start + 6 |f|)) + 3 u |one|
 /// and part of the error's square. If the coefficients were rounded, they add 2 u K, K u |f| + u k
 /// and u (K |f|^2 + 2 k |f| + |one|). The totals are below 16 u K, K e + 12 u k and 2 (K
-/// (|f| + e) + k) e + 3 u |one|. The discriminant adds 2 u of B^2 and of A C.
+/// (|f| + e) + k) e + 4 u |one|. The discriminant adds 2 u of B^2 and of A C.
 template <class Arch>
 struct QuadricFilter {
     using F = Floats<Arch>;
@@ -128,7 +128,7 @@ struct QuadricFilter {
             matrix_size, e, fast_mul_add<Arch>(F(12 * half_ulp), linear_size, F(underflow)));
         const F reach = fast_mul_add<Arch>(matrix_size, distance + e, linear_size);
         const F C_error = fast_mul_add<Arch>(
-            reach + reach, e, fast_mul_add<Arch>(F(3 * half_ulp), abs(one), F(underflow)));
+            reach + reach, e, fast_mul_add<Arch>(F(4 * half_ulp), abs(one), F(underflow)));
         const F BB = B * B, AC = A * C;
         const F D_error = fast_mul_add<Arch>(
             B_error, abs(B + B) + B_error,
