@@ -114,16 +114,13 @@ void name_commands(CLI::App& app) {
 
 Command add_completion_command(CLI::App& app) {
     CLI::App& command = add_command(
-        app, "completion", "Print what a shell reads to complete commands, options and files",
+        app, "completion", "Print a script for bash that completes commands, options and files",
         "source <(raylane completion bash)");
     auto shell = std::make_shared<Argument>();
-    add_option(command, "SHELL", *shell, "The shell: bash, zsh or fish", "bash|zsh|fish")
-        ->required();
+    add_option(command, "SHELL", *shell, "The shell: bash", "bash")->required();
     return {&command, [&app, shell] {
-                const auto which = choice_argument<Shell>(
-                    "SHELL", **shell,
-                    {{"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}});
-                std::fputs(completion_script(app, which).c_str(), stdout);
+                choice_argument<bool>("SHELL", **shell, {{"bash", true}});
+                std::fputs(completion_script(app).c_str(), stdout);
                 return 0;
             }};
 }

@@ -8,14 +8,13 @@
 /// Documents that are generated from the same table of commands and options as the help.
 namespace raylane::scenes {
 
-enum class Shell { bash, zsh, fish };
-
 /// Returns a command's page for man(1), in the macros of man(7). For `app` itself, returns the page
 /// of the whole tool.
 std::string manual_page(const CLI::App& app, const CLI::App& command);
 
-/// Returns the script by which a shell completes commands, options, their choices and file names.
-std::string completion_script(const CLI::App& app, Shell shell);
+/// Returns the script by which bash completes commands, options, their choices and file names. zsh
+/// reads it after `autoload bashcompinit && bashcompinit`.
+std::string completion_script(const CLI::App& app);
 
 /// Returns the choices in an option's type name: "vector" and "reference" for "vector|reference",
 /// none for "N".
