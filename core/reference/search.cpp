@@ -69,14 +69,7 @@ Encounter<Real> Searcher<Real>::nearest(const Ray<Real>& ray, const OriginSurfac
     }
     if (first.any()) return {first, origins};
     const Hit<Real> best = look(ray, origins, counts, t_most);
-    return best.any() ? encounter(ray, origins, best, /*whole=*/true) : Encounter<Real>{};
-}
-
-template <class Real>
-Hit<Real> Searcher<Real>::nearest_hit(const Ray<Real>& ray, OfHit counts, Real t_most) {
-    const OriginSurfaces<Real> nowhere{};
-    const Hit<Real> best = look(ray, nowhere, counts, t_most);
-    return best.any() ? encounter(ray, nowhere, best, /*whole=*/false).hit : Hit<Real>{};
+    return best.any() ? encounter(ray, origins, best) : Encounter<Real>{};
 }
 
 template <class Real>
@@ -167,10 +160,10 @@ Hit<Real> Searcher<Real>::look(const Ray<Real>& ray, const OriginSurfaces<Real>&
     return best;
 }
 
-/// Returns the encounter with the candidates, which include `best`; `whole`: with its contacts.
+/// Returns the encounter with the candidates, which include `best`, with its contacts.
 template <class Real>
 Encounter<Real> Searcher<Real>::encounter(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
-                                          const Hit<Real>& best, bool whole) {
+                                          const Hit<Real>& best) {
     std::erase_if(candidates_,
                   [&](const Candidate& candidate) { return best.is_surely_before(candidate.hit); });
     if constexpr (std::is_same_v<Real, double>)
@@ -179,16 +172,13 @@ Encounter<Real> Searcher<Real>::encounter(const Ray<Real>& ray, const OriginSurf
             sharp_.clear();
             for (const Candidate& candidate : candidates_)
                 sharp_.emplace_back(candidate.hit);
-            return first_of(
-                sharp_, ray, origins,
-                [&](const SharpHit& a, const SharpHit& b) { return order.compare(a, b); }, whole);
+            return first_of(sharp_, ray, origins, [&](const SharpHit& a, const SharpHit& b) {
+                return order.compare(a, b);
+            });
         }
-    return first_of(
-        candidates_, ray, origins,
-        [](const Candidate& a, const Candidate& b) {
-            return a.hit.t < b.hit.t ? -1 : a.hit.t > b.hit.t ? 1 : 0;
-        },
-        whole);
+    return first_of(candidates_, ray, origins, [](const Candidate& a, const Candidate& b) {
+        return a.hit.t < b.hit.t ? -1 : a.hit.t > b.hit.t ? 1 : 0;
+    });
 }
 
 /// Returns the encounter with `hits`, which correspond to the candidates: the first hit that
@@ -197,7 +187,7 @@ template <class Real>
 template <class AnyHit, class Compare>
 Encounter<Real> Searcher<Real>::first_of(const std::vector<AnyHit>& hits, const Ray<Real>& ray,
                                          const OriginSurfaces<Real>& origins,
-                                         const Compare& compare, bool whole) {
+                                         const Compare& compare) {
     const auto hit_of = [](const AnyHit& any) -> const Hit<Real>& {
         if constexpr (std::is_same_v<AnyHit, Candidate>)
             return any.hit;
@@ -217,7 +207,6 @@ Encounter<Real> Searcher<Real>::first_of(const std::vector<AnyHit>& hits, const 
         if (order < 0 || (order == 0 && hit_of(hits[i]).precedes(hit_of(hits[first])))) first = i;
     }
     const Hit<Real> hit_first = sharpened(hits[first]);
-    if (!whole) return {hit_first, {}};
     contacts_.clear();
     const auto add = [&](const Hit<Real>& hit) {
         const IdRange shapes = scene_.coplanar_with(hit.shape);

@@ -27,9 +27,6 @@ class Searcher {
     Encounter<Real> nearest(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, OfHit counts,
                             Real t_most = std::numeric_limits<Real>::infinity());
 
-    /// Returns the same for a ray that starts on no surface, without the contacts of the hit.
-    Hit<Real> nearest_hit(const Ray<Real>& ray, OfHit counts, Real t_most);
-
     /// Calls visit(hit) for the crossings of surfaces with t < t_most, in no order, until it
     /// returns false.
     void each(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real t_most, OfHit visit);
@@ -58,11 +55,10 @@ class Searcher {
     Hit<Real> look(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, OfHit counts,
                    Real t_most);
     Encounter<Real> encounter(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
-                              const Hit<Real>& best, bool whole);
+                              const Hit<Real>& best);
     template <class AnyHit, class Compare>
     Encounter<Real> first_of(const std::vector<AnyHit>& hits, const Ray<Real>& ray,
-                             const OriginSurfaces<Real>& origins, const Compare& compare,
-                             bool whole);
+                             const OriginSurfaces<Real>& origins, const Compare& compare);
 
     struct Pending {
         Real t;
