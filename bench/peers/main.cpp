@@ -34,22 +34,25 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
     sets.insert(sets.end(), {"crossings", "build", "picture"});
     for (const simd::Isa isa : simd::all_isas)
         if (simd::is_available(isa)) isas.emplace_back(name_of(isa));
-    app.add_option("SCENE", arguments.scenes, "spheres/N, sticks/N, or a file");
+    app.add_option("SCENE", arguments.scenes,
+                   "Scenes: spheres/N, sticks/N, or a file. Default: spheres/10000.");
     app.add_option("--rays", arguments.wanted,
-                   "what to measure (all sorts of rays); crossings: all that a ray meets, in "
-                   "order, on one thread; build: the hierarchy, on one thread; "
-                   "picture: a whole one, and the same with Embree's calls for our traversal")
+                   "Sets of rays or other measurements. crossings: all crossings of each ray, in "
+                   "order, on one thread. build: the hierarchy, on one thread. picture: a whole "
+                   "image, also with Embree's traversal. Default: all sets of rays.")
         ->check(CLI::IsMember(sets));
-    app.add_option("--isa", arguments.isa, "which Embree is held to as well (the best there is)")
+    app.add_option("--isa", arguments.isa,
+                   "Instruction set of raylane and Embree. Default: the widest available.")
         ->check(CLI::IsMember(isas));
     app.add_option("--threads", arguments.threads,
-                   "(1); of several, how many times one they are is measured, too")
+                   "Number of threads. With several, also measures the gain over one. Default: 1.")
         ->check(CLI::Range(1, 1024));
-    app.add_option("--repetitions", arguments.repetitions, "(5), of which the median counts")
+    app.add_option("--repetitions", arguments.repetitions,
+                   "Number of runs, of which the median counts. Default: 5.")
         ->check(CLI::Range(1, 1000));
-    app.add_option("--size", arguments.side, "of pictures, in pixels (1024)")
+    app.add_option("--size", arguments.side, "Side of square images, in pixels. Default: 1024.")
         ->check(CLI::Range(1, 8192));
-    app.add_option("--json", arguments.json, "a file for all figures");
+    app.add_option("--json", arguments.json, "File to which all figures are written.");
     app.parse(argc, argv);
     return arguments;
 }
@@ -73,8 +76,7 @@ void measure(const std::string& name, const std::vector<std::string>& wanted, co
 /// Measures all scenes. Returns true if all of raylane's answers are right.
 bool measure_all(const Arguments& arguments, simd::Isa isa) {
     const char* const embree = embree_version();
-    std::printf("Embree %s\n",
-                embree != nullptr ? embree : "was not there to build with, left out");
+    std::printf("Embree %s\n", embree != nullptr ? embree : "is missing in this build, left out");
     Json rows = Json::array();
     bool right = true;
     for (const std::string& name : arguments.scenes)
@@ -106,7 +108,7 @@ int fail(int code, const char* message) {
 
 int main(int argc, char** argv) {
     CLI::App app("Times raylane and Embree, in turn, on the same scenes and rays. Exit code 1: "
-                 "raylane has been wrong.");
+                 "raylane gave a wrong answer.");
     try {
         const Arguments arguments = parse(app, argc, argv);
         simd::Isa isa = simd::best_isa();

@@ -39,11 +39,11 @@ fail() {
 }
 for program in raylane raylane-peers; do
     [ -x "$build/bin/$program" ] ||
-        fail "no $build/bin/$program; cmake --preset release leads to one"
+        fail "no $build/bin/$program; build with: cmake --preset release && cmake --build --preset release"
 done
-command -v python3 >/dev/null || fail "no python3 here"
+command -v python3 >/dev/null || fail "python3 is missing"
 for peer in povray tachyon; do
-    command -v $peer >/dev/null || echo "$peer: not here, left out"
+    command -v $peer >/dev/null || echo "$peer is missing, left out"
 done
 mkdir -p "$folder/parts"
 rm -f "$folder"/parts/*.json

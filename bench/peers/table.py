@@ -80,8 +80,8 @@ def main():
             (".nff", ".json")) else row["scene"]
     with open(output, "w") as file:
         json.dump({"rows": rows}, file, indent=2)
-    print("\nMedians. Ratio: how many times raylane, as its users have it, outdoes the best peer. Wrong: answers that"
-          "\ncertified arithmetic refutes; of a picture, pixels that differ from raylane's.\n")
+    print("\nMedians. Ratio: raylane's speed for its users relative to the best peer's. Wrong: answers that certified"
+          "\narithmetic refutes; for images, pixels that differ from raylane's.\n")
     print_table(rows)
     print()
     print_scaling(rows)
