@@ -5,6 +5,7 @@
 #include "tests/sanitized.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 /// Images of a requested quality, with more samples where there is more to see.
@@ -125,6 +126,34 @@ TEST_CASE("an image of smooth shapes needs few samples", "[native]") {
     const simd::Rendering rendering = rendered(scene, 42.0F);
     CHECK(rendering.counters.primary < 256U * 256U * 6U);
     CHECK(psnr(rendering.film, converged(scene)) > 41.5);
+}
+
+TEST_CASE("an image with details everywhere is sampled without middles of pixels") {
+    const auto floor_of_cells = [](float size) {
+        Builder builder;
+        builder.settings.width = builder.settings.height = 64;
+        builder.camera.from = {0, 5, 0};
+        builder.camera.up = {0, 0, 1};
+        Material material = luminous(Color(0.9F));
+        material.pattern.kind = PatternKind::checker;
+        material.pattern.colors[1] = Color(0.1F);
+        material.pattern.size = size;
+        builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, material);
+        return builder.finish();
+    };
+    const auto has_middles = [](const Scene& scene) {
+        simd::RenderOptions options;
+        options.layers = true;
+        const simd::Rendering rendering = rendered(scene, 30.0F, options);
+        const auto& samples = rendering.layers.samples;
+        // The middle of a pixel counts only if the pixel has no other sample.
+        const std::uint64_t counted =
+            std::accumulate(samples.begin(), samples.end(), std::uint64_t{0});
+        CHECK(psnr(rendering.film, converged(scene)) > 29.5);
+        return rendering.counters.primary > counted;
+    };
+    CHECK_FALSE(has_middles(floor_of_cells(0.02F)));
+    CHECK(has_middles(floor_of_cells(1.0F)));
 }
 
 TEST_CASE("an image of a quality does not depend on threads or tiles or instruction sets",
