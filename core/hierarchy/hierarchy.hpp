@@ -38,6 +38,8 @@ class Child {
 /// Up to 16 children with their bounds, structure of arrays: axis a of entry i is lower[a][i]. The
 /// bounds are closed and contain all of the child's shapes. Filled entries come first; an empty one
 /// has lower > upper.
+///
+/// Drawing: bench/drawings/node_and_block.svg
 struct alignas(64) WideNode {
     float lower[3][block_size];
     float upper[3][block_size];

@@ -11,6 +11,8 @@ inline constexpr int block_size = 16;
 
 /// The floats of 16 shapes of one kind, or the floats nearest to their numbers, structure of
 /// arrays: value k of lane i is values[k][i]. An empty lane holds NaN and no_shape.
+///
+/// Drawing: bench/drawings/node_and_block.svg
 template <class Shape>
 struct alignas(64) Block {
     float values[number_count<Shape>][block_size];

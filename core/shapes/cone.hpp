@@ -31,6 +31,8 @@ Bounds bounds_of(const ConeOf<Number, ends>& cone) {
 /// The equation also describes the mirror nappe beyond the apex, where width < 0. Between the ends,
 /// width >= 0, so crossings that are clipped to the ends need a separate test at the apex alone: a
 /// ray through it, from the inside of one nappe to that of the other, crosses both there.
+///
+/// Drawing: bench/drawings/cone_nappes.svg
 template <class Real, class Number, Ends ends>
 Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray,
                           const Start& start, Judge<Real>& judge) {

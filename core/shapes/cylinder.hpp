@@ -23,6 +23,8 @@ Bounds bounds_of(const CylinderOf<Number, ends>& cylinder) {
 }
 
 /// Solves |across(t)| = radius like a sphere, at the foot of the perpendicular from the axis.
+///
+/// Drawing: bench/drawings/cylinder_foot.svg
 template <class Real, class Number, Ends ends>
 Crossings<Real> crossings(const CylinderOf<Number, ends>& cylinder, const Ray<Real>& ray,
                           const Start& start, Judge<Real>& judge) {

@@ -10,6 +10,8 @@ namespace raylane::simd {
 /// With core::Precision::exact, results are those of real arithmetic. CandidateSearch bounds shapes
 /// in float. Certifier solves the shape that may be nearest in double and, where that is not
 /// certain, decides it.
+///
+/// Drawing: bench/drawings/stages.svg
 class Query {
   public:
     Query(const SceneData& scene, const Tracing& tracing, Asked asked)

@@ -19,6 +19,8 @@ namespace raylane::simd {
 ///
 /// An image does not depend on its division into regions: each sample's contributions are added in
 /// an order that does not depend on other samples, and samples are added in their own order.
+///
+/// Drawing: bench/drawings/ray_life.svg
 class Wavefront {
   public:
     /// `survey`: needed if the image has a quality; otherwise it may be null. `abandon`: once it is

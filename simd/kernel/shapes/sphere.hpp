@@ -33,6 +33,8 @@ struct SphereNumbers {
 /// rounding of the squares, it follows that
 ///   (r -+ e)^2 - Q + b^2 is within (r -+ E)^2 - q^2 for E = slack + u (6 |tau| + 7 r),
 /// and that tau -+ sqrt() is off by |b| + u (2 |tau| + 4 r) < u (7 |tau| + 8 r).
+///
+/// Drawing: bench/drawings/sphere_filter.svg
 template <class Arch>
 struct SphereFilter : SphereNumbers<Arch> {
     using Numbers = SphereNumbers<Arch>;

@@ -7,6 +7,8 @@ namespace raylane::simd {
 
 /// Sixteen rays of a frustum in contiguous memory. In streams, each value needs its address looked
 /// up.
+///
+/// Drawing: bench/drawings/packet.svg
 template <class Arch, class Method>
 struct alignas(64) Packet : Streams<Arch> {
     using S = Streams<Arch>;
