@@ -10,8 +10,8 @@ usage() {
 # Processor seconds of compiling and megabytes of build/release, by g++ 12 on Debian 12 without a compiler cache.
 render_seconds=660
 render_megabytes=40
-test_seconds=2800
-test_megabytes=700
+test_seconds=2100
+test_megabytes=500
 
 # Packages with their purposes. gemmi and OpenEXR are optional, and cost 1.8 MB to download and 35 processor
 # seconds.
