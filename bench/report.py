@@ -1,15 +1,15 @@
 #!/usr/bin/python3
-"""Makes one page, a file without network, of what has been measured and of pictures to compare.
+"""Makes one HTML page of measurements and of images to compare. The page needs no network.
 
     bench/report.py FOLDER [-o FILE] [--build BUILD]
 
-FOLDER has any of these: chart.json (by bench/chart.sh), peers.json and errors.json (by bench/peers/run.sh), and
-pictures/SET/*.pfm or *.png, of one size in each SET. The page, FOLDER/report.html unless -o says otherwise, has
-charts of the former, and the latter to be compared; and, drawn by the Python module of BUILD (build/release),
-where methods fail (bench/failures) and some of the shipped scenes.
+FOLDER has any of these: chart.json (from bench/chart.sh), peers.json and errors.json (from bench/peers/run.sh), and
+pictures/SET/*.pfm or *.png, of one size in each SET. The page shows charts of the measurements and compares the images
+of a set. The Python module of BUILD (default: build/release) adds the numerical failures of bench/failures and some of
+the shipped scenes. FILE defaults to FOLDER/report.html.
 
-Needs NumPy, node and npm, which fetches the libraries that bench/report/package-lock.json names into build/report;
-Pillow for PNG.
+Needs NumPy, node, npm, and Pillow for PNG. npm fetches the libraries of bench/report/package-lock.json into
+build/report.
 """
 
 import argparse
@@ -41,17 +41,17 @@ def bundle(room):
     """Returns the page's script and style sheet."""
     for program in ("node", "npm"):
         if not shutil.which(program):
-            fail(f"no {program} here; see Debian's nodejs and npm")
+            fail(f"missing {program}: install Debian's packages nodejs and npm")
     room.mkdir(parents=True, exist_ok=True)
     lock = (HERE / "report/package-lock.json").read_text()
     installed = room / "node_modules/.lock"
     if not installed.exists() or installed.read_text() != lock:
         for name in ("package.json", "package-lock.json"):
             shutil.copy(HERE / "report" / name, room)
-        # No script of the fetched packages runs here.
+        # Scripts of the fetched packages do not run.
         command = ["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--silent"]
         if subprocess.run(command, cwd=room).returncode != 0:
-            fail(f"npm could not fetch the libraries of {HERE / 'report/package-lock.json'}")
+            fail(f"npm failed to fetch the libraries of {HERE / 'report/package-lock.json'}")
         installed.write_text(lock)
     subprocess.run(["node", str(HERE / "report/build.mjs"), str(room / "node_modules"), str(room)], check=True)
     return (room / "main.js").read_text(), (room / "style.css").read_text()
@@ -67,7 +67,7 @@ def licences(modules):
 def page_of(data, script, style, licence):
     parts = {
         "STYLE": style,
-        # The escapes keep data and script from ending their elements, and from beginning comments.
+        # The escapes keep data and script from closing their elements and from opening comments.
         "DATA": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
         "SCRIPT": script.replace("</", "<\\/").replace("<!--", "<\\!--"),
         "LICENCES": html.escape(licence),
@@ -76,7 +76,7 @@ def page_of(data, script, style, licence):
 
 
 def write_whole(path, text):
-    """Writes the whole file or nothing."""
+    """Writes the file completely or not at all."""
     unfinished = path.with_name(path.name + ".part")
     unfinished.write_text(text)
     unfinished.replace(path)
@@ -92,7 +92,7 @@ def main():
     output = arguments.output or folder / "report.html"
     for each in (folder, output.parent):
         if not each.is_dir():
-            fail(f"{each} is no folder")
+            fail(f"{each}: expected a folder")
     try:
         charts = measurements.of_folder(folder)
         sets = pictures.of_folder(folder / "pictures")
@@ -106,9 +106,9 @@ def main():
         failures, drawn = drawings.draw_failures(build)
         sets = drawings.draw_scenes(build) + drawn + sets
         if not drawings.has_tiers(build):
-            print(f"report.py: no raylane-tiers in {build}/bin, so no maps of tiers (RAYLANE_BENCHMARKS)", file=sys.stderr)
+            print(f"report.py: no raylane-tiers in {build}/bin, so the page has no maps of stages (RAYLANE_BENCHMARKS)", file=sys.stderr)
     else:
-        print(f"report.py: no Python module in {build}, so no failures and no scenes are drawn", file=sys.stderr)
+        print(f"report.py: no Python module in {build}, so the page has no failures and no scenes", file=sys.stderr)
     if not sets and not any(charts.values()):
         fail(f"nothing to show in {folder}: no chart.json, peers.json, errors.json or pictures/SET")
     day = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())), datetime.timezone.utc)

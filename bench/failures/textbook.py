@@ -1,15 +1,15 @@
-"""The ray tracer that textbooks print, in float. It shows the failures that users of other renderers have reported.
+"""A ray tracer with the formulas of textbooks, in float. It shows the failures that users of other renderers have reported.
 
-Finds roots by b^2 - 4ac, and has an epsilon so that rays do not hit the surface that they leave. Reads the scenes of
-this folder: spheres, cylinders, cones, boxes, planes and quadrics, lit by points and suns, mirrors and glass without
-Fresnel. `how` selects remedies of the reports:
+Finds roots by b^2 - 4ac. An epsilon keeps rays off the surface that they leave. Reads the scenes of this folder:
+spheres, cylinders, cones, boxes, planes and quadrics; point and directional lights; mirrors and glass without Fresnel.
+`how` selects the remedies of the reports:
 
-    epsilon       the least t that counts, in units of length
+    epsilon       the minimum t, in units of length
     offset_ulps   secondary rays start this number of ulps of the coordinates along the normal instead
-    interval      half the width of an interval about the coordinates of a ray's origin: only spheres that are
-                  certainly hit count
+    interval      half the width of an interval around the coordinates of a ray's origin: only certain hits of spheres
+                  count
     balls         open cylinders and cones end in balls
-    shadows       false: nothing blocks light
+    shadows       false: no shadow rays
 
 Arrays of n rays: origins and directions (n, 3), t (n,), in float32.
 """
@@ -34,7 +34,7 @@ def vector(numbers):
 
 
 def color_of(color):
-    """Returns a linear colour, as the renderer's reader does."""
+    """Returns a linear colour, like the renderer's scene reader."""
     if isinstance(color, str):
         encoded = np.array([int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)])
         return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4).astype(F)
@@ -60,7 +60,7 @@ def roots(a, b, c):
 
 
 def first_of(candidates, least):
-    """Returns the least t beyond `least` of the candidates whose condition holds."""
+    """Returns the smallest t above `least` of the candidates whose condition holds."""
     best = NONE
     for t, holds in candidates:
         best = np.where(holds & (t > least) & (t < best), t, best)
@@ -88,7 +88,7 @@ class Sphere:
 
 
 class Cone:
-    """Cone or cylinder: |p|^2 - (p.a)^2 = (r0 + k p.a)^2 about the unit axis a."""
+    """Cone or cylinder: |p|^2 - (p.a)^2 = (r0 + k p.a)^2 around the unit axis a."""
 
     def __init__(self, of, how):
         self.base, axis = vector(of["base"]), vector(of["axis"])
@@ -188,7 +188,7 @@ KINDS = {"sphere": Sphere, "cylinder": Cone, "cone": Cone, "plane": Plane, "box"
 
 
 def balls_of(each):
-    """Returns the balls in which curves end."""
+    """Returns the balls at the ends of a cylinder or cone that a curve replaces."""
     if each["type"] == "cylinder":
         radii = (each["radius"], each["radius"])
     else:
@@ -215,7 +215,7 @@ class Textbook:
         self.epsilon = F(how.get("epsilon", 0))
 
     def first_hits(self, o, d, skip=None):
-        """Returns t, infinite without a hit, and the shape's number."""
+        """Returns t, infinite without a hit, and the shape's number, or -1."""
         best, which = np.full(len(o), NONE), np.full(len(o), -1)
         for number, shape in enumerate(self.shapes):
             if skip is not None and skip(number):
@@ -303,7 +303,7 @@ class Textbook:
 
 
 def camera_rays(scene):
-    """Returns rays through pixels' middles, row by row from the top: origins, unit directions (n, 3), in double."""
+    """Returns rays through pixel centres, row by row from the top: origins, unit directions (n, 3), in double."""
     camera, image = scene["camera"], scene["image"]
     start, at = np.array(camera["from"], float), np.array(camera["at"], float)
     forward = unit(at - start)

@@ -1,4 +1,4 @@
-"""Draws where methods fail, and some of the shipped scenes, by the Python module and raylane-tiers."""
+"""Renders the numerical failures and some of the shipped scenes, with the Python module and raylane-tiers."""
 
 import json
 import pathlib
@@ -11,13 +11,13 @@ from pictures import Map, Picture, Set, encoded
 
 BENCH = pathlib.Path(__file__).resolve().parents[1]
 SCENES = BENCH.parent / "scenes"
-PRECISIONS = {"fast": "textbook float, no epsilon", "robust": "best float", "double": "double", "exact": "exact"}
+PRECISIONS = {"fast": "fast: textbook float, no epsilon", "robust": "robust: best float", "double": "double", "exact": "exact"}
 TIERS = [
-    "at once: bounds in float, one crossing in double",
-    "all that may be first, in double with bounds or twice the digits; shadows step by step",
-    "a crossing by scalar code",
-    "with more digits than double has, or exactly",
-    "the whole path by the reference: surfaces meet, or too many follow each other",
+    "certified: bounds in float, one crossing in double",
+    "refined: all candidates in double with bounds, or in double-double; shadow rays surface by surface",
+    "scalar: a crossing by scalar code, in double with bounds",
+    "extended: more digits than double, or exact arithmetic",
+    "reference: the whole path, as surfaces meet or too many follow each other",
 ]
 SHIPPED = {"birthday": (256, 256), "sphereflake": (256, 256), "ellipsoid": (256, 192), "protein": (256, 192)}
 
@@ -27,7 +27,7 @@ def has_tiers(build):
 
 
 def tiers_of(build, scene, width, height):
-    """Returns a list of one map, which is empty without raylane-tiers."""
+    """Returns a list of one map; an empty list without raylane-tiers."""
     if not has_tiers(build):
         return []
     command = [build / "bin/raylane-tiers", scene, str(width), str(height)]
@@ -35,19 +35,19 @@ def tiers_of(build, scene, width, height):
     head = f"P5\n{width} {height}\n{len(TIERS) - 1}\n".encode()
     assert done.stdout.startswith(head)
     values = np.frombuffer(done.stdout[len(head) :], np.uint8).reshape(height, width)
-    return [Map("tiers", "how rays were decided", values, TIERS)]
+    return [Map("tiers", "stage that decided the rays", values, TIERS)]
 
 
 def steps(rgb, exact):
-    """Returns the number of pixels that differ by more than one step of 255."""
+    """Returns the number of pixels that differ by more than 1 of 255 in a channel, in sRGB."""
     return int((np.abs(encoded(rgb).astype(int) - encoded(exact)) > 1).any(-1).sum())
 
 
 def compare_hits(t, shape, exact_t, exact_shape):
-    """Returns the number of wrong rays; of the others, ulps of t in float: median, 99th percentile, maximum."""
+    """Returns the number of misclassified rays, and the error of t of the others in ulps of float: median, p99, maximum."""
     same = shape == exact_shape
     hit = same & np.isfinite(exact_t)
-    # Positive floats are in the order of their bits.
+    # The bits of positive floats are ordered like the floats.
     off = np.abs(t[hit].astype(np.float32).view(np.int32).astype(np.int64) - exact_t[hit].view(np.int32))
     ulps = [float(np.percentile(off, share)) for share in (50, 99, 100)] if off.size else [0.0, 0.0, 0.0]
     return {"wrong": int((~same).sum()), "ulps": ulps}
@@ -69,7 +69,7 @@ def draw_failure(build, failure):
     for precision in PRECISIONS:
         drawn[precision] = (raylane.render(scene, precision=precision).rgb, *first_hits(scene, precision, *rays))
     exact, *exact_hits = drawn["exact"]
-    titles = {"textbook": "textbook float", **PRECISIONS}
+    titles = {"textbook": "textbook float, with a remedy", **PRECISIONS}
     pictures = [
         Picture(name, titles[name], rgb, {"off": steps(rgb, exact), **compare_hits(*hits, *exact_hits)})
         for name, (rgb, *hits) in drawn.items()
@@ -82,8 +82,8 @@ def draw_failure(build, failure):
 def draw_failures(build):
     """Returns the failures' texts, and a set of images for each."""
     failures = json.loads((BENCH / "failures/failures.json").read_text())
-    told = [{key: each[key] for key in ("name", "reference", "title", "failure", "remedy")} for each in failures]
-    return told, [draw_failure(build, each) for each in failures]
+    texts = [{key: each[key] for key in ("name", "reference", "title", "failure", "remedy")} for each in failures]
+    return texts, [draw_failure(build, each) for each in failures]
 
 
 def draw_scene(build, name, width, height):

@@ -1,4 +1,4 @@
-"""Rows for the page's charts, from the JSON of raylane-bench and of peers/run.sh."""
+"""Converts the JSON of raylane-bench and of peers/run.sh to rows for the page's charts."""
 
 import json
 import math
@@ -7,7 +7,7 @@ import chart
 
 
 def methods(path):
-    """Returns {shape, rays, isa, method, mrays, ulps_..., wrong}; of Embree, the faster way to call it."""
+    """Returns {shape, rays, isa, method, mrays, ulps_..., wrong}. Embree's row is the faster of its API calls."""
     best = {}
     for (shape, rays, method, isa), runs in chart.runs_of(path, "methods").items():
         name = "Embree" if method.startswith("embree") else method
@@ -21,7 +21,7 @@ def methods(path):
         errors = {key: runs[0][key] for key in runs[0] if key.startswith("ulps_") or key == "wrong"}
         row.update({key: error for key, error in errors.items() if math.isfinite(error)})
         if not math.isfinite(row["mrays"]):
-            raise ValueError(f"{shape} by {method} has no speed")
+            raise ValueError(f"{shape} by {method}: the speed must be finite")
         key = (shape, rays, isa, name)
         if key not in best or row["mrays"] > best[key]["mrays"]:
             best[key] = row
@@ -29,7 +29,7 @@ def methods(path):
 
 
 def pictures(path):
-    """Returns {scene, way, value, ms, rmse}: `way` is the precision for samples, otherwise the varied setting."""
+    """Returns {scene, way, value, ms, rmse}. `way` is the precision for samples, otherwise the varied setting."""
     rows = [
         {
             "scene": scene,
@@ -45,14 +45,14 @@ def pictures(path):
 
 
 def counts(path):
-    """Returns {rays, by, count, mrays} for one thread and the widest registers."""
+    """Returns {rays, by, count, mrays} for one thread and the instruction set of the first row."""
     rows = [row for row in json.loads(path.read_text())["rows"] if row["threads"] == 1 and row.get("unit", "Mrays/s") == "Mrays/s"]
     rows = [row for row in rows if row.get("isa") == rows[0].get("isa")]
     return [
         {"rays": f"{what} rays", "by": by, "count": count, "mrays": speed}
         for what in dict.fromkeys(row["what"] for row in rows)
         for count, *speeds in chart.speeds_by_count(rows, what)
-        for by, speed in zip(("raylane", "its engine", "Embree"), speeds)
+        for by, speed in zip(("raylane", "raylane's engine", "Embree"), speeds)
         if speed
     ]
 
@@ -78,5 +78,5 @@ def of_folder(folder):
         try:
             rows[name] = rows_of(path) if path.exists() else []
         except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
-            raise ValueError(f"{path}: not what is measured there ({error!r})") from None
+            raise ValueError(f"{path}: expected measurements ({error!r})") from None
     return rows

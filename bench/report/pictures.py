@@ -1,4 +1,4 @@
-"""Sets of pictures of one size, packed for the page, which unpacks them (src/pictures.js)."""
+"""Sets of images of one size, packed for the page. src/pictures.js unpacks them."""
 
 import base64
 import dataclasses
@@ -41,10 +41,10 @@ class Set:
     pictures: list
     maps: list = dataclasses.field(default_factory=list)
     reference: str = ""
-    """The image with which the others are compared; empty: none."""
+    """The image with which the others are compared; empty for no comparison."""
 
     def packed(self):
-        """Returns the set as data: the bits of each image XOR those of the image before it, in planes of bytes."""
+        """Returns the set as JSON data. Each image is XORed with the image before it and split into planes of bytes."""
         height, width = self.pictures[0].rgb.shape[:2]
         packed, last = [], None
         for number, picture in enumerate(self.pictures):
@@ -76,15 +76,15 @@ def read_pfm(path):
             line = file.readline(80)
             words += line.split()
             if not line.endswith(b"\n"):
-                raise ValueError(f"{path}: no PFM")
+                raise ValueError(f"{path}: expected a PFM file")
         rest = file.read()
     try:
         channels = {b"PF": 3, b"Pf": 1}[words[0]]
         width, height, scale = int(words[1]), int(words[2]), float(words[3])
     except (KeyError, ValueError):
-        raise ValueError(f"{path}: no PFM") from None
+        raise ValueError(f"{path}: expected a PFM file") from None
     if width < 1 or height < 1 or len(rest) != 4 * channels * width * height:
-        raise ValueError(f"{path}: has not the pixels that it says")
+        raise ValueError(f"{path}: the number of pixels differs from the header")
     rgb = np.frombuffer(rest, "<f4" if scale < 0 else ">f4").reshape(height, width, channels)[::-1].astype(np.float32)
     return np.repeat(rgb, 3, axis=2) if channels == 1 else rgb
 
@@ -94,7 +94,7 @@ def linear(encoded):
 
 
 def encoded(rgb):
-    """Returns bytes in sRGB."""
+    """Returns sRGB bytes."""
     x = np.clip(rgb, 0, 1)
     return np.rint(255 * np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)).astype(np.uint8)
 
@@ -105,14 +105,14 @@ def read_png(path):
     try:
         image = Image.open(path)
         if image.mode not in ("L", "P", "RGB"):
-            raise ValueError(f"{path}: more than 8 bits, or an alpha, for which there is PFM")
+            raise ValueError(f"{path}: expected 8 bits without alpha; use PFM for other images")
         return linear(np.asarray(image.convert("RGB")) / 255)
     except (OSError, Image.DecompressionBombError) as error:
         raise ValueError(f"{path}: {error}") from None
 
 
 def of_folder(folder):
-    """Returns a set for each folder in this one."""
+    """Returns one set for each subfolder that has images."""
     readers = {".pfm": read_pfm, ".png": read_png}
     sets = []
     for each in sorted(folder.iterdir()) if folder.is_dir() else []:
@@ -121,6 +121,6 @@ def of_folder(folder):
             continue
         pictures = [Picture(file.name, file.name, readers[file.suffix.lower()](file)) for file in files]
         if len({picture.rgb.shape for picture in pictures}) > 1:
-            raise ValueError(f"{each}: pictures of several sizes")
+            raise ValueError(f"{each}: images of several sizes")
         sets.append(Set(f"own/{each.name}", each.name, pictures))
     return sets

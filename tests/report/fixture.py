@@ -1,4 +1,4 @@
-"""A folder for bench/report.py: measurements that nobody has made, and two pictures whose differences are known.
+"""Fills a folder for bench/report.py: synthetic measurements, and pairs of images with known differences.
 
     fixture.py FOLDER
 """
@@ -66,7 +66,7 @@ rgb[0, 1, :] = 1.0
 rgb[2, 3, 2] = np.nextafter(np.float32(0.5), np.float32(1))
 write("known/b.pfm", rgb)
 
-# The same; next to each other about 0; no number, and none that is near.
+# Equal NaN; neighbours at 0; infinity against a number; NaN against a number.
 rgb = np.array([[[np.nan] * 3, [1e-45, 0, 0], [np.inf, 0, 0], [0.5, np.nan, 0]]], np.float32)
 write("numberless/a.pfm", rgb)
 write("numberless/b.pfm", np.array([[[np.nan] * 3, [0, 0, 0], [1, 0, 0], [0.5, 0.5, 0]]], np.float32))

@@ -1,8 +1,8 @@
-// Looks at a page of bench/report.py in headless Chromium: its numbers are those of the JSON that it was made of,
-// its controls do what they say, and nothing complains. By run.sh.
+// Checks a page of bench/report.py in headless Chromium: its numbers match the JSON, its controls work, and the browser
+// reports no errors. run.sh calls it.
 //
-//   node page_check.mjs MODULES PAGE FOLDER PICTURES    MODULES: a node_modules with puppeteer-core; FOLDER: what
-//                                                       the page was made of; PICTURES: where screenshots go
+//   node page_check.mjs MODULES PAGE FOLDER PICTURES    MODULES: a node_modules with puppeteer-core; FOLDER: the
+//                                                       page's data; PICTURES: the folder for screenshots
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import { createRequire } from "node:module";
@@ -16,14 +16,14 @@ const json = (name) => JSON.parse(fs.readFileSync(path.join(folder, name), "utf8
 const browser = await puppeteer.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-dev-shm-usage"] });
 const page = await browser.newPage();
 const complaints = [];
-const of_this = /getImageData are faster with/; // of what reads the canvas here
+const own_warning = /getImageData are faster with/; // this check reads the canvas
 page.on("console", (message) => {
-    if (["error", "warn"].includes(message.type()) && !of_this.test(message.text())) complaints.push(message.text());
+    if (["error", "warn"].includes(message.type()) && !own_warning.test(message.text())) complaints.push(message.text());
 });
 page.on("pageerror", (error) => complaints.push(`${error}`));
 page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(`asks for ${request.url()}`));
 
-const until = (what, ...rest) => page.waitForFunction(what, { timeout: 60000 }, ...rest);
+const until = (condition, ...rest) => page.waitForFunction(condition, { timeout: 60000 }, ...rest);
 const choose = async (id, value) => {
     await page.select(`#${id}`, value);
     await new Promise((done) => setTimeout(done, 100));
@@ -44,7 +44,7 @@ try {
     await page.goto(`file://${page_file}`);
     await until(() => document.querySelector('.row[data-drawn="yes"]') && document.querySelector("#totals td"));
 
-    // The charts: their tables, and what is under the mouse, have the numbers of the JSON.
+    // The charts' tables and tooltips have the numbers of the JSON.
     const runs = json("chart.json").benchmarks.filter((run) => run.run_type === "iteration");
     const speed_of = (shape, method) =>
         median(runs.filter((run) => run.run_name === `methods/${shape}/random/${method}/avx512`).map((run) => run.items_per_second / 1e6));
@@ -63,7 +63,7 @@ try {
     assert.notDeepEqual(await rows("methods"), methods);
     await page.select('[data-choice="rays"]', "random");
     await page.select('[data-choice="error"]', "ulps_p99");
-    // Marks stand where the numbers say, and tell these.
+    // Marks are at their numbers, and tooltips show the numbers.
     const fills = { fast: "#d7301f", robust: "#a86f00", exact: "#0072b2", double: "#666666", Embree: "#00805c" };
     const places = await page.$eval(
         '#methods [data-shape="sphere"]',
@@ -99,7 +99,7 @@ try {
     const counts = await rows("counts");
     for (const [rays, by, count, speed] of counts) {
         const row = peers.find((each) => `${each.what} rays` === rays && each.scene === `spheres/${count}`);
-        is_near(speed, { raylane: row.by.find((each) => each.name === row.own), "its engine": row.by[0], Embree: row.by.at(-1) }[by].median);
+        is_near(speed, { raylane: row.by.find((each) => each.name === row.own), "raylane's engine": row.by[0], Embree: row.by.at(-1) }[by].median);
     }
     assert.equal(counts.length, 12);
     const errors = json("errors.json").rows;
@@ -119,7 +119,7 @@ try {
         is_near(rmse, run.rmse);
     }
 
-    // The gallery: each failure has five pictures, of which the exact one is off nowhere, with the numbers of the data.
+    // In the gallery, each failure has five images with the numbers of the data. The exact image has no differing pixel.
     const data = await page.$eval("#data", (each) => JSON.parse(each.textContent));
     const captions = await page.$$eval(".failure", (each) =>
         each.map((one) => [...one.querySelectorAll("figcaption")].map((caption) => caption.textContent)),
@@ -131,7 +131,7 @@ try {
         for (const [k, { title, numbers }] of pictures.entries()) {
             const ulps = numbers.ulps.map((each) => Number(each.toPrecision(3)).toLocaleString("en")).join(", ");
             const [off, wrong] = [numbers.off, numbers.wrong].map((each) => each.toLocaleString("en"));
-            assert.equal(captions[i][k], `${title}${off} pixels off${wrong} rays wrong` + `t off by ${ulps} ulps`);
+            assert.equal(captions[i][k], `${title}${off} pixels differ${wrong} rays misclassified` + `error of t: ${ulps} ulps`);
         }
         assert.ok(pictures[0].numbers.off > 300);
         assert.equal(pictures[4].numbers.off, 0);
@@ -143,7 +143,7 @@ try {
         );
     await page.$eval('.row[data-set="ospray-279"]', (each) => each.scrollIntoView());
     await until(() => document.querySelector('.row[data-set="ospray-279"]').dataset.drawn);
-    assert.deepEqual(await thumbnail("ospray-279", 1), [0x27, 0x30, 0x3d, 255]); // nothing is there
+    assert.deepEqual(await thumbnail("ospray-279", 1), [0x27, 0x30, 0x3d, 255]); // the background
     assert.notDeepEqual(await thumbnail("ospray-279", 5), [0x27, 0x30, 0x3d, 255]);
     await page.evaluate(() => document.querySelector("#failures").scrollIntoView());
     await screenshot("failures");
@@ -151,7 +151,7 @@ try {
     await until(() => document.querySelector("#set").value === "mitsuba-512" && document.querySelector("#a").value === "textbook");
     assert.equal(await page.$eval("#b", (each) => each.value), "exact");
 
-    // Two pictures of 4 x 3 pixels whose differences are known.
+    // Two images of 4 x 3 pixels with known differences.
     await choose("set", "own/known");
     await until(() => document.querySelector("#a").value === "a.pfm");
     await choose("b", "b.pfm");
@@ -165,11 +165,11 @@ try {
     };
     assert.match(await at(1, 0), /pixel \(1, 0\)\nA 0.500000000 .*\nB 1.00000000 .*\ndifference 0.5000, 8,388,608 ulps/);
     assert.match(await at(3, 2), /pixel \(3, 2\)\n.*\n.*\ndifference 5.960e-8, 1 ulps/);
-    assert.match(await at(0, 1), /the same bits/);
+    assert.match(await at(0, 1), /identical bits/);
     const bars = await page.$$eval("#histogram path[fill='#0072b2']", (each) => each.length);
-    assert.equal(bars, 3); // the same, up to 1e-7, up to 1
+    assert.equal(bars, 3); // equal, up to 1e-7, up to 1
 
-    // What the controls do to a pixel of 0.5 by A, and of 1 by B.
+    // Effect of the controls on a pixel that is 0.5 in A and 1 in B.
     const shade = () =>
         page.$eval("#canvas", (canvas) => canvas.getContext("2d").getImageData(canvas.width * 0.375, canvas.height / 6, 1, 1).data[0]);
     const slide = (percent) =>
@@ -200,16 +200,16 @@ try {
     await until(() => document.querySelector("#canvas").getContext("2d").getImageData(0, 0, 1, 1));
     await choose("mode", "difference");
     await new Promise((done) => setTimeout(done, 1300));
-    assert.equal(await page.$eval("#mode", (each) => each.value), "difference"); // which ends blinking
+    assert.equal(await page.$eval("#mode", (each) => each.value), "difference"); // choosing a mode stops blinking
     await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-    await page.mouse.wheel({ deltaY: -300 }); // twice as large
+    await page.mouse.wheel({ deltaY: -300 }); // doubles the zoom
     assert.match(await at(0.01 - 0.5, 0.01 - 0.5), /pixel \(1, 0\)/);
     await page.focus("#canvas");
     await page.keyboard.press("-");
     assert.match(await at(0.01 - 0.5, 0.01 - 0.5), /pixel \(0, 0\)/);
     await page.click("#fit");
 
-    // What is no number is neither the same nor near.
+    // NaN and infinity differ from numbers without a distance.
     await choose("set", "own/numberless");
     await until(() => document.querySelector("#a").value === "a.pfm");
     await choose("b", "b.pfm");
@@ -237,23 +237,23 @@ try {
     for (let i = 0; i < 6; ++i) await page.click("#in");
     await screenshot("zoomed");
     await page.click("#fit");
-    await Promise.all([page.select("#set", "protein"), page.select("#set", "birthday")]); // the last one counts
+    await Promise.all([page.select("#set", "protein"), page.select("#set", "birthday")]); // the last choice wins
     await new Promise((done) => setTimeout(done, 1500));
     assert.equal(await page.$eval("#a", (each) => each.options[0].text), data.sets.find((set) => set.name === "birthday").pictures[0].title);
 
-    // A picture of the user's own, and what is none.
-    const none = path.join(folder, "none.pfm");
-    fs.writeFileSync(none, "PF\n-1 -1\n-1\n000000000000");
+    // The user's files: an image and an invalid file.
+    const invalid = path.join(folder, "invalid.pfm");
+    fs.writeFileSync(invalid, "PF\n-1 -1\n-1\n000000000000");
     const own = await page.$("#own");
-    await own.uploadFile(path.join(folder, "pictures/known/a.pfm"), none);
+    await own.uploadFile(path.join(folder, "pictures/known/a.pfm"), invalid);
     await until(() => document.querySelector("#set").value === ":own");
     assert.equal(await page.$eval("#a", (each) => each.options.length), 1);
-    await until(() => document.querySelector("#status").textContent === "none.pfm is neither PNG nor PFM.");
+    await until(() => document.querySelector("#status").textContent === "invalid.pfm: expected a PNG or PFM file.");
     await own.uploadFile(path.join(folder, "pictures/known/b.pfm"));
     await until(() => document.querySelector("#a").options.length === 2);
     assert.equal((await totals())[0], "10 of 12");
 
-    // Dark, charts too, with the licences of what is in the page; and on a phone.
+    // The dark theme, which charts follow; the libraries' licences; a phone's screen.
     const inks = () => page.evaluate(() => [getComputedStyle(document.body).backgroundColor, document.querySelector("#methods svg text").getAttribute("fill")]);
     const light = await inks();
     await page.click("#theme");
@@ -276,7 +276,7 @@ try {
     );
     assert.deepEqual(wide, []);
     assert.deepEqual(complaints, []);
-    console.log("the page shows what it was made of");
+    console.log("the page matches its data");
 } finally {
     await browser.close();
 }

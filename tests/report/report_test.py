@@ -1,4 +1,4 @@
-"""Of bench/report.py what needs no browser: what is drawn where methods fail, and what it is made of.
+"""Tests bench/report.py without a browser: its data, and the images of numerical failures.
 
     PYTHONPATH=BUILD/python pytest tests/report
 """
@@ -26,14 +26,14 @@ import textbook  # noqa: E402
 FAILURES = json.loads((ROOT / "bench/failures/failures.json").read_text())
 
 
-def of_double(failure):
-    """True if double fails, too."""
+def fails_in_double(failure):
+    """True if formulas in double fail, too."""
     return failure["name"].startswith("double-")
 
 
 @pytest.mark.parametrize("failure", FAILURES, ids=lambda each: each["name"])
-def test_textbook_is_right_where_numbers_are_good_enough(failure, monkeypatch):
-    """What it does wrong is its floats and its epsilons: in double, by a tiny one, it draws what is exact."""
+def test_textbook_in_double_with_a_tiny_epsilon_renders_the_exact_image(failure, monkeypatch):
+    """Only floats and epsilons make the textbook tracer fail, except in the two scenes where double fails."""
     monkeypatch.setattr(textbook, "F", np.float64)
     monkeypatch.setattr(textbook, "NONE", np.inf)
     path = ROOT / "bench/failures" / (failure["name"] + ".json")
@@ -42,24 +42,24 @@ def test_textbook_is_right_where_numbers_are_good_enough(failure, monkeypatch):
     rgb, _, shape = textbook.draw(description, {"epsilon": 1e-9 * scale})
     exact = raylane.render(raylane.load(path)).rgb
     off = drawings.steps(rgb, exact)
-    assert off > 10000 if of_double(failure) else off <= 0.001 * shape.size
+    assert off > 10000 if fails_in_double(failure) else off <= 0.001 * shape.size
 
 
 @pytest.fixture(scope="module")
 def drawn():
-    """What is said of the failures, and their pictures."""
+    """The failures' texts and their images."""
     return drawings.draw_failures(pathlib.Path("nowhere"))
 
 
-def test_failures_fail_by_the_textbook_and_others_by_double(drawn):
-    for failure, of in zip(FAILURES, drawn[1]):
-        numbers = {picture.name: picture.numbers for picture in of.pictures}
+def test_textbook_fails_everywhere_and_double_in_its_two_scenes(drawn):
+    for failure, images in zip(FAILURES, drawn[1]):
+        numbers = {picture.name: picture.numbers for picture in images.pictures}
         assert numbers["textbook"]["off"] > 300
-        assert numbers["double"]["off"] > 10000 if of_double(failure) else numbers["double"]["off"] <= 3
+        assert numbers["double"]["off"] > 10000 if fails_in_double(failure) else numbers["double"]["off"] <= 3
         assert numbers["exact"] == {"off": 0, "wrong": 0, "ulps": [0.0, 0.0, 0.0]}
 
 
-def test_gallery_says_what_is_drawn(drawn):
+def test_readme_matches_the_rendered_failures(drawn):
     assert gallery.text_of(*drawn) == (ROOT / "bench/failures/README.md").read_text()
 
 
@@ -72,8 +72,8 @@ def dot(a, b):
 
 
 @pytest.mark.parametrize("name", ["pbrt-265", "pbrt-44-far", "mitsuba-512", "mitsuba-1236", "plotoptix-4", "double-shells"])
-def test_rays_hit_spheres_that_they_hit_by_rationals(name):
-    """And of two that are about one centre the outer one."""
+def test_rays_hit_the_spheres_that_rational_arithmetic_finds(name):
+    """Of two concentric spheres, rays hit the outer one."""
     path = ROOT / "bench/failures" / f"{name}.json"
     description = textbook.read(path)
     origins, directions = (rays[::11] for rays in textbook.camera_rays(description))
@@ -96,7 +96,7 @@ def test_rays_hit_spheres_that_they_hit_by_rationals(name):
     assert hits > 500
 
 
-def test_hits_are_compared_by_shape_and_by_ulps():
+def test_hits_are_compared_by_shape_and_ulps():
     t = np.array([1, 1 + 2**-22, np.inf, 1, 2], np.float32)
     exact = np.array([1, 1, np.inf, np.inf, 2], np.float32)
     shape, exact_shape = np.array([0, 0, -1, 0, 1]), np.array([0, 0, -1, -1, 0])
@@ -104,14 +104,14 @@ def test_hits_are_compared_by_shape_and_by_ulps():
     assert drawings.compare_hits(t[2:3], shape[2:3], exact[2:3], exact_shape[2:3])["ulps"] == [0.0, 0.0, 0.0]
 
 
-def test_pfm_is_read_as_raylane_writes_it(tmp_path):
+def test_pfm_reader_returns_the_pixels_that_raylane_writes(tmp_path):
     scene = raylane.load(ROOT / "scenes/sphere.json")
     picture = raylane.render(scene, width=13, height=7, grid=1)
     picture.save(tmp_path / "a.pfm")
     np.testing.assert_array_equal(pictures.read_pfm(tmp_path / "a.pfm"), picture.rgb)
 
 
-def test_pictures_of_several_sizes_are_no_set(tmp_path):
+def test_images_of_several_sizes_are_refused(tmp_path):
     scene = raylane.load(ROOT / "scenes/sphere.json")
     (tmp_path / "some").mkdir()
     for width in (4, 5):
@@ -120,7 +120,7 @@ def test_pictures_of_several_sizes_are_no_set(tmp_path):
         pictures.of_folder(tmp_path)
 
 
-def test_nothing_of_the_data_ends_or_begins_anything_in_the_page():
+def test_data_and_script_cannot_close_their_elements():
     name = "</script><!--/*SCRIPT*/"
     page = report.page_of({"name": name}, "let a = '</script><!--';", "b {}", "<c>")
     assert page.count("</script>") == 2 and "<!--" not in page.split("<body>")[1]
@@ -129,7 +129,7 @@ def test_nothing_of_the_data_ends_or_begins_anything_in_the_page():
     assert "&lt;c&gt;" in page
 
 
-def test_embree_is_its_faster_way_and_medians_count(tmp_path):
+def test_embree_has_the_speed_of_its_faster_call_and_speeds_are_medians(tmp_path):
     def runs(method, speeds):
         name = f"methods/sphere/random/{method}/avx512"
         more = {"run_type": "iteration", "run_name": name, "name": name, "ulps_p99": float("nan"), "wrong": 0.25}
@@ -147,15 +147,15 @@ def test_embree_is_its_faster_way_and_medians_count(tmp_path):
     [
         ({}, "nothing to show"),
         ({"chart.json": "{"}, "chart.json"),
-        ({"pictures/a/b.pfm": "P6"}, "b.pfm: no PFM"),
-        ({"pictures/a/b.pfm": "PF\n2 2\n-1\n"}, "has not the pixels"),
-        ({"pictures/a/b.pfm": "PF\n0 0\n-1\n"}, "has not the pixels"),
-        ({"pictures/a/b.PFM": "PF\nab 2\n-1\n"}, "b.PFM: no PFM"),
+        ({"pictures/a/b.pfm": "P6"}, "b.pfm: expected a PFM file"),
+        ({"pictures/a/b.pfm": "PF\n2 2\n-1\n"}, "the number of pixels differs"),
+        ({"pictures/a/b.pfm": "PF\n0 0\n-1\n"}, "the number of pixels differs"),
+        ({"pictures/a/b.PFM": "PF\nab 2\n-1\n"}, "b.PFM: expected a PFM file"),
         ({"pictures/a/b.png": "no picture"}, "b.png"),
         ({"errors.json": '{"rows": [{"psnr": 30}]}'}, "errors.json"),
     ],
 )
-def test_mistakes_are_told_in_a_line(tmp_path, files, words):
+def test_errors_are_one_line(tmp_path, files, words):
     for name, text in files.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text)
@@ -165,7 +165,7 @@ def test_mistakes_are_told_in_a_line(tmp_path, files, words):
     assert not (tmp_path / "report.html").exists()
 
 
-def test_tiers_tell_where_surfaces_meet(tmp_path):
+def test_stages_show_where_surfaces_meet(tmp_path):
     build = pathlib.Path(raylane.__file__).resolve().parents[2]
     scene = tmp_path / "scene.json"
     disc = {"type": "disc", "center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}
@@ -181,5 +181,5 @@ def test_tiers_tell_where_surfaces_meet(tmp_path):
     )
     [tiers] = drawings.tiers_of(build, scene, 16, 12)
     assert tiers.values.shape == (12, 16) and len(tiers.labels) == 5
-    assert tiers.values[6, 8] == 4  # two materials at one point: the reference follows the path
+    assert tiers.values[6, 8] == 4  # two materials at one point: the reference traces the path
     assert tiers.values[0, 0] == 0

@@ -1,10 +1,10 @@
 #!/bin/sh
-# Tests bench/report.py: what it draws, and its page in headless Chromium.
+# Tests bench/report.py: its data, and its page in headless Chromium.
 #
 #   tests/report/run.sh [BUILD]    a Release build with Python's module and raylane-tiers; default build/release.
 #                                  Screenshots go to build/report.
 #
-# It wants python3-numpy, python3-pil, python3-pytest, node, npm and chromium.
+# Needs python3-numpy, python3-pil, python3-pytest, node, npm and chromium.
 set -eu
 cd "$(dirname "$0")/../.."
 build=$(realpath "${1:-build/release}")
