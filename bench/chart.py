@@ -1,14 +1,17 @@
 """Turns the JSON of raylane-bench and of peers/run.sh into gnuplot commands for the figures of chart.sh.
 
-    chart.py JSON methods RAYS ISA
+    chart.py JSON methods RAYS [ISA...]    default: AVX-512 and AVX2 if both were measured, otherwise the widest
     chart.py JSON pictures
     chart.py JSON peers
     chart.py JSON errors
 """
 
 import json
+import math
 import statistics
 import sys
+
+import machine
 
 COLORS = {
     "fast": "#d7301f",
@@ -18,15 +21,19 @@ COLORS = {
     "Embree": "#009e73",
     "raylane": "#0072b2",
 }
+# Open marks of several shapes and sizes, so that marks at one place all show.
+MARKS = {"fast": 4, "robust": 8, "exact": 7, "double": 12, "Embree": 2}
+SIZES = {"fast": 1.6, "robust": 1.2, "exact": 1.0, "double": 1.4, "Embree": 1.2}
 MEANINGS = {
-    "fast": "fast: float, textbook formulas",
-    "robust": "robust: float, its best formulas",
-    "exact": "exact: float bounds, double certified, exact where in doubt",
-    "double": "double: robust's formulas in double",
-    "Embree": "Embree 3: float, its own solvers; the faster way to call it",
+    "fast": "fast: textbook formulas in float",
+    "robust": "robust: the best formulas in float",
+    "exact": "exact: float bounds, certified in double, exact arithmetic in doubt",
+    "double": "double: the formulas of robust in double",
+    "Embree": "Embree 3: its own solvers in float, the faster of its calls",
 }
-CEILING = "the plainest loop in float, of this kind alone"
+CEILING = "upper bound: brute-force float loop for this shape"
 GREY = "#999999"
+ISAS = ("avx512", "avx2", "sse4.2", "neon", "portable")  # widest first
 
 
 def runs_of(source, family):
@@ -40,8 +47,19 @@ def runs_of(source, family):
     return runs
 
 
+def document_of(source):
+    with open(source) as file:
+        return json.load(file)
+
+
 def median(runs, counter):
     return statistics.median(run[counter] for run in runs)
+
+
+def isas_to_draw(measured):
+    """Returns AVX-512 and AVX2 if both were measured, otherwise the widest instruction set."""
+    both = [isa for isa in ISAS[:2] if isa in measured]
+    return both or [isa for isa in ISAS if isa in measured][:1]
 
 
 class Plot:
@@ -68,16 +86,28 @@ class Plot:
         print("plot", ", ".join(self.curves))
 
 
-def begin(title, layout, xlabel, ylabel):
-    print("set multiplot layout %s title \"%s\" font ',14'" % (layout, title))
+def escaped(text):
+    """Returns text for a double-quoted gnuplot string, whose enhanced mode reads some characters as commands."""
+    return "".join("\\\\" + c if c in "_^@{}&~" else c for c in text if c not in '"\\`')
+
+
+def begin(title, better, small_print, layout, xlabel, ylabel):
+    lines = "{/=14 %s}\\n{/=10 %s}\\n{/=8 %s}" % (title, better, escaped(small_print) or " ")
+    print("set multiplot layout %s title \"%s\"" % (layout, lines))
     print("set logscale y\nset format y '10^{%L}'\nset tics font ',9'")
-    print("set grid ytics lc '#dddddd'")
+    print("set grid ytics lt 1 lw 0.5 lc '#dddddd'")
     print("set xlabel '%s' offset 0,0.6 font ',9'" % xlabel)
     print("set ylabel '%s' offset 1.5 font ',9'" % ylabel)
 
 
+def tick_step(range_end, most=4):
+    """Returns 1, 2 or 5 times a power of ten, at least range_end / most."""
+    step = 10 ** math.floor(math.log10(range_end / most))
+    return next(step * factor for factor in (1, 2, 5, 10) if step * factor >= range_end / most)
+
+
 def pareto_front(marks):
-    """Returns those of the marks (speed, error, ...) that no other mark beats in both."""
+    """Returns the marks (speed, error, ...) that no other mark beats in both speed and error."""
     front, least = [], float("inf")
     for mark in sorted(marks, key=lambda mark: (-mark[0], mark[1])):
         if mark[1] < least:
@@ -86,63 +116,161 @@ def pareto_front(marks):
     return front
 
 
-def methods_figure(source, rays, isa):
-    by_shape, places, ceilings = {}, {}, {}
-    for (shape, which, method, on), runs in runs_of(source, "methods").items():
-        if which != rays or on != isa:
-            continue
-        if method == "ceiling":
-            ceilings[shape] = median(runs, "items_per_second") / 1e6
-            continue
-        name = "Embree" if method.startswith("embree") else method
-        mark = (median(runs, "items_per_second") / 1e6, runs[0]["ulps_p99"], name, runs[0]["wrong"])
-        marks = by_shape.setdefault(shape, {})
-        if name not in marks or mark > marks[name]:  # the fastest way to call it
-            marks[name] = mark
-        if name != "Embree": # raylane's precisions register all shapes, in their order
-            places[shape] = runs[0]["family_index"]
-    if not by_shape:
-        sys.exit("chart.sh: no measurements of %s rays by %s in %s" % (rays, isa, source))
+class Panel:
+    """Measurements of one shape: marks (speed, error, method, misclassified share) and upper bounds, by ISA."""
 
-    floor = 0.1 # ulps at the bottom of a panel
-    begin("Nearest of 12 shapes, normals included: %s rays, one thread, %s" % (rays, isa),
-          "%d,4" % (len(by_shape) // 4 + 1),  # with the key in the last row
-          "million rays/s", "ulps of t, 99th percentile")
-    for shape in sorted(by_shape, key=places.get):
-        marks = [(speed, max(error, floor), name, wrong)
-                 for speed, error, name, wrong in by_shape[shape].values()]
+    def __init__(self):
+        self.marks, self.ceilings, self.place = {}, {}, 0
+
+    def add(self, method, isa, runs):
+        speed = median(runs, "items_per_second") / 1e6
+        if method == "ceiling":
+            self.ceilings[isa] = speed
+            return
+        name = "Embree" if method.startswith("embree") else method
+        mark = (speed, runs[0]["ulps_p99"], name, runs[0]["wrong"])
+        marks = self.marks.setdefault(isa, {})
+        if name not in marks or mark > marks[name]:  # the faster call
+            marks[name] = mark
+        if name != "Embree":  # raylane's precisions register all shapes, in their order
+            self.place = runs[0]["family_index"]
+
+    def all_marks(self):
+        return [mark for marks in self.marks.values() for mark in marks.values()]
+
+
+def overlap(a, b):
+    """Returns the common area of two boxes (left, bottom, right, top)."""
+    return max(0, min(a[2], b[2]) - max(a[0], b[0])) * max(0, min(a[3], b[3]) - max(a[1], b[1]))
+
+
+class Labels:
+    """Places labels beside marks of a panel where they hide the least. Units: about a pixel."""
+
+    WIDTH, HEIGHT = 210, 140
+    PLACES = (("center offset 0,0.9", 0, 14), ("center offset 0,-0.9", 0, -14),
+              ("left offset 1,0", 1, 0), ("right offset -1,0", -1, 0))
+
+    def __init__(self, xmax, floor, top):
+        self.xmax, self.floor, self.top = xmax, floor, top
+        self.taken = []
+
+    def at(self, speed, error):
+        return (self.WIDTH * speed / self.xmax,
+                self.HEIGHT * math.log10(error / self.floor) / math.log10(self.top / self.floor))
+
+    def keep_free(self, speed, error):
+        x, y = self.at(speed, error)
+        self.taken.append((x - 6, y - 6, x + 6, y + 6))
+
+    def keep_free_between(self, mark, other):
+        (x0, y0), (x1, y1) = self.at(*mark), self.at(*other)
+        self.taken.append((min(x0, x1), min(y0, y1) - 1, max(x0, x1), max(y0, y1) + 1))
+
+    def keep_free_line(self, speed):
+        x = self.WIDTH * speed / self.xmax
+        self.taken.append((x - 1, 0, x + 1, self.HEIGHT))
+
+    def place(self, speed, error, text):
+        """Returns gnuplot's placement of a label."""
+        x, y = self.at(speed, error)
+        half, best = 3.5 * len(text), None
+        for placement, across, up in self.PLACES:
+            middle = x + across * (8 + half)
+            box = (middle - half, y + up - 7, middle + half, y + up + 7)
+            area = (box[2] - box[0]) * (box[3] - box[1])
+            hidden = sum(overlap(box, other) for other in self.taken)
+            hidden += 2 * (area - overlap(box, (0, 0, self.WIDTH, self.HEIGHT)))
+            if best is None or hidden < best[0]:
+                best = (hidden, placement, box)
+        self.taken.append(best[2])
+        return best[1]
+
+
+def methods_figure(source, rays, *isas):
+    panels, measured = {}, set()
+    for (shape, which, method, on), runs in runs_of(source, "methods").items():
+        if which == rays:
+            measured.add(on)
+            panels.setdefault(shape, Panel()).add(method, on, runs)
+    isas = [isa for isa in isas or isas_to_draw(measured) if isa in measured]
+    panels = {shape: panel for shape, panel in panels.items() if isas and panel.marks.get(isas[0])}
+    if not panels:
+        sys.exit("chart.sh: no measurements of %s rays by %s in %s" % (rays, " ".join(isas), source))
+
+    floor = 0.1  # ulps at the bottom of a panel
+    for panel in panels.values():
+        panel.marks = {isa: {name: (speed, max(error, floor), name, wrong)
+                             for name, (speed, error, _, wrong) in panel.marks.get(isa, {}).items()}
+                       for isa in isas}
+        panel.ceilings = {isa: panel.ceilings[isa] for isa in isas if isa in panel.ceilings}
+    worst = max(mark[1] for panel in panels.values() for mark in panel.all_marks())
+    top = worst * max(10, worst / floor) ** 0.22  # room for a label
+    rows = len(panels) // 4 + 1  # with the key in the last row
+    begin("Speed and error of the nearest hit among 12 shapes, with normals: %s rays, one thread" % rays,
+          "Lower right is better: faster and more accurate. p99: 99th percentile.",
+          machine.small_print(document_of(source), isas, ("raylane", "Embree")), "%d,4" % rows,
+          "million rays/s", "error of t [ulp], p99")
+    print("set lmargin 8\nset rmargin 2\nset mytics 1")
+    print("set yrange [%g:%g]\nset ytics 0.1,%d" % (floor, top, 100 if top / floor > 1e4 else 10))
+    for shape in sorted(panels, key=lambda shape: panels[shape].place):
+        panel = panels[shape]
         print("set title '%s' offset 0,-0.6" % shape.replace("_", " "))
-        ceiling = ceilings.get(shape)
-        top = 8 * max(mark[1] for mark in marks)
-        fastest = 1.2 * max([mark[0] for mark in marks] + [ceiling or 0])
-        print("set xrange [0:%g]\nset xtics %g\nset yrange [%g:%g]" %
-              (fastest, 50 if fastest > 100 else 20, floor, top))
-        plot = Plot()
-        if ceiling:
-            plot.add([(ceiling, floor), (ceiling, top)], "with lines lw 1.5 lc 'black' notitle")
-        plot.add([mark[:2] for mark in pareto_front(marks)],
-                 "with lines lc '%s' dt 2 notitle" % GREY)
-        for speed, error, name, wrong in marks:
-            share = "" if wrong == 0 else " %.2g %% wrong" % (100 * wrong)
-            plot.add([(speed, error, share)],
-                     "with points pt 7 ps 1.1 lc '%s' notitle" % COLORS[name])
-            plot.again("using 1:2:3 with labels center offset 0,0.8 font ',9' tc '%s' notitle" %
-                       COLORS[name])
-        plot.draw()
-    named = {name for marks in by_shape.values() for name in marks}
-    draw_key(["NaN with points pt 7 ps 1.4 lc '%s' title \"%s\"" % (color, MEANINGS[name])
-              for name, color in COLORS.items() if name in named] +
+        xmax = 1.1 * max([mark[0] for mark in panel.all_marks()] + list(panel.ceilings.values()))
+        print("set xrange [0:%g]\nset xtics 0,%g" % (xmax, tick_step(xmax)))
+        draw_methods(panel, isas, Labels(xmax, floor, top))
+    drawn = {mark[2] for panel in panels.values() for mark in panel.all_marks()}
+    draw_key(["NaN with points pt %d ps %g lw 1.5 lc '%s' title \"%s\"" %
+              (MARKS[name], SIZES[name], color, MEANINGS[name])
+              for name, color in COLORS.items() if name in drawn] +
              ["NaN with lines lw 1.5 lc 'black' title '%s'" % CEILING,
-              "NaN with lines lc '%s' dt 2 title 'the best of these'" % GREY])
+              "NaN with lines lc '%s' dt 2 title 'Pareto front'" % GREY,
+              "NaN with dots lc 'white' title 'number at a mark: misclassified rays [%]'"] +
+             ["NaN with linespoints pt 6 ps 0.6 lw 0.5 lc 'black' title "
+              "'small mark, dotted upper bound: %s'" % machine.ISA_NAMES.get(isa, isa) for isa in isas[1:]])
+
+
+def draw_methods(panel, isas, labels):
+    first, *others = isas
+    plot = Plot()
+    for isa, ceiling in panel.ceilings.items():
+        labels.keep_free_line(ceiling)
+        plot.add([(ceiling, labels.floor), (ceiling, labels.top)],
+                 "with lines lw 1.5 lc 'black' %s notitle" % ("" if isa == first else "dt 3"))
+    plot.add([mark[:2] for mark in pareto_front(panel.marks[first].values())],
+             "with lines lc '%s' dt 2 notitle" % GREY)
+    for name, mark in panel.marks[first].items():
+        color = COLORS[name]
+        for isa in others:
+            if name in panel.marks[isa]:  # joined to the mark of the first instruction set
+                labels.keep_free_between(panel.marks[isa][name][:2], mark[:2])
+                plot.add([panel.marks[isa][name][:2], mark[:2]], "with lines lw 0.5 lc '%s' notitle" % color)
+                plot.add([panel.marks[isa][name][:2]],
+                         "with points pt %d ps %g lc '%s' notitle" % (MARKS[name], SIZES[name] / 2, color))
+        plot.add([mark[:2]],
+                 "with points pt %d ps %g lw 1.5 lc '%s' notitle" % (MARKS[name], SIZES[name], color))
+    for mark in panel.all_marks():
+        labels.keep_free(*mark[:2])
+    for speed, error, name, wrong in panel.marks[first].values():
+        if wrong > 0:
+            text = "%.2g" % (100 * wrong)
+            plot.add([(speed, error, text)], "using 1:2:3 with labels %s font ',9' tc '%s' notitle" %
+                     (labels.place(speed, error, text), COLORS[name]))
+    plot.draw()
 
 
 def draw_key(entries):
     """Draws the key in the last row, which holds nothing else."""
     print("unset title\nunset border\nunset tics\nunset grid\nunset logscale\nunset xlabel\n"
           "unset ylabel\nset xrange [0:1]\nset yrange [0:1]\n"
-          "set key at 0,0.95 left top Left reverse samplen 1.5 spacing 1.5 font ',11'")
+          "set key at 0,0.95 left top Left reverse maxrows 5 samplen 1.5 spacing 1.4 width -4 "
+          "font ',10'")
     print("plot", ", ".join(entries))
     print("unset multiplot")
+
+
+def interval(values):
+    return "%g to %g" % (min(values), max(values))
 
 
 def pictures_figure(source):
@@ -151,35 +279,51 @@ def pictures_figure(source):
         scenes.setdefault(scene, {}).setdefault((what, precision), []).append(
             (int(value), 1000 * median(runs, "seconds"), runs[0]["rmse"]))
     if not scenes:
-        sys.exit("chart.sh: no measurements of pictures in %s" % source)
+        sys.exit("chart.sh: no measurements of images in %s" % source)
 
-    begin("What pictures cost and what they are off by, by samples per pixel: 400 pixels a row, "
-          "one thread", "2,3", "milliseconds", "RMSE to 1,024 samples")
+    document = document_of(source)
+    isas = [isa for isa in [document.get("context", {}).get("isa")] if isa]
+    begin("Time and error of whole images, 400 pixels wide, one thread",
+          "Lower left is better: faster and more accurate. Numbers: samples per pixel. "
+          "Depth and weight limits: 64 samples per pixel.",
+          machine.small_print(document, isas, ("raylane",)), "%d,3" % ((len(scenes) + 2) // 3),
+          "time per image [ms]", "RMSE to 1,024 samples per pixel")
     print("set logscale x\nset format y '10^{%L}'\nset yrange [3e-4:1]\nset key off")
-    print("set lmargin 9")
-    for index, (scene, series) in enumerate(scenes.items()):
-        print("set title '%s' offset 0,-0.6" % scene)
+    print("set lmargin 9\nset style textbox opaque noborder margins 0.3,0.3 fillcolor 'white'")
+    points_of = {scene: [point for points in series.values() for point in points] for scene, series in scenes.items()}
+    roomiest = min(scenes, key=lambda scene: max(error for *_, error in points_of[scene]))
+    for scene, series in sorted(scenes.items()):
+        times = [ms for _, ms, _ in points_of[scene]]
+        print("set title '%s' offset 0,-0.6\nset xrange [%g:%g]" % (scene, min(times) / 2.5, 1.5 * max(times)))
         plot = Plot()
-        if index == len(scenes) // 2:  # below, left: there is room above its marks
+        if scene == roomiest:  # free above its marks
             print("set key at graph 0.97,0.97 right top samplen 2 spacing 1.1 font ',9'")
+        labels = []
         for precision, color in COLORS.items():
             points = sorted(series.get(("samples", precision), []))
             points = [(ms, error, str(samples)) for samples, ms, error in points]
             if not points:
                 continue
-            plot.add(points, "with linespoints pt 7 ps 0.7 lw 1.5 lc '%s' title '%s'" %
-                     (color, precision))
+            plot.add(points, "with linespoints pt %d ps %g lw 1.2 lc '%s' title '%s'" %
+                     (MARKS[precision], 0.7 * SIZES[precision], color, precision))
             if precision == "exact":
-                plot.again("using 1:2:3 with labels right offset -0.7,-0.4 font ',8' tc '%s' "
-                           "notitle" % color)
-        for what, title, mark, color in (("quality", "exact, to a quality", 5, "#cc79a7"),
-                                         ("depth", "64 samples, fewer reflections", 6, "#7b3294"),
-                                         ("weight", "64 samples, fewer faint paths", 4, "#008080")):
-            points = [(ms, error) for _, ms, error in sorted(series.get((what, "exact"), []))
-                      if error > 0]
-            if points:
-                plot.add(points, "with linespoints pt %d ps 0.8 dt 2 lc '%s' title '%s'" %
-                         (mark, color, title))
+                labels = points
+        for what, title, mark, color in (("quality", "exact, quality %s dB", 5, "#cc79a7"),
+                                         ("depth", "exact, depth limit %s", 6, "#7b3294"),
+                                         ("weight", "exact, weight limit %s", 10, "#008080")):
+            varied = sorted(series.get((what, "exact"), []))
+            points = [(ms, error) for _, ms, error in varied if error > 0]
+            values = [value for each in scenes.values() for value, *_ in each.get((what, "exact"), [])]
+            if values:
+                title %= interval([value / (1000 if what == "weight" else 1) for value in values])
+                style = "with linespoints pt %d ps 0.8 dt 2 lc '%s' title '%s'" % (mark, color, title)
+                if points:
+                    plot.add(points, style)
+                else:  # for the key
+                    plot.curves.append("NaN " + style)
+        if labels:
+            plot.add(labels, "using 1:2:3 with labels boxed right offset -0.8,-0.5 font ',8' tc '%s' "
+                     "notitle" % COLORS["exact"])
         plot.draw()
         print("set key off")
     print("unset multiplot")
@@ -200,61 +344,82 @@ def speeds_by_count(rows, what):
 
 
 def peers_figure(source):
-    with open(source) as file:
-        rows = json.load(file)["rows"]
-    rows = [row for row in rows if row["threads"] == 1 and row.get("isa") == rows[0].get("isa")]
-    if not speeds_by_count(rows, "camera"):
+    document = document_of(source)
+    rows = [row for row in document["rows"] if row["threads"] == 1]
+    isas = isas_to_draw({row.get("isa") for row in rows if speeds_by_count([row], "camera")})
+    if not isas:
         sys.exit("chart.sh: no measurements of spheres in %s" % source)
 
-    begin("Uniform spheres of radius 0.3/n^{1/3} in the unit cube: one thread, %s" %
-          rows[0]["isa"], "1,2", "n, spheres", "million rays/s")
-    print("set logscale x\nset format x '10^{%L}'\nset format y '%g'\nset yrange [0.3:300]")
-    print("set key top right samplen 2 spacing 1.3 font ',10'")
+    names = [machine.ISA_NAMES[isa] for isa in isas]
+    begin("Rays per second against the number of uniform spheres of radius 0.3/n^{1/3} in the unit cube, one thread",
+          "Higher is better. Top axis: speed of raylane's library relative to Embree, %s." % names[0],
+          machine.small_print(document, isas, ("raylane", "Embree")), "1,2", "number of spheres n", "million rays/s")
+    print("set logscale x\nset logscale x2\nset format x '10^{%L}'\nset format y '%g'\nset yrange [0.3:300]")
+    print("set xtics nomirror\nset key top right samplen 2 spacing 1.2 font ',9'")
     for what in ("camera", "incoherent"):
-        points = speeds_by_count(rows, what)
+        by_isa = {isa: speeds_by_count([row for row in rows if row.get("isa") == isa], what) for isa in isas}
+        points = by_isa[isas[0]]
         print("set title '%s rays' offset 0,-0.6" % what)
-        print("set xrange [%g:%g]" % (points[0][0] / 2, points[-1][0] * 2))
+        limits = (points[0][0] / 2, points[-1][0] * 2)
+        print("set xrange [%g:%g]\nset x2range [%g:%g]" % (*limits, *limits))
+        ratios = ["'%.1f' %g" % (own / other, count) for count, own, _, other in points if other]
+        print("set x2tics (%s) scale 0 offset 0,-0.4 tc '%s'" % (", ".join(ratios), COLORS["raylane"])
+              if ratios else "unset x2tics")
         plot = Plot()
-        plot.add([(count, own, "%.1f" % (own / other) if other else "")
-                  for count, own, _, other in points],
-                 "with linespoints pt 7 lw 2 lc '%s' title "
-                 "'raylane, and how many times Embree'" % COLORS["raylane"])
-        plot.again("using 1:2:3 with labels center offset 0,-0.9 font ',9' tc '%s' notitle" %
-                   COLORS["raylane"])
-        plot.add([(count, engine) for count, _, engine, _ in points],
-                 "with lines dt 2 lw 1 lc '%s' title 'its engine, by its own arrays'" % COLORS["raylane"])
-        if all(other for *_, other in points):
-            plot.add([(count, other) for count, *_, other in points],
-                     "with linespoints pt 7 lw 2 lc '%s' title 'Embree, its best call'" %
-                     COLORS["Embree"])
+        for number, isa in enumerate(isas):
+            draw_speeds(plot, by_isa[isa], names[number], is_first=number == 0)
         plot.draw()
     print("unset multiplot")
 
 
+def draw_speeds(plot, points, isa, is_first):
+    """Adds speeds of one instruction set: filled marks for the first, open and dotted for the second."""
+    if not points:
+        return
+    ours, embree, line = (7, 5, "lw 2") if is_first else (6, 4, "lw 1 dt 3")
+    plot.add([(count, own) for count, own, *_ in points],
+             "with linespoints pt %d %s lc '%s' title \"raylane's library, %s\"" %
+             (ours, line, COLORS["raylane"], isa))
+    if is_first:
+        plot.add([(count, engine) for count, _, engine, _ in points],
+                 "with lines dt 2 lw 1 lc '%s' title \"raylane's engine, internal arrays, %s\"" %
+                 (COLORS["raylane"], isa))
+    if all(other for *_, other in points):
+        plot.add([(count, other) for count, *_, other in points],
+                 "with linespoints pt %d %s lc '%s' title 'Embree, fastest call, %s'" %
+                 (embree, line, COLORS["Embree"], isa))
+
+
 def errors_figure(source):
-    with open(source) as file:
-        data = json.load(file)
+    data = document_of(source)
     scenes = list(dict.fromkeys(row["scene"] for row in data["rows"]))
-    begin("Time of the whole program, one thread, and what a picture of %d x %d is off by" %
-          (data["size"], data["size"]), "%d,2" % ((len(scenes) + 1) // 2), "seconds",
-          "dB to its converged one")
-    print("unset logscale y\nset logscale x\nset format '%g'\nset yrange [15:60]\nset xrange [0.01:100]")
-    print("set lmargin 10\nset ylabel offset 0\nset key bottom right samplen 2 spacing 1.2 font ',9'")
-    names = {"raylane": ("raylane, as many samples in each pixel", COLORS["raylane"], 7),
+    isas = [isa for isa in [data.get("machine", {}).get("isa")] if isa]
+    begin("Time and error of whole programs, images of %d x %d pixels, %d thread%s" %
+          (data["size"], data["size"], data.get("threads", 1), "s" if data.get("threads", 1) > 1 else ""),
+          "Upper left is better: faster and more accurate. "
+          "PSNR [dB] against the renderer's own converged image.",
+          machine.small_print(data, isas, ("raylane", "POV-Ray", "Tachyon")),
+          "%d,2" % ((len(scenes) + 1) // 2), "wall-clock time [s]", "PSNR [dB]")
+    print("unset logscale y\nset logscale x\nset format '%g'\nset yrange [25:60]\nset xrange [0.01:100]")
+    print("set lmargin 10\nset ylabel offset 0\nset key top left Left reverse samplen 2 spacing 1.2 font ',9'")
+    names = {"raylane": ("raylane, fixed samples per pixel", COLORS["raylane"], 7),
              "raylane --quality": ("raylane --quality", "#cc79a7", 5),
              "povray": ("POV-Ray, +A +AM2 +R", COLORS["Embree"], 9),
              "tachyon": ("Tachyon, -aasamples", COLORS["robust"], 11)}
+    present = {row["by"] for row in data["rows"]}
     for scene in scenes:
+        rows = [row for row in data["rows"] if row["scene"] == scene and row["psnr"]]
         print("set title '%s' offset 0,-0.6" % scene)
         plot = Plot()
         for name, (title, color, mark) in names.items():
-            points = [(row["seconds"], row["psnr"]) for row in data["rows"]
-                      if row["scene"] == scene and row["by"] == name and row["psnr"]]
+            points = [(row["seconds"], row["psnr"]) for row in rows if row["by"] == name]
             if points:
                 plot.add(points, "with linespoints pt %d ps 0.8 lw 1.5 lc '%s' title '%s'" %
                          (mark, color, title))
+        if "povray" in present and all(row["by"] != "povray" for row in rows):
+            print("set label 1 'without POV-Ray, which has no sky light' at graph 0.03,0.94 left font ',9'")
         plot.draw()
-        print("set key off")
+        print("set key off\nunset label 1")
     print("unset multiplot")
 
 

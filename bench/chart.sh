@@ -1,20 +1,22 @@
 #!/bin/sh
-# Draws speed against accuracy from raylane-bench, in two figures:
-# - solvers: one panel per shape, one mark per precision (and for Embree, if raylane-bench was built
-#   with it);
-# - whole images: seconds against their difference from converged ones.
-# With PEERS, draws the measurements of bench/peers/run.sh instead: rays per second against the number
-# of shapes, beside Embree's; and seconds for images against their errors, beside POV-Ray's and
-# Tachyon's.
+# Draws speed against error from raylane-bench, in two figures:
+# - chart: one panel per shape, one mark per precision and instruction set, and Embree's marks if
+#   raylane-bench was built with it;
+# - pictures: time of whole images against their difference from converged ones.
+# With PEERS, draws the measurements of bench/peers/run.sh instead:
+# - peers: rays per second of raylane and Embree against the number of spheres;
+# - errors: time of whole programs against the error of their images, for raylane, POV-Ray and Tachyon.
+# The small print has the processor, instruction sets, versions and date of the measurements.
 #
 #   bench/chart.sh [BUILD [FOLDER]]   BUILD: a Release build with raylane-bench; default
 #                                     build/release. FOLDER: where chart.svg, chart.png,
 #                                     pictures.svg, pictures.png and chart.json go, or peers.svg,
 #                                     peers.png, errors.svg and errors.png; default build/chart
 #
-# Environment: ISA (default: the first of avx512, avx2 and sse4.2 that the processor has); RAYS, random
-# or hard (random); REPETITIONS of each measurement (5), of which the median counts; JSON, a file to
-# draw instead of measuring; PEERS, a peers.json, to draw only that and an errors.json beside it.
+# Environment: ISA, one or two of avx512, avx2, sse4.2, neon and portable (default: "avx512 avx2" if both
+# are available, otherwise the widest); RAYS, random or hard (random); REPETITIONS of each measurement
+# (5), of which the median counts; JSON, a file to draw instead of measuring; PEERS, a peers.json, to
+# draw only that and an errors.json beside it.
 # Needs gnuplot and python3 (Debian's packages gnuplot-nox and python3).
 set -eu
 cd "$(dirname "$0")/.."
@@ -28,7 +30,7 @@ fail() {
     exit 2
 }
 for program in gnuplot python3; do
-    command -v $program >/dev/null || fail "no $program here; see Debian's gnuplot-nox and python3"
+    command -v $program >/dev/null || fail "missing $program: install Debian's packages gnuplot-nox and python3"
 done
 mkdir -p "$folder"
 
@@ -46,26 +48,33 @@ draw() { # figure, size, arguments of chart.py
     done
 }
 if [ -n "${PEERS:-}" ]; then
-    draw peers 1200,480 "$PEERS" peers
+    draw peers 1200,540 "$PEERS" peers
     errors=$(dirname "$PEERS")/errors.json
-    [ ! -f "$errors" ] || draw errors 1100,760 "$errors" errors
+    [ ! -f "$errors" ] || draw errors 1100,800 "$errors" errors
     exit
 fi
 
-if [ -z "${ISA:-}" ]; then
-    ISA=sse4.2
-    for flag in avx2:avx2 avx512dq:avx512; do
-        if grep -q "${flag%:*}" /proc/cpuinfo; then ISA=${flag#*:}; fi
-    done
-fi
 json=${JSON:-$folder/chart.json}
 if [ -z "${JSON:-}" ]; then
     [ -x "$build/bin/raylane-bench" ] ||
-        fail "no $build/bin/raylane-bench; cmake --preset release leads to one"
-    "$build/bin/raylane-bench" --benchmark_filter="^methods/.*/$rays/.*/$ISA\$|^picture/" \
+        fail "missing $build/bin/raylane-bench: build it with cmake --preset release"
+    available=$("$build/bin/raylane-bench" --benchmark_list_tests=true \
+        --benchmark_filter='^methods/sphere/random/exact/')
+    widest=
+    for isa in portable neon sse4.2 avx2 avx512; do
+        case $available in *"/$isa"*) widest=$isa ;; esac
+    done
+    isas=${ISA:-$widest}
+    if [ "$isas" = avx512 ] && [ -z "${ISA:-}" ]; then
+        case $available in *"/avx2"*) isas="avx512 avx2" ;; esac
+    fi
+    isas_pattern=$(echo "$isas" | sed 's/  */|/g')
+    "$build/bin/raylane-bench" --benchmark_filter="^methods/.*/$rays/.*/($isas_pattern)\$|^picture/" \
+        --benchmark_context="$(python3 bench/machine.py "$build"),isa=$widest" \
         --benchmark_repetitions="$repetitions" --benchmark_enable_random_interleaving=true \
         --benchmark_min_time=0.05 --benchmark_out="$json" --benchmark_out_format=json >/dev/null
 fi
 
-draw chart 1200,860 "$json" methods "$rays" "$ISA"
-draw pictures 1200,760 "$json" pictures
+# shellcheck disable=SC2086 # a list of words
+draw chart 1200,940 "$json" methods "$rays" ${ISA:-}
+draw pictures 1200,800 "$json" pictures

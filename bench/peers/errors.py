@@ -1,10 +1,11 @@
-"""Times whole images against their errors: raylane's and those of the peers that are installed.
+"""Times whole images against their errors, for raylane and the installed peers.
 
-    errors.py JSON RAYLANE FOLDER SIZE THREADS REPETITIONS SCENES...
+    errors.py JSON BUILD FOLDER SIZE THREADS REPETITIONS SCENES...
 
-FOLDER holds SCENE.nff and SCENE.pov; or SCENE.json and SCENE.nff of a scene under the sky, which Tachyon
-gets by its options. Each program's 8-bit images are compared with that program's converged image, as
-no two programs shade quite alike. Rows go to JSON: {"scene", "by", "setting", "seconds", "psnr"}.
+FOLDER holds SCENE.nff and SCENE.pov. A scene under a sky light has SCENE.json and SCENE.nff instead: Tachyon gets
+the sky light by options, and POV-Ray is left out because it has no sky light. Each program's 8-bit images are
+compared with that program's converged image, because programs shade differently. Rows of JSON:
+{"scene", "by", "setting", "seconds", "psnr"}.
 """
 
 import json
@@ -16,12 +17,15 @@ import subprocess
 import sys
 import time
 
-output, raylane, folder, size, threads, repetitions = sys.argv[1:7]
-folder = pathlib.Path(folder)
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+import machine  # noqa: E402
+
+output, build, folder, size, threads, repetitions = sys.argv[1:7]
+raylane, folder = build + "/bin/raylane", pathlib.Path(folder)
 
 
 class Program:
-    """A renderer: `command` makes the command line from a scene, options and the image's name."""
+    """A renderer. `command` returns the command line for a scene, options and the image's name."""
 
     def __init__(self, name, command, settings, truth):
         self.name, self.command, self.settings, self.truth = name, command, settings, truth
@@ -73,12 +77,12 @@ def programs(scene):
 
 
 def psnr(picture, truth):
-    """Returns decibels, or None if the images are the same; raylane compare exits with 1 if they differ."""
-    said = subprocess.run([raylane, "compare", str(picture), str(truth)], stdout=subprocess.PIPE)
-    for line in said.stdout.decode().splitlines():
+    """Returns decibels, or None for equal images. raylane compare exits with 1 if images differ."""
+    compared = subprocess.run([raylane, "compare", str(picture), str(truth)], stdout=subprocess.PIPE)
+    for line in compared.stdout.decode().splitlines():
         if line.startswith("PSNR"):
             return float(line.split()[1])
-    return None  # the same picture
+    return None  # equal images
 
 
 def measure(scene):
@@ -99,11 +103,20 @@ def measure(scene):
     return rows
 
 
+def isa():
+    """Returns raylane's instruction set, which raylane-peers has measured, or an empty string."""
+    for part in sorted((folder / "parts").glob("[0-9]*.json")):
+        for row in json.loads(part.read_text())["rows"]:
+            return row.get("isa", "")
+    return ""
+
+
 def main():
-    print("time against error: %s x %s pixels, %s thread(s)" % (size, size, threads))
+    print("Time and PSNR of whole images: %s x %s pixels, %s thread(s)" % (size, size, threads))
     rows = [row for scene in sys.argv[7:] for row in measure(scene)]
     with open(output, "w") as file:
-        json.dump({"size": int(size), "rows": rows}, file, indent=2)
+        json.dump({"machine": {**machine.described(build), **machine.versions_of_peers(), "isa": isa()},
+                   "size": int(size), "threads": int(threads), "rows": rows}, file, indent=2)
 
 
 main()

@@ -1,8 +1,8 @@
-"""Times whole processes that render whole images, by raylane and the installed peers: see run.sh.
+"""Times whole processes that render whole images, for raylane and the installed peers. run.sh calls it.
 
     pictures.py JSON RAYLANE FOLDER SIZE THREADS REPETITIONS
 
-FOLDER holds SCENE.nff and SCENE.pov. Rows in the form of raylane-peers' go to JSON.
+FOLDER holds SCENE.nff and SCENE.pov. JSON gets rows in the format of raylane-peers.
 """
 
 import json
@@ -19,7 +19,7 @@ folder = pathlib.Path(folder)
 
 
 def commands(scene):
-    """Returns the commands that render a scene, by the program's name. All follow four reflections."""
+    """Returns the commands that render a scene, by the program's name. All trace four reflections."""
     nff, pov, out = (str(folder / (scene + end)) for end in (".nff", ".pov", ""))
     every = {
         "raylane": [raylane, "render", nff, "-o", out + ".raylane.png", "--size",
@@ -62,7 +62,7 @@ def measure(scene):
 
 def main():
     scenes = sorted(path.stem for path in folder.glob("*.nff") if path.with_suffix(".pov").exists())
-    print("whole pictures, whole processes: %s x %s pixels, %s thread(s)" % (size, size, threads))
+    print("Whole processes that render images: %s x %s pixels, %s thread(s)" % (size, size, threads))
     rows = [measure(scene) for scene in scenes]
     with open(output, "w") as file:
         json.dump({"rows": rows}, file, indent=2)

@@ -1,27 +1,31 @@
 #!/bin/sh
-# Measures raylane beside each other ray tracer that is installed, in turn: the same scenes, rays and
-# threads, medians of several runs. Prints one table.
+# Measures raylane and each other installed ray tracer, alternating: the same scenes, rays and threads,
+# medians of several runs. Prints one table.
 #
 #   bench/peers/run.sh [BUILD [FOLDER]]   BUILD: a Release build of raylane; default build/release.
-#                                         FOLDER: where peers.json, errors.json and the scenes
-#                                         go; default build/peers
+#                                         FOLDER: the folder of peers.json, errors.json and the
+#                                         scenes; default build/peers
 #
-# Embree 3 or 4, if it was installed when raylane was configured (Debian's libembree-dev): rays of several
-# sorts on 10 to 10,000,000 balls and on a lattice of 1,000,000 balls and sticks; building; two
-# threads; and whole images by raylane's wavefront with Embree's calls inside. POV-Ray 3.7 and
-# Tachyon 0.99 (Debian's povray and tachyon): whole images, whole processes; and the same with all
-# their settings of anti-aliasing, against the images' errors. Needs python3.
+# Peers:
+# - Embree 3 or 4, if it was installed when raylane was configured (Debian's libembree-dev): several sets
+#   of rays on 10 to 10,000,000 balls and on a lattice of 1,000,000 balls and sticks; building; two
+#   threads; and whole images by raylane's wavefront with Embree's calls inside.
+# - POV-Ray 3.7 and Tachyon 0.99 (Debian's povray and tachyon): whole processes that render whole images;
+#   and the same with several settings of anti-aliasing, against the images' errors.
+# Needs python3.
 #
-# Environment: QUICK=1, to check within some minutes that it works; SIZE, of images in pixels
-# (1024); ERROR_SIZE, of images that are compared with converged ones (half of SIZE); REPETITIONS (5);
-# THREADS, of whole processes (1).
+# Environment: QUICK=1 for a trial run of some minutes; SIZE of images in pixels (1024); ERROR_SIZE of
+# images that are compared with converged ones (half of SIZE); REPETITIONS (5); THREADS of whole
+# processes (1).
 #
-# Scenes: balls, rings and tree of the Standard Procedural Databases in ../shared/scenes, if they
-# are there, a sphereflake of 66,430 balls and a lattice of 16 x 16 x 16, as raylane convert writes them.
-# All programs get the properties that NFF can express. Tachyon's angle of view is 53.13 degrees whatever
-# the file says. These two scenes have that angle; of the others, which have 45, it shows a little more.
+# Scenes: balls, rings and tree of the Standard Procedural Databases in ../shared/scenes, if that folder
+# exists; a sphereflake of 66,430 balls and a lattice of 16 x 16 x 16, written by raylane convert; and a
+# protein under one light and under a sky light. Only raylane and Tachyon render the protein under the sky
+# light, because POV-Ray has no sky light. All programs get the properties that NFF can express. Tachyon's
+# angle of view is always 53.13 degrees. The sphereflake, the lattice and the proteins have that angle.
+# The other scenes have 45 degrees, so Tachyon shows a little more of them.
 #
-# Exit code 1: raylane has given a wrong answer.
+# Exit code 1: one of raylane's answers is wrong.
 set -eu
 cd "$(dirname "$0")/../.."
 build=${1:-build/release}
@@ -39,11 +43,11 @@ fail() {
 }
 for program in raylane raylane-peers; do
     [ -x "$build/bin/$program" ] ||
-        fail "no $build/bin/$program; build with: cmake --preset release && cmake --build --preset release"
+        fail "missing $build/bin/$program: build it with cmake --preset release"
 done
-command -v python3 >/dev/null || fail "python3 is missing"
+command -v python3 >/dev/null || fail "missing python3"
 for peer in povray tachyon; do
-    command -v $peer >/dev/null || echo "$peer is missing, left out"
+    command -v $peer >/dev/null || echo "$peer: not installed, left out"
 done
 mkdir -p "$folder/parts"
 rm -f "$folder"/parts/*.json
@@ -74,7 +78,7 @@ cat >"$folder/lattice-16.json" <<END
      "n": 16, "spacing": 0.16, "sphere_radius": 0.045, "strut_radius": 0.012}]
 }
 END
-# The protein under one light, as all programs can render it, and under the sky. Both have Tachyon's angle of view.
+# The protein under one light, for all programs, and under a sky light. Both have Tachyon's angle of view.
 protein() { # lights
     sed -e '/"lights": \[/,/^    \],/d' -e "s/^    \"materials\"/    \"lights\": [$1],\n&/" \
         -e 's/"from": [^]]*\]/"from": [8.4, 12.3, 46.8]/' \
@@ -95,7 +99,7 @@ picture=$folder/sphereflake-5.nff
 [ ! -f "$folder/balls.nff" ] || picture=$folder/balls.nff
 
 number=10
-measure() { # arguments of raylane-peers, whose exit code 1 is for the table
+measure() { # arguments of raylane-peers; table.py reports its exit code 1
     number=$((number + 1))
     "$build/bin/raylane-peers" "$@" --size "$size" --repetitions "$repetitions" \
         --json "$folder/parts/$number.json" || [ $? -eq 1 ]
@@ -119,6 +123,6 @@ all="camera scanlines mirror shadow incoherent occlusion"
 }
 python3 bench/peers/pictures.py "$folder/parts/pictures.json" "$build/bin/raylane" "$folder" \
     "$size" "${THREADS:-1}" "$repetitions"
-python3 bench/peers/errors.py "$folder/errors.json" "$build/bin/raylane" "$folder" \
+python3 bench/peers/errors.py "$folder/errors.json" "$build" "$folder" \
     "${ERROR_SIZE:-$((size / 2))}" "${THREADS:-1}" 1 lattice-16 sphereflake-5 protein protein-sky
-python3 bench/peers/table.py "$folder/peers.json" "$folder"/parts/*.json
+python3 bench/peers/table.py "$folder/peers.json" "$build" "$folder"/parts/*.json

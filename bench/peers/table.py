@@ -1,8 +1,8 @@
-"""Joins measurements into one file and one table: see run.sh.
+"""Joins measurements into one file and one table. run.sh calls it.
 
-    table.py JSON PART...
+    table.py JSON BUILD PART...
 
-Exit code 1: raylane has given a wrong answer.
+Exit code 1: one of raylane's answers is wrong.
 """
 
 import json
@@ -10,16 +10,23 @@ import pathlib
 import sys
 
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+import machine  # noqa: E402
+
+
 def load(parts):
-    rows = []
+    """Returns all rows, and Embree's version or an empty string."""
+    rows, embree = [], ""
     for part in parts:
         with open(part) as file:
-            rows += json.load(file)["rows"]
-    return rows
+            document = json.load(file)
+        rows += document["rows"]
+        embree = document.get("embree") or embree
+    return rows, embree
 
 
 def users(row):
-    """Returns the result for users of raylane."""
+    """Returns the result of raylane's library or program, as users call it."""
     return next((result for result in row["by"] if result["name"] == row.get("own")),
                 row["by"][0])
 
@@ -45,8 +52,8 @@ def cells(row):
 
 
 def print_table(rows):
-    head = ["scene", "what", "isa", "threads", "unit", "its engine", "raylane", "best peer", "which", "ratio",
-            "wrong", "its"]
+    head = ["scene", "measured", "isa", "threads", "unit", "engine", "raylane", "best peer", "peer", "ratio",
+            "wrong", "wrong of peer"]
     table = [head] + [cells(row) for row in rows]
     widths = [max(len(line[column]) for line in table) for column in range(len(head))]
     numbers = {3, 5, 6, 7, 9, 10, 11}
@@ -61,27 +68,33 @@ def gain(row, result):
 
 
 def print_scaling(rows):
-    """Prints the gains of several threads over one; the runs took turns."""
+    """Prints the speed with several threads relative to one thread. The runs alternated."""
     for row in rows:
         results = [result for result in (users(row), best_peer(row))
                    if result and "alone" in result]
         if results:
-            print("%s, %s: %d threads are %s" % (
+            print("%s, %s: speed with %d threads relative to one: %s" % (
                 row["scene"], row["what"], row["threads"],
-                ", ".join("%.2f times one by %s" % (gain(row, result), result["name"])
+                ", ".join("%.2f for %s" % (gain(row, result), result["name"])
                           for result in results)))
 
 
 def main():
-    output, parts = sys.argv[1], sys.argv[2:]
-    rows = load(parts)
+    output, build, *parts = sys.argv[1:]
+    rows, embree = load(parts)
+    description = {**machine.described(build), **machine.versions_of_peers()}
+    if embree:
+        description["Embree"] = embree
     for row in rows:
         row["scene"] = pathlib.PurePath(row["scene"]).name if row["scene"].endswith(
             (".nff", ".json")) else row["scene"]
     with open(output, "w") as file:
-        json.dump({"rows": rows}, file, indent=2)
-    print("\nMedians. Ratio: raylane's speed for its users relative to the best peer's. Wrong: answers that certified"
-          "\narithmetic refutes; for images, pixels that differ from raylane's.\n")
+        json.dump({"machine": description, "rows": rows}, file, indent=2)
+    isas = [isa for isa in dict.fromkeys(row.get("isa", "") for row in rows) if isa]
+    print("\n%s" % machine.small_print({"machine": description}, isas))
+    print("Medians. engine: raylane's engine on internal arrays. raylane: the library or the program. ratio: speed of"
+          "\nraylane relative to the best peer. wrong, wrong of peer: answers of the engine and of the best peer that"
+          "\ncertified arithmetic refutes; for an image, pixels that differ from raylane's.\n")
     print_table(rows)
     print()
     print_scaling(rows)
