@@ -115,6 +115,7 @@ def main():
     data = {
         "made": f"Made on {day:%Y-%m-%d}.",
         "charts": charts,
+        "machines": measurements.small_prints_of(folder),
         "failures": failures,
         "sets": [each.packed() for each in sets],
     }

@@ -1,4 +1,4 @@
-// Bundles src/main.js with its libraries into one script and one style sheet, for report.py to put into a page.
+// Bundles src/main.js with its libraries into one script and one style sheet. report.py puts them into the page.
 //
 //   node build.mjs MODULES OUTPUT    MODULES: a node_modules; OUTPUT: a folder
 import { createRequire } from "node:module";

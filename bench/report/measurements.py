@@ -4,6 +4,7 @@ import json
 import math
 
 import chart
+import machine
 
 
 def methods(path):
@@ -64,16 +65,31 @@ def peers(path):
     return [row for row in rows if row["psnr"] and math.isfinite(row["psnr"])]
 
 
+SOURCES = {
+    "methods": (methods, "chart.json"),
+    "pictures": (pictures, "chart.json"),
+    "counts": (counts, "peers.json"),
+    "peers": (peers, "errors.json"),
+}
+
+
+def small_prints_of(folder):
+    """Returns the small print of each figure: the processor, versions, date and sizes that its source has."""
+    texts = {}
+    for name, (_, source) in SOURCES.items():
+        path = folder / source
+        document = json.loads(path.read_text()) if path.exists() else {}
+        parts = [machine.small_print(document)]
+        if name == "peers" and "threads" in document:
+            parts += ["{threads} thread(s)".format(**document), "{size} x {size} pixels".format(**document)]
+        texts[name] = "; ".join(part for part in parts if part)
+    return texts
+
+
 def of_folder(folder):
     """Returns the rows of each figure; empty if its source is missing."""
-    sources = {
-        "methods": (methods, "chart.json"),
-        "pictures": (pictures, "chart.json"),
-        "counts": (counts, "peers.json"),
-        "peers": (peers, "errors.json"),
-    }
     rows = {}
-    for name, (rows_of, source) in sources.items():
+    for name, (rows_of, source) in SOURCES.items():
         path = folder / source
         try:
             rows[name] = rows_of(path) if path.exists() else []

@@ -56,7 +56,7 @@ try {
         if (method === "ceiling") continue;
         const run = runs.find((each) => each.run_name === `methods/${shape}/random/${names.at(-1)}/avx512`);
         is_near(p99, run.ulps_p99);
-        is_near(wrong, run.wrong);
+        is_near(wrong, 100 * run.wrong);
     }
     await page.select('[data-choice="rays"]', "hard");
     await page.select('[data-choice="error"]', "wrong");

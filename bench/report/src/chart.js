@@ -11,7 +11,7 @@ function draw({ made, options }) {
     made.setOption({ animation: false, ...options() }, true);
 }
 
-/** Draws what options() says in a place, and again where colours or sizes change. */
+/** Draws a chart with options() in a place, and redraws it when colours or sizes change. */
 export function chart(place, options) {
     if (!shown.has(place)) {
         const made = init(place, null, { renderer: "svg" });

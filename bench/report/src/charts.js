@@ -2,7 +2,7 @@ import { chart, forget } from "./chart.js";
 import { color } from "./colors.js";
 import { element, escaped, many } from "./html.js";
 
-// Colour and mark of each method, program and way.
+// Colour and mark of each method, program and setting.
 const looks = {
     fast: ["fast", "triangle"],
     robust: ["robust", "diamond"],
@@ -10,7 +10,7 @@ const looks = {
     double: ["double", "rect"],
     Embree: ["peer", "pin"],
     raylane: ["exact", "circle"],
-    "its engine": ["faint", "rect"],
+    "raylane's engine": ["faint", "rect"],
     "raylane --quality": ["quality", "diamond"],
     quality: ["quality", "diamond"],
     depth: ["violet", "triangle"],
@@ -21,8 +21,8 @@ const looks = {
 const lookOf = (name) => looks[name] ?? ["ink", "circle"];
 const marks = { triangle: "\u25b2", diamond: "\u25c6", circle: "\u25cf", rect: "\u25a0", pin: "\u2666", arrow: "\u25bc" };
 
-/** Numbers as people read them. */
-function told(value) {
+/** Returns a value as text, numbers with four digits. */
+function textOf(value) {
     if (value === null || value === undefined) return "";
     if (typeof value !== "number") return `${value}`;
     return Number.isInteger(value) ? `${value}` : `${Number(value.toPrecision(4))}`;
@@ -37,7 +37,7 @@ function table(columns, rows) {
             "table",
             {},
             element("tr", {}, ...columns.map((each) => element("th", {}, each))),
-            ...rows.map((row) => element("tr", {}, ...row.map((each) => element("td", {}, told(each))))),
+            ...rows.map((row) => element("tr", {}, ...row.map((each) => element("td", {}, textOf(each))))),
         ),
     );
 }
@@ -55,7 +55,7 @@ function axis(name, extra) {
 
 const power = (value) => (value === 0 || (value >= 0.01 && value < 1e4) ? `${Number(value.toPrecision(3))}` : value.toExponential(0));
 
-/** One panel: lines of points [x, y, ...what a tooltip tells]. */
+/** Draws one panel: lines of points [x, y, ...values for the tooltip]. */
 function lines(place, { title, x, y, series, vertical, tip, isLog = [true, true], least, most }) {
     chart(place, () => ({
         title: { text: title, textStyle: { fontSize: 13, color: color("ink") } },
@@ -79,13 +79,13 @@ function lines(place, { title, x, y, series, vertical, tip, isLog = [true, true]
             itemStyle: { color: color(lookOf(name)[0]) },
             lineStyle: { color: color(lookOf(name)[0]), width: 1.5 },
             emphasis: { scale: 1.4 },
-            // Of the first one, for the panel.
+            // The first series carries the panel's vertical line.
             markLine: number === 0 && vertical ? { silent: true, symbol: "none", lineStyle: { color: color("ink"), type: "solid", width: 1 }, label: { show: false }, data: [{ xAxis: vertical }] } : undefined,
         })),
     }));
 }
 
-/** Who is who, once for all panels of a figure. */
+/** Returns the key for all panels of a figure. */
 function key(entries) {
     return element(
         "p",
@@ -112,22 +112,26 @@ function select(label, options, change) {
 }
 
 const methodMeanings = [
-    ["fast", "fast: float, textbook formulas"],
-    ["robust", "robust: float, its best formulas"],
-    ["exact", "exact: certified, exact where in doubt"],
-    ["double", "double: robust's formulas in double"],
-    ["Embree", "Embree: float, its own solvers, the faster call"],
+    ["fast", "fast: textbook formulas in float"],
+    ["robust", "robust: the best formulas in float"],
+    ["exact", "exact: float bounds, certified in double, exact arithmetic in doubt"],
+    ["double", "double: the formulas of robust in double"],
+    ["Embree", "Embree 3: its own solvers in float, the faster of its calls"],
 ];
 
 const errors = {
-    ulps_p99: "ulps of t, 99th percentile",
-    ulps_median: "ulps of t, median",
-    ulps_max: "ulps of t, maximum",
-    wrong: "share of wrong decisions",
+    ulps_p99: "error of t [ulp], 99th percentile",
+    ulps_median: "error of t [ulp], median",
+    ulps_max: "error of t [ulp], maximum",
+    wrong: "misclassified rays [%]",
 };
 
-/** Nearest of a dozen shapes: speed against error, a panel for each shape. */
-function showMethods(place, rows) {
+/** Returns the small print of a figure: processor, versions and date of its measurements. */
+const smallPrint = (text) => (text ? [element("p", { className: "small-print" }, text)] : []);
+
+/** Shows speed against error for the nearest of 12 shapes, one panel for each shape. */
+function showMethods(place, shares, machine) {
+    const rows = shares.map((row) => (row.wrong === undefined ? row : { ...row, wrong: 100 * row.wrong }));
     const panels = element("div", { className: "panels" });
     const numbers = element("div");
     const unique = (name) => [...new Set(rows.map((row) => row[name]))];
@@ -141,44 +145,45 @@ function showMethods(place, rows) {
     isaSelect.value = preferred.isa ?? unique("isa")[0];
     const made = figure(
         place,
-        "Speed against error: the nearest of 12 shapes, normals included, one thread",
-        element("p", {}, "Further right is faster, further down more accurate. A line stands where the plainest loop in float is that can do nothing else. What is 0 is drawn at the bottom."),
+        "Speed and error of the nearest hit among 12 shapes, with normals, one thread",
+        element("p", {}, "Lower right is better: faster and more accurate. Vertical line: upper bound, a brute-force float loop for this shape. Zeros are at the bottom."),
         element("div", { className: "controls" }, rays, isa, error),
         key(methodMeanings.filter(([name]) => rows.some((row) => row.method === name))),
         panels,
         numbers,
+        ...smallPrint(machine),
     );
     made.id = "methods";
     function draw() {
         const chosen = rows.filter((row) => row.rays === raysSelect.value && row.isa === isaSelect.value);
-        const what = errorSelect.value;
-        const floor = what === "wrong" ? 1e-7 : 0.1;
+        const kind = errorSelect.value;
+        const floor = kind === "wrong" ? 1e-5 : 0.1;
         panels.querySelectorAll(".chart").forEach(forget);
         panels.replaceChildren();
         for (const shape of new Set(chosen.map((row) => row.shape))) {
-            const of = chosen.filter((row) => row.shape === shape);
-            if (of.every((row) => row.method === "ceiling")) continue;
-            const ceiling = of.find((row) => row.method === "ceiling");
+            const measured = chosen.filter((row) => row.shape === shape);
+            if (measured.every((row) => row.method === "ceiling")) continue;
+            const ceiling = measured.find((row) => row.method === "ceiling");
             const drawn = element("div", { className: "chart" });
             drawn.dataset.shape = shape;
             panels.append(element("div", { className: "panel" }, drawn));
             lines(drawn, {
                 title: shape.replaceAll("_", " "),
                 x: "million rays/s",
-                y: errors[what],
+                y: errors[kind],
                 isLog: [false, true],
                 least: floor,
                 vertical: ceiling?.mrays,
-                most: ceiling && Math.ceil(1.1 * Math.max(...of.map((row) => row.mrays))),
-                series: of
-                    .filter((row) => row.method !== "ceiling" && row[what] !== undefined)
-                    .map((row) => ({ name: row.method, isLine: false, points: [[row.mrays, Math.max(row[what], floor), row]] })),
+                most: ceiling && Math.ceil(1.1 * Math.max(...measured.map((row) => row.mrays))),
+                series: measured
+                    .filter((row) => row.method !== "ceiling" && row[kind] !== undefined)
+                    .map((row) => ({ name: row.method, isLine: false, points: [[row.mrays, Math.max(row[kind], floor), row]] })),
                 tip: (name, [, , row]) => [
                     `${name}, ${shape.replaceAll("_", " ")}`,
-                    `${told(row.mrays)} million rays/s`,
+                    `${textOf(row.mrays)} million rays/s`,
                     ...Object.entries(errors)
                         .filter(([each]) => row[each] !== undefined)
-                        .map(([each, text]) => `${text}: ${told(row[each])}`),
+                        .map(([each, text]) => `${text}: ${textOf(row[each])}`),
                 ],
             });
         }
@@ -188,7 +193,7 @@ function showMethods(place, rows) {
     draw();
 }
 
-/** Panels of one figure, each of rows that have `by` in common. */
+/** Adds the panels of a figure, one for each value of the column `by`. */
 function panelsOf(place, rows, by, options) {
     const panels = element("div", { className: "panels" });
     place.append(panels);
@@ -202,58 +207,61 @@ function panelsOf(place, rows, by, options) {
 const series = (rows, name, point) =>
     [...new Set(rows.map((row) => row[name]))].map((each) => ({ name: each, points: rows.filter((row) => row[name] === each).map(point) }));
 
-function showPictures(place, rows) {
+function showPictures(place, rows, machine) {
     const made = figure(
         place,
-        "Whole pictures: time against error, 400 pixels a row, one thread",
-        element("p", {}, "Further left is faster, further down more accurate. By samples per pixel, by quality, and by fewer reflections or fewer faint paths of 64 samples."),
-        key([...methodMeanings.slice(0, 4).map(([name]) => [name, name]), ["quality", "exact, to a quality"], ["depth", "fewer reflections"], ["weight", "fewer faint paths"]]),
+        "Time and error of whole images, 400 pixels wide, one thread",
+        element("p", {}, "Lower left is better: faster and more accurate. The series vary the samples per pixel; the quality; and, with 64 samples per pixel, the limits of depth and weight."),
+        key([...methodMeanings.slice(0, 4).map(([name]) => [name, name]), ["quality", "exact, quality [dB]"], ["depth", "exact, depth limit"], ["weight", "exact, weight limit [1/1000]"]]),
     );
     made.id = "pictures";
-    panelsOf(made, rows, "scene", (of) => ({
-        x: "milliseconds",
-        y: "RMSE to 1,024 samples",
-        series: series(of, "way", (row) => [row.ms, row.rmse, row]),
-        tip: (name, [, , row]) => [`${name} ${told(row.value)}`, `${told(row.ms)} ms`, `RMSE ${told(row.rmse)}`],
+    panelsOf(made, rows, "scene", (subset) => ({
+        x: "time per image [ms]",
+        y: "RMSE to 1,024 samples per pixel",
+        series: series(subset, "way", (row) => [row.ms, row.rmse, row]),
+        tip: (name, [, , row]) => [`${name} ${textOf(row.value)}`, `${textOf(row.ms)} ms`, `RMSE ${textOf(row.rmse)}`],
     }));
-    made.append(table(["scene", "way", "value", "ms", "RMSE"], rows.map((row) => [row.scene, row.way, row.value, row.ms, row.rmse])));
+    made.append(table(["scene", "setting", "value", "time [ms]", "RMSE"], rows.map((row) => [row.scene, row.way, row.value, row.ms, row.rmse])), ...smallPrint(machine));
 }
 
-function showCounts(place, rows) {
+function showCounts(place, rows, machine) {
     const made = figure(
         place,
         "Rays per second against the number of spheres, one thread",
-        element("p", {}, "Uniform spheres of radius 0.3/n^(1/3) in the unit cube; t, unit normal and id."),
-        key([["raylane", "raylane, as its users call it"], ["its engine", "its engine, by its own arrays"], ["Embree", "Embree, its best call"]]),
+        element("p", {}, "Higher is better. Uniform spheres of radius 0.3/n^(1/3) in the unit cube. Each hit has t, unit normal and id."),
+        key([["raylane", "raylane's library"], ["raylane's engine", "raylane's engine, internal arrays"], ["Embree", "Embree, fastest call"]]),
     );
     made.id = "counts";
-    panelsOf(made, rows, "rays", (of) => ({
-        x: "spheres",
+    panelsOf(made, rows, "rays", (subset) => ({
+        x: "number of spheres",
         y: "million rays/s",
-        series: series(of, "by", (row) => [row.count, row.mrays, row]),
-        tip: (name, [, , row]) => [`${name}, ${many(row.count)} spheres`, `${told(row.mrays)} million rays/s`],
+        series: series(subset, "by", (row) => [row.count, row.mrays, row]),
+        tip: (name, [, , row]) => [`${name}, ${many(row.count)} spheres`, `${textOf(row.mrays)} million rays/s`],
     }));
-    made.append(table(["rays", "by", "spheres", "million rays/s"], rows.map((row) => [row.rays, row.by, row.count, row.mrays])));
+    made.append(table(["rays", "by", "spheres", "million rays/s"], rows.map((row) => [row.rays, row.by, row.count, row.mrays])), ...smallPrint(machine));
 }
 
-function showPeers(place, rows) {
+function showPeers(place, rows, machine) {
     const made = figure(
         place,
-        "Whole programs: seconds against decibels to each one's own converged picture, one thread",
-        key([["raylane", "raylane, as many samples in each pixel"], ["raylane --quality", "raylane --quality"], ["povray", "POV-Ray"], ["tachyon", "Tachyon"]]),
+        "Time and error of whole programs",
+        element("p", {}, "Upper left is better: faster and more accurate. PSNR against the renderer's own converged image. A scene under a sky light has no POV-Ray, which has no sky light."),
+        key([["raylane", "raylane, fixed samples per pixel"], ["raylane --quality", "raylane --quality"], ["povray", "POV-Ray"], ["tachyon", "Tachyon"]]),
     );
     made.id = "peers";
-    panelsOf(made, rows, "scene", (of) => ({
-        x: "seconds",
-        y: "dB",
+    panelsOf(made, rows, "scene", (subset) => ({
+        x: "wall-clock time [s]",
+        y: "PSNR [dB]",
         isLog: [true, false],
-        series: series(of, "by", (row) => [row.seconds, row.psnr, row]),
-        tip: (name, [, , row]) => [`${name} ${told(row.setting)}`, `${told(row.seconds)} s`, `${told(row.psnr)} dB`],
+        least: 25,
+        series: series(subset, "by", (row) => [row.seconds, row.psnr, row]),
+        tip: (name, [, , row]) => [`${name} ${textOf(row.setting)}`, `${textOf(row.seconds)} s`, `${textOf(row.psnr)} dB`],
     }));
-    made.append(table(["scene", "by", "setting", "seconds", "dB"], rows.map((row) => [row.scene, row.by, row.setting, row.seconds, row.psnr])));
+    made.append(table(["scene", "program", "setting", "time [s]", "PSNR [dB]"], rows.map((row) => [row.scene, row.by, row.setting, row.seconds, row.psnr])), ...smallPrint(machine));
 }
 
-export function showCharts(place, data) {
-    for (const [rows, show] of [[data.methods, showMethods], [data.pictures, showPictures], [data.counts, showCounts], [data.peers, showPeers]])
-        if (rows.length) show(place, rows);
+/** Shows the figures that have data; `machines` has their small print. */
+export function showCharts(place, data, machines) {
+    for (const [name, show] of [["methods", showMethods], ["pictures", showPictures], ["counts", showCounts], ["peers", showPeers]])
+        if (data[name].length) show(place, data[name], machines[name]);
 }

@@ -1,9 +1,9 @@
-/** Of the style sheet, as it is now. */
+/** Returns a colour of the style sheet in the current theme. */
 export function color(name) {
     return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-/** From dark blue by red and yellow to white, for a share in [0, 1]: brighter is always more. */
+/** Colours from dark blue over red and yellow to white, for a share in [0, 1]. Brighter means more. */
 const stops = [
     [0, 0, 4],
     [40, 11, 84],

@@ -6,9 +6,9 @@ import { colorsOf, legendOf } from "./maps.js";
 import { differences, read, shown, unpack } from "./pictures.js";
 
 const $ = (id) => document.getElementById(id);
-const untold = "Point at a pixel for its values.";
+const pixelHint = "Point at a pixel for its values.";
 
-/** Looks at two pictures of a set. */
+/** Compares two images of a set. */
 export class Viewer {
     constructor(sets) {
         this.sets = sets;
@@ -38,7 +38,7 @@ export class Viewer {
         listen(this.canvas, {
             moves: (dx, dy) => this.move(dx, dy),
             zooms: (x, y, factor) => this.zoomAbout(x, y, factor),
-            points: (x, y) => this.tell(x, y),
+            points: (x, y) => this.showPixel(x, y),
             flips: () => this.flip(),
         });
         for (const name of ["dragover", "drop"])
@@ -52,7 +52,7 @@ export class Viewer {
     async open(name, a, b) {
         this.wanted = name;
         const set = await unpack(this.sets.find((each) => each.name === name));
-        if (this.wanted !== name) return; // another one, by now
+        if (this.wanted !== name) return; // another set was chosen meanwhile
         const isNew = set !== this.set;
         this.set = set;
         $("set").value = name;
@@ -73,7 +73,7 @@ export class Viewer {
         if (isNew) {
             this.images.clear();
             this.fit(false);
-            $("pixel").textContent = untold;
+            $("pixel").textContent = pixelHint;
         }
         this.choose();
     }
@@ -100,7 +100,7 @@ export class Viewer {
         this.draw();
     }
 
-    /** What is drawn of a picture, or in place of one. */
+    /** Returns the canvas of an image; without an image, that of the map or of the differences. */
     image(picture) {
         const key = picture ?? "map";
         if (!this.images.has(key)) {
@@ -125,17 +125,17 @@ export class Viewer {
         const sameCount = isSame.reduce((sum, each) => sum + each, 0);
         const greatest = (values) => values.reduce((a, b) => (b > a ? b : a), 0);
         const rows = [
-            ["pixels with the same bits", `${many(sameCount)} of ${many(isSame.length)}`],
+            ["pixels with identical bits", `${many(sameCount)} of ${many(isSame.length)}`],
             ["largest difference", `${greatest(absolute).toPrecision(4)}; ${many(greatest(ulps))} ulps`],
-            ["root mean square", rmse.toPrecision(4)],
+            ["root mean square difference", rmse.toPrecision(4)],
         ];
-        if (numberless) rows.push(["differ by no number", `${many(numberless)} pixels`]);
+        if (numberless) rows.push(["NaN or infinity on one side", `${many(numberless)} pixels`]);
         $("totals").replaceChildren(...rows.map((cells) => element("tr", {}, ...cells.map((text) => element("td", { textContent: text })))));
     }
 
-    /** Pixels by the powers of ten of their difference. */
+    /** Shows a histogram of the pixels by powers of ten of their difference. */
     showHistogram() {
-        const names = ["same", ...Array.from({ length: 10 }, (_, i) => `1e${i - 9}`), "more"];
+        const names = ["equal", ...Array.from({ length: 10 }, (_, i) => `1e${i - 9}`), "more"];
         const counts = new Array(names.length).fill(0);
         const { absolute, isSame } = this.differences;
         for (let i = 0; i < absolute.length; ++i) {
@@ -144,7 +144,7 @@ export class Viewer {
         }
         chart($("histogram"), () => ({
             grid: { left: 8, right: 8, top: 30, bottom: 4, containLabel: true },
-            title: { text: "Pixels by their difference, up to", textStyle: { fontSize: 13, fontWeight: "normal", color: color("ink") } },
+            title: { text: "Number of pixels by difference, up to", textStyle: { fontSize: 13, fontWeight: "normal", color: color("ink") } },
             tooltip: { trigger: "axis", backgroundColor: color("panel"), borderColor: color("line"), textStyle: { color: color("ink") } },
             xAxis: { type: "category", data: names, axisLabel: { color: color("faint"), fontSize: 10 } },
             yAxis: {
@@ -166,7 +166,7 @@ export class Viewer {
         this.draw();
     }
 
-    /** Of the whole picture. */
+    /** Returns the zoom at which the whole image fits. */
     fitting() {
         return Math.min(this.canvas.width / this.set.width, this.canvas.height / this.set.height);
     }
@@ -257,7 +257,7 @@ export class Viewer {
         if (isSlider || (isFlip && this.showsB)) this.write(context, `B: ${this.b.title}`, this.canvas.width - 8 * ratio, 18 * ratio, room);
     }
 
-    /** In each pixel its values, where there is room for them. */
+    /** Writes its values into each pixel if they fit. */
     writeValues(context) {
         const ratio = window.devicePixelRatio || 1;
         if (this.zoom < 64 * ratio) return;
@@ -280,8 +280,8 @@ export class Viewer {
             }
     }
 
-    /** Of the pixel at a place of the canvas. */
-    tell(canvasX, canvasY) {
+    /** Shows the values of the pixel at a position of the canvas. */
+    showPixel(canvasX, canvasY) {
         if (!this.set) return;
         const { width, height, maps } = this.set;
         const [x, y] = [Math.floor((canvasX - this.x) / this.zoom), Math.floor((canvasY - this.y) / this.zoom)];
@@ -293,20 +293,20 @@ export class Viewer {
             `pixel (${x}, ${y})`,
             `A ${values(this.a)}`,
             `B ${values(this.b)}`,
-            isSame[i] ? "the same bits" : `difference ${absolute[i].toPrecision(4)}, ${many(ulps[i])} ulps`,
+            isSame[i] ? "identical bits" : `difference ${absolute[i].toPrecision(4)}, ${many(ulps[i])} ulps`,
             ...maps.map((map) => `${map.title}: ${map.labels ? map.labels[map.values[i]] : map.values[i]}`),
         ];
         $("pixel").textContent = lines.join("\n");
     }
 
-    /** The user's own pictures become a set, with those before them that are of their size. */
+    /** Adds the user's files to a set for their size, together with earlier files of that size. */
     async takeFiles(files) {
         const [pictures, complaints] = [[], []];
         for (const file of files)
             try {
                 pictures.push(await read(file));
             } catch {
-                complaints.push(`${file.name} is neither PNG nor PFM.`);
+                complaints.push(`${file.name}: expected a PNG or PFM file.`);
             }
         $("own").value = "";
         if (pictures.length) {
@@ -314,8 +314,8 @@ export class Viewer {
             const before = this.own?.width === width && this.own.height === height ? this.own.pictures : [];
             const kept = before.filter((each) => !pictures.some((other) => other.name === each.name));
             const fitting = pictures.filter((each) => each.width === width && each.height === height);
-            if (fitting.length < pictures.length) complaints.push(`Left out what is not of ${width} x ${height} pixels.`);
-            const own = { name: ":own", title: "dropped here", width, height, pictures: [...kept, ...fitting], maps: [], ready: true };
+            if (fitting.length < pictures.length) complaints.push(`Files of other sizes than ${width} x ${height} pixels are left out.`);
+            const own = { name: ":own", title: "your files", width, height, pictures: [...kept, ...fitting], maps: [], ready: true };
             if (this.own) this.sets.splice(this.sets.indexOf(this.own), 1, own);
             else {
                 this.sets.push(own);

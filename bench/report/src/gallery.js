@@ -3,17 +3,17 @@ import { shown, unpack } from "./pictures.js";
 
 function numbers({ off, wrong, ulps }) {
     const lines = [];
-    if (off !== undefined) lines.push(element("span", { className: off ? "bad" : "" }, `${many(off)} pixels off`));
+    if (off !== undefined) lines.push(element("span", { className: off ? "bad" : "" }, `${many(off)} pixels differ`));
     if (wrong !== undefined)
-        lines.push(element("br"), element("span", { className: wrong ? "bad" : "" }, `${many(wrong)} rays wrong`));
+        lines.push(element("br"), element("span", { className: wrong ? "bad" : "" }, `${many(wrong)} rays misclassified`));
     if (ulps) {
         const [median, most99, most] = ulps.map((each) => many(Number(each.toPrecision(3))));
-        lines.push(element("br"), `t off by ${median}, ${most99}, ${most} ulps`);
+        lines.push(element("br"), `error of t: ${median}, ${most99}, ${most} ulps`);
     }
     return lines;
 }
 
-/** The failures, each a row of pictures; open(set, picture) looks at one. Pictures are drawn once they are near. */
+/** Shows each failure as a row of images. open(set, picture) shows one in the viewer. Images are drawn when they scroll near. */
 export function showGallery(place, failures, sets, open) {
     const drawing = new IntersectionObserver(
         async (entries) => {
@@ -31,7 +31,7 @@ export function showGallery(place, failures, sets, open) {
         row.dataset.set = set.name;
         for (const picture of set.pictures) {
             const canvas = element("canvas", { width: set.width, height: set.height });
-            const button = element("button", { type: "button", title: `${picture.title}, beside exact` }, canvas);
+            const button = element("button", { type: "button", title: `Compare: ${picture.title}, exact` }, canvas);
             button.setAttribute("aria-label", `${failure.title}: ${picture.title}`);
             button.addEventListener("click", () => open(set.name, picture.name));
             row.append(element("figure", {}, button, element("figcaption", {}, element("b", {}, picture.title), ...numbers(picture.numbers))));
@@ -42,7 +42,7 @@ export function showGallery(place, failures, sets, open) {
                 { className: "failure" },
                 element("h3", {}, failure.title),
                 element("div", { className: "reference" }, failure.reference),
-                element("p", {}, failure.failure, element("br"), element("span", { className: "reference" }, `The textbook's remedy: ${failure.remedy}.`)),
+                element("p", {}, failure.failure, element("br"), element("span", { className: "reference" }, `Remedy in the textbook tracer: ${failure.remedy}.`)),
                 row,
             ),
         );

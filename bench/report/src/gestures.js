@@ -1,4 +1,4 @@
-/** Fingers, mouse, wheel and keys on a canvas: to what moves(dx, dy), zooms(x, y, factor), points(event) and flips() do. */
+/** Translates touch, mouse, wheel and keys on a canvas to calls of moves(dx, dy), zooms(x, y, factor), points(x, y) and flips(). */
 export function listen(canvas, { moves, zooms, points, flips }) {
     const fingers = new Map();
     const scale = () => canvas.width / canvas.getBoundingClientRect().width;

@@ -1,14 +1,14 @@
-/** A count as people read it. */
+/** Formats a count with thousands separators. */
 export const many = (count) => count.toLocaleString("en");
 
-/** An element with its properties and what is in it. */
+/** Creates an element with properties and children. */
 export function element(name, properties = {}, ...children) {
     const made = Object.assign(document.createElement(name), properties);
     made.append(...children);
     return made;
 }
 
-/** Text as HTML has it. */
+/** Escapes text for HTML. */
 export function escaped(text) {
     return element("span", { textContent: `${text}` }).innerHTML;
 }

@@ -3,7 +3,7 @@ import { showCharts } from "./charts.js";
 import { Viewer } from "./compare.js";
 import { showGallery } from "./gallery.js";
 
-// Light or dark, as the system has it until it is chosen.
+// Follows the system's light or dark theme until the user chooses one.
 const root = document.documentElement;
 const system = matchMedia("(prefers-color-scheme: dark)");
 const wear = (theme) => {
@@ -29,4 +29,4 @@ showGallery(document.getElementById("gallery"), data.failures, data.sets, async 
     document.getElementById("compare").scrollIntoView();
 });
 for (const link of document.querySelectorAll("header a")) link.hidden = document.querySelector(link.hash).hidden;
-showCharts(document.getElementById("charts"), charts);
+showCharts(document.getElementById("charts"), charts, data.machines);

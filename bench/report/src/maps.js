@@ -1,4 +1,4 @@
-// What is drawn in place of a picture: a colour for each pixel, and what it stands for.
+// False-colour maps: a colour for each pixel, and the legend.
 import { css, heat } from "./colors.js";
 import { element, many } from "./html.js";
 
@@ -11,7 +11,7 @@ const ofDifference = (difference) => heat(0.15 + 0.85 * Math.max(0, 1 + Math.log
 const ofSamples = (samples, most) => heat(most > 1 ? Math.log2(samples) / Math.log2(most) : 0);
 const most = (map) => map.values.reduce((a, b) => Math.max(a, b), 1);
 
-/** Colour by pixel. */
+/** Returns a function from a pixel's index to its colour. */
 export function colorsOf(mode, map, { absolute, ulps, isSame }) {
     if (map?.name === "tiers") return (i) => tierColors[map.values[i]];
     if (map) {
@@ -37,10 +37,10 @@ export function legendOf(mode, map) {
     if (map) {
         const greatest = most(map);
         for (let samples = 1; samples <= greatest; samples *= 4) entries.push(entry(ofSamples(samples, greatest), `${samples}`));
-        return [...entries, `samples in a pixel; at most ${greatest}`];
+        return [...entries, `samples per pixel, maximum ${greatest}`];
     }
     if (mode === "ulps") for (const power of [0, 4, 8, 16, 24]) entries.push(entry(ofUlps(2 ** power), `${many(2 ** power)} ulps`));
     else if (mode === "difference") for (const power of [-8, -6, -4, -2, 0]) entries.push(entry(ofDifference(10 ** power), `1e${power}`));
     else return [];
-    return [entry(same, "the same bits"), ...entries, entry(noNumber, "no number")];
+    return [entry(same, "identical bits"), ...entries, entry(noNumber, "NaN or infinity")];
 }

@@ -1,6 +1,6 @@
-// Pictures: linear float RGB, planes one behind the other, rows from the top down.
+// Images: linear float RGB, one plane after the other, rows from the top down.
 
-/** Of a set of data: { name, title, width, height, pictures, maps }, whose planes are there once unpacked. */
+/** Unpacks a set of the page's data, { name, title, width, height, pictures, maps }, and returns it. Sets the planes of its images. */
 export async function unpack(set) {
     if (set.ready) return set;
     const count = set.width * set.height;
@@ -43,12 +43,12 @@ function decoded(value) {
     return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
 }
 
-/** RGBA bytes of a picture, brighter by so many stops. */
+/** Returns an image as RGBA bytes, brightened by a number of stops. */
 export function shown(set, picture, stops = 0) {
     const count = set.width * set.height;
     const image = new ImageData(set.width, set.height);
     const factor = 2 ** stops;
-    // Of NaN, black.
+    // NaN becomes black.
     for (let i = 0; i < count; ++i) {
         for (let c = 0; c < 3; ++c)
             image.data[4 * i + c] = Math.round(255 * encoded(factor * picture.planes[c * count + i]));
@@ -60,15 +60,16 @@ export function shown(set, picture, stops = 0) {
 const word = new Uint32Array(1);
 const real = new Float32Array(word.buffer);
 
-/** Floats in order: their distance is one of ulps. */
+/** Maps floats to ordered integers, whose distance is in ulps. */
 function order(value) {
     real[0] = value;
     return word[0] & 0x80000000 ? -(word[0] & 0x7fffffff) : word[0];
 }
 
 /**
- * By pixel: the largest of its three components' differences, the same in ulps, and whether all bits are the same. Where
- * one is no number, or infinite, a difference is NaN, and counts for neither the largest nor the mean.
+ * Returns for each pixel the largest difference of its three components, the same in ulps, and 1 if all bits are
+ * identical. If a component is NaN or infinite, the difference is NaN. The largest
+ * difference and the mean omit NaN.
  */
 export function differences(set, a, b) {
     const count = set.width * set.height;
@@ -93,7 +94,7 @@ export function differences(set, a, b) {
     return { absolute, ulps, isSame, numberless, rmse: Math.sqrt(squares / (3 * count)) };
 }
 
-/** A file of the user's as a picture of a set of its own size. */
+/** Reads a user's file. Returns an image with its size. */
 export async function read(file) {
     const picture = file.name.toLowerCase().endsWith(".pfm") ? pfm(await file.arrayBuffer()) : await png(file);
     return { ...picture, name: file.name, title: file.name };
@@ -121,13 +122,13 @@ function pfm(buffer) {
     while (words.length < 4) {
         let text = "";
         while (at < bytes.length && !/\s/.test(String.fromCharCode(bytes[at]))) text += String.fromCharCode(bytes[at++]);
-        if (at++ >= bytes.length) throw new Error("no PFM");
+        if (at++ >= bytes.length) throw new Error("expected a PFM file");
         if (text) words.push(text);
     }
     const [magic, width, height, scale] = [words[0], ...words.slice(1).map(Number)];
     const channels = { PF: 3, Pf: 1 }[magic];
     const count = width * height;
-    if (!channels || ![width, height].every((each) => Number.isInteger(each) && each >= 1) || bytes.length - at < 4 * channels * count) throw new Error("no PFM");
+    if (!channels || ![width, height].every((each) => Number.isInteger(each) && each >= 1) || bytes.length - at < 4 * channels * count) throw new Error("expected a PFM file");
     const view = new DataView(buffer, at);
     const planes = new Float32Array(3 * count);
     for (let y = 0; y < height; ++y)
