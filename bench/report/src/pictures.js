@@ -68,8 +68,7 @@ function order(value) {
 
 /**
  * Returns for each pixel the largest difference of its three components, the same in ulps, and 1 if all bits are
- * identical. If a component is NaN or infinite, the difference is NaN. The largest
- * difference and the mean omit NaN.
+ * identical. If a component is NaN or infinite, the difference is NaN. The largest difference and the mean omit NaN.
  */
 export function differences(set, a, b) {
     const count = set.width * set.height;
