@@ -85,8 +85,8 @@ protein() { # lights
         -e 's/"field_of_view": 36/"field_of_view": 53.130102/' scenes/protein.json
 }
 lamp='{"type": "point", "position": [-60, 90, 70], "color": '
-protein "$lamp[1, 1, 1]}" >"$folder/protein.json"
-protein "{\"type\": \"sky\", \"color\": [0.9, 0.9, 0.9]}, $lamp[0.3, 0.3, 0.3]}" >"$folder/protein-sky.json"
+protein "${lamp}[1, 1, 1]}" >"$folder/protein.json"
+protein "{\"type\": \"sky\", \"color\": [0.9, 0.9, 0.9]}, ${lamp}[0.3, 0.3, 0.3]}" >"$folder/protein-sky.json"
 "$build/bin/raylane" convert "$folder/protein-sky.json" "$folder/protein-sky.nff" 2>/dev/null
 for scene in sphereflake-5 lattice-16 protein; do
     "$build/bin/raylane" convert "$folder/$scene.json" "$folder/$scene.nff" 2>/dev/null
