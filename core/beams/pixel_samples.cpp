@@ -1,5 +1,7 @@
 #include "core/beams/pixel_samples.hpp"
 
+#include "core/scene/scene.hpp"
+
 #include <cmath>
 
 namespace raylane::core {
@@ -19,6 +21,13 @@ double squared_slope(double linear, Transfer transfer) {
 constexpr std::size_t channels_of_film[] = {0, 1, 2, 3, 3, 3};
 
 } // namespace
+
+double light_rays_of(const Scene& scene, const Settings& settings) {
+    double rays = 0.0;
+    for (const Light& light : scene.lights())
+        rays += is_soft(light.kind) ? static_cast<double>(settings.light_rays()) : 1.0;
+    return rays;
+}
 
 SamplePoint place_in_pixel(int x, int y, int number) {
     if (number == middle_sample) return {0.5F, 0.5F};

@@ -10,6 +10,8 @@
 
 namespace raylane::core {
 
+class Scene;
+
 /// The result of one sample.
 struct Sample {
     Vec3d color;              ///< linear RGB
@@ -17,7 +19,11 @@ struct Sample {
     /// Share of the background that is visible in a straight line and left out (Settings::alpha),
     /// or 0.
     double transmittance = 0.0;
+    double cost = 1.0; ///< number of rays of its path, and of rays to lights
 };
+
+/// Returns the number of rays to lights from each surface that a path meets.
+double light_rays_of(const Scene& scene, const Settings& settings);
 
 /// Number of the sample at the middle of a pixel. The other samples are points of a sequence,
 /// numbered from 0.

@@ -33,10 +33,10 @@ constexpr double anywhere = 1.0;
 /// scene.
 constexpr double within = 0.5, worth_of_around = 8.0;
 
-/// The cost of a sample of a later round, in samples of the first: rays of scattered pixels share
-/// less work in frusta, and such pixels have longer paths. Per ray it was 1.8 in a sphereflake of
-/// half mirrors and 2.3 in a lattice (1200 x 900, AVX2).
-constexpr double scattered = 2.0;
+/// The cost of a ray of a later round, in rays of the first: rays of scattered pixels share less
+/// work in frusta. It was 1.8 in a sphereflake of half mirrors and 2.3 in a lattice (1200 x 900,
+/// AVX2), and is about 1 where most rays go to the sky, one by one.
+constexpr double scattered = 1.7;
 
 /// Decibels above the quality of the settings: a margin because the estimate scatters.
 constexpr double margin = 1.0;
@@ -102,6 +102,7 @@ Survey::Samples::Samples(Survey& survey, Pass pass, std::size_t batch)
 
 void Survey::Samples::add(std::size_t pixel, const Sample& sample) {
     Pixel& at = pixels_[pixel];
+    at.cost += sample.cost;
     if (at.next++ != middle_sample) return at.samples.add(sample);
     at.means[0] = {sample.color, sample.transmittance};
     if (pass_ == Pass::sample) return;
@@ -130,6 +131,7 @@ bool Survey::Samples::end_stage(Pixel& pixel) const {
         return true;
     }
     pixel.wanted = 0;
+    record.cost = pixel.cost / (1.0 + count);
     for (std::size_t measured = 0; measured < measured_stages; ++measured)
         record.squared_error[measured] =
             squared_distance(pixel.means[measured], pixel.samples.exact_mean(), transfer);
@@ -222,14 +224,24 @@ Survey::Outcome Survey::outcome_of(const Policy& policy) const {
         while (samples_at(stage) < RegionSamples::most_samples && !is_done())
             ++stage;
         all.squared_error += record.weight * squared_error_at(record, stage);
-        all.cost += record.weight * cost_of(samples_at(stage), policy);
+        all.cost += record.weight * record.cost * weighted_samples(samples_at(stage), policy);
         weights += record.weight;
     }
     return {all.squared_error / weights, all.cost / weights};
 }
 
-/// Returns the cost of a pixel's samples, in samples of the first round.
-double Survey::cost_of(int samples, const Policy& policy) {
+/// Returns the mean cost of a sample over all pixels.
+double Survey::mean_cost() const {
+    double cost = 0.0, weights = 0.0;
+    for (const Record& record : records_) {
+        cost += record.weight * record.cost;
+        weights += record.weight;
+    }
+    return cost / weights;
+}
+
+/// Returns the number of a pixel's samples as if all were of the first round.
+double Survey::weighted_samples(int samples, const Policy& policy) {
     const int first = policy.has_middles() ? 1 : std::max(policy.fewest, samples_at(1));
     if (samples <= first) return first;
     return first + scattered * (policy.has_middles() ? samples : samples - first);
@@ -252,9 +264,10 @@ void Survey::choose_policy() {
             }
             policy.limit = core::pow(2.0, low);
             const Outcome outcome = outcome_of(policy);
-            const double cost = outcome.squared_error <= asked
-                                    ? outcome.cost
-                                    : RegionSamples::most_samples * outcome.squared_error / asked;
+            const double cost =
+                outcome.squared_error <= asked
+                    ? outcome.cost
+                    : RegionSamples::most_samples * mean_cost() * outcome.squared_error / asked;
             if (cost < least) {
                 least = cost;
                 policy_ = policy;

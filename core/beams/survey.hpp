@@ -68,6 +68,7 @@ class Survey {
             std::size_t number; ///< of its place or record
             int next, wanted;
             PixelSamples samples{};
+            double cost = 0.0;
             Mean means[measured_stages]{};
         };
 
@@ -88,6 +89,7 @@ class Survey {
         std::size_t place;
         double weight;                           ///< number of pixels that the record stands for
         double around;                           ///< variance
+        double cost = 0.0;                       ///< of a sample
         double squares[stages]{};                ///< 0 for the middle
         double squared_error[measured_stages]{}; ///< relative to the mean of all 64 samples
     };
@@ -104,12 +106,13 @@ class Survey {
 
     static double likely_variance(const Known& pixel);
     static bool is_done(const Known& pixel, const Policy& policy);
-    static double cost_of(int samples, const Policy& policy);
+    static double weighted_samples(int samples, const Policy& policy);
     void choose_records();
     void choose_policy();
     void fit_errors();
     double squared_error_at(const Record& record, std::size_t stage) const;
     Outcome outcome_of(const Policy& policy) const;
+    double mean_cost() const;
 
     Settings settings_;
     std::vector<Place> places_;

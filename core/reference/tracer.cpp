@@ -31,6 +31,7 @@ ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& setti
     pending_.reserve(64);
     for (const Light& light : scene.lights())
         if (is_soft(light.kind)) soft_lights_.push_back(prepared(light));
+    light_rays_ = light_rays_of(scene, settings);
     if (survey != nullptr) to_quality_.emplace(scene, settings, *survey);
 }
 
@@ -38,9 +39,11 @@ template <class Real>
 Sample ReferenceTracer<Real>::taken(const SampleName& name) {
     sample_ = name;
     const SamplePoint place = place_in_pixel(name.x, name.y, name.number);
+    const double cost_before = cost_;
     const Vector color =
         trace(camera_rays_.ray(name, camera_rays_.filtered({Real(place.x), Real(place.y)})));
-    return {convert<double>(color), first_hit_.shape, static_cast<double>(transmittance_)};
+    return {convert<double>(color), first_hit_.shape, static_cast<double>(transmittance_),
+            cost_ - cost_before};
 }
 
 template <class Real>
@@ -138,6 +141,7 @@ Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
     const Encounter<Real> encounter = searcher_.nearest(
         path.ray, path.origins, [&](const Hit<Real>& candidate) { return is_visible(candidate); });
     const Hit<Real>& hit = encounter.hit;
+    cost_ += hit.any() ? 1.0 + light_rays_ : 1.0;
     if (path.depth == 0 && path.passed == 0 && path.crossings == 0) first_hit_ = hit;
     if (!hit.any()) {
         if (!settings_.alpha || !path.is_straight) return path.throughput * color_at_infinity(path);

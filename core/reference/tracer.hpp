@@ -45,6 +45,9 @@ class ReferenceTracer {
     /// (Settings::alpha).
     Real transmittance() const { return transmittance_; }
 
+    /// Returns the sum of Sample::cost over all paths so far.
+    double cost() const { return cost_; }
+
     /// Returns counters of the work of all calls so far.
     const Counters& counters() const { return searcher_.counters; }
 
@@ -146,6 +149,8 @@ class ReferenceTracer {
     std::vector<Path> pending_;        // the next path last
     std::vector<Hit<Real>> crossings_; // of a shadow ray
     std::vector<SoftLight> soft_lights_;
+    double cost_ = 0.0;
+    double light_rays_ = 0.0; // for each surface
     SampleName sample_{};
     Vector start_{};                   // origin of the last camera ray
     std::optional<Media> start_media_; // media around start_

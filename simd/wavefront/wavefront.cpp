@@ -53,7 +53,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
                  ->shade[with_media_ ? 1 : 0][scene.fog().kind != core::FogKind::none ? 1 : 0]),
       reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
       finder_(scene, tracing), shadows_(scene, tracing, reference_), survey_(survey),
-      sorted_(scene) {
+      light_rays_(core::light_rays_of(scene.scene(), settings)), sorted_(scene) {
     arena_ = arena_for([this](Arena& arena) { take_from(arena); });
     samples_.reserve(chunk_samples);
     names_.resize(chunk_samples);
@@ -73,6 +73,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     }
     to_quality_.emplace(scene.scene(), settings, *survey);
     first_shape_.resize(chunk_samples);
+    cost_.resize(chunk_samples);
 }
 
 void Wavefront::take_from(Arena& arena) {
@@ -167,7 +168,8 @@ auto Wavefront::adder_to(Pixels& pixels) {
         for (const std::size_t end = i + static_cast<std::size_t>(some.count); i < end; ++i)
             pixels.add(some.pixel, {{radiance_[0][i], radiance_[1][i], radiance_[2][i]},
                                     first_shape_[i],
-                                    settings_.alpha ? transmittance_[i] : 0.0});
+                                    settings_.alpha ? transmittance_[i] : 0.0,
+                                    cost_[i]});
     };
 }
 
@@ -273,6 +275,7 @@ void Wavefront::start(std::size_t count) {
     for (double* channel : radiance_)
         std::fill_n(channel, count, 0.0);
     if (settings_.alpha) std::fill_n(transmittance_, count, 0.0);
+    if (to_quality_) std::fill_n(cost_.begin(), count, 0.0);
     paths_.count = count;
     tracing_.kernels->rays.camera_rays(camera_, count, across_, upward_, lens_right_, lens_up_,
                                        paths_.origin, paths_.direction);
@@ -332,6 +335,7 @@ void Wavefront::trace() {
 
 void Wavefront::trace_wave(int depth, const Coherence& coherence) {
     finder_.nearest(paths_, &coherence, counters_);
+    if (to_quality_) count_costs();
     const bool is_first = to_quality_ && depth == 0;
     if (is_first) note_first_hits();
     for (const std::uint32_t lane : finder_.at_contacts()) { // where several surfaces meet
@@ -342,6 +346,17 @@ void Wavefront::trace_wave(int depth, const Coherence& coherence) {
                  static_cast<std::uint32_t>(settings_.max_see_through));
     see_background(depth);
     shade(depth);
+}
+
+/// Adds each ray of the wave, and its rays to lights, to the cost of its sample. The reference
+/// counts those that it follows.
+void Wavefront::count_costs() {
+    for (std::size_t lane = 0; lane < paths_.count; ++lane)
+        cost_[paths_.sample[lane]] +=
+            finder_.hits().slot[lane] != no_slot ? 1.0 + light_rays_ : 1.0;
+    for (const std::uint32_t lane : finder_.at_contacts())
+        cost_[paths_.sample[lane]] -=
+            finder_.hits().slot[lane] != no_slot ? 1.0 + light_rays_ : 1.0;
 }
 
 void Wavefront::note_first_hits() {
@@ -357,6 +372,7 @@ void Wavefront::follow(std::size_t lane, int depth) {
     const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                  paths_.throughput[2][lane]);
     reference_.set_sample(names_[paths_.sample[lane]]);
+    const double cost_before = reference_.cost();
     const core::Vec3d light = reference_.light_along(
         {ray_of(paths_, lane), origin_surfaces_of(scene_, paths_, lane), paths_.media_at(lane),
          throughput, depth_of(lane, depth),
@@ -364,6 +380,7 @@ void Wavefront::follow(std::size_t lane, int depth) {
          /*is_straight=*/depth_of(lane, depth) == 0});
     add(paths_.sample[lane], light.x, light.y, light.z);
     if (settings_.alpha) transmittance_[paths_.sample[lane]] += reference_.transmittance();
+    if (to_quality_) cost_[paths_.sample[lane]] += reference_.cost() - cost_before;
 }
 
 core::Vec3d Wavefront::background_along(std::size_t lane) {

@@ -82,6 +82,7 @@ class Wavefront {
     void flush(const Add& add);
     core::CameraRays<double>::InPixel in_pixel(const Samples& some, int number) const;
     void start(std::size_t count);
+    void count_costs();
     void note_first_hits();
     void start_in_media();
     void trace();
@@ -145,6 +146,8 @@ class Wavefront {
     // Used if the image has a quality.
     core::Survey* survey_;
     std::optional<core::RegionSamples> to_quality_;
+    double light_rays_;                      // for each surface
+    std::vector<double> cost_;               // by sample: core::Sample::cost
     std::vector<core::ShapeId> first_shape_; // by sample: the shape that the camera ray hits
     // A wave, sorted.
     HitSorter sorted_;
