@@ -25,7 +25,7 @@ core::Scene read_format(InputFile& file, const LoadOptions& options) {
                               options.drawing, options.workers, options.legend);
     if (!options.option_for_atoms.empty())
         throw BadInput(options.option_for_atoms, "",
-                       "goes with a file of atoms, and " + printable(file.name(), 4096) +
+                       "goes with a file of atoms, but " + printable(file.name(), 4096) +
                            " is a scene");
     if (format == Format::built) return read_built(file, options.workers);
     if (format == Format::pov) return read_pov(file, options.workers, options.on_remark);

@@ -47,17 +47,18 @@ int build(const BuildArguments& arguments) {
 
 Command add_build_command(CLI::App& app) {
     CLI::App& command =
-        add_command(app, "build", "Build a large scene once, for all that is drawn of it",
-                    "raylane build scenes/lattice.json -o lattice.rl");
+        add_command(app, "build", "Build a large scene once, for many renders",
+                    "raylane build scenes/lattice.json -o lattice.rl",
+                    "All commands accept the output as a scene, without reading and building it "
+                    "again. They map it into memory, once for all processes of a host.");
     auto arguments = std::make_shared<BuildArguments>();
     add_positional(command, "SCENE", arguments->scene,
-                   "A scene, or atoms, as render reads them; - is standard input");
+                   "Scene or atoms, in any format that render reads; - is standard input.");
     add_option(command, "-o,--output", arguments->output,
-               "The file to write, a scene for all commands, which they need not read and build: "
-               "the system maps it into memory, once for all processes of a host (default: the "
-               "scene's name, here, with .rl)",
+               "Output file, .rl. Default: the scene's name with .rl, in the current folder.",
                "FILE");
-    add_option(command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
+    add_option(command, "--threads", arguments->threads,
+               "Number of threads. Default: all processors.", "N");
     arguments->scene_arguments.add_to(command);
     return {&command, [arguments] { return build(*arguments); }};
 }

@@ -3,9 +3,9 @@
 namespace raylane::scenes {
 
 CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& help,
-                      const std::string& example) {
+                      const std::string& example, const std::string& details) {
     CLI::App* const command = app.add_subcommand(name, help);
-    command->footer("Example: " + example);
+    command->footer((details.empty() ? "" : details + "\n") + "Example: " + example);
     return *command;
 }
 

@@ -16,14 +16,11 @@ namespace raylane::scenes {
 
 /// The exit codes of the program and their meanings.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 4> exit_codes = {
-    {{"0", "done"},
-     {"1", "a comparison that differs, or a picture that is not what it says"},
-     {"2", "bad input or usage"},
-     {"3", "the system refused"}}};
+    {{"0", "done"}, {"1", "difference found"}, {"2", "bad input or usage"}, {"3", "system error"}}};
 
 /// The environment variables that the program reads.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 1> environment = {
-    {{"RAYLANE_THREADS", "Threads where --threads does not say (default: all processors)"}}};
+    {{"RAYLANE_THREADS", "Threads if --threads is not given. Default: all processors."}}};
 
 struct Command {
     CLI::App* arguments;
@@ -34,10 +31,11 @@ struct Command {
 /// A value on the command line, which the command validates; nothing if it is not given.
 using Argument = std::optional<std::string>;
 
-/// Adds a command with a help text and an example. Defined apart, so that the commands' sources do
-/// not compile CLI11's classes, which takes seconds.
+/// Adds a command with a help text of one line, an example and, before it, details of any number of
+/// lines. Defined apart, so that the commands' sources do not compile CLI11's classes, which takes
+/// seconds.
 CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& help,
-                      const std::string& example);
+                      const std::string& example, const std::string& details = "");
 /// Sets the options that add(command) adds from `text`, which has the form of a command line.
 /// Returns false if `text` is not a list of such options. Required options may be missing.
 bool take_options(const std::string& text, const std::function<void(CLI::App& command)>& add);

@@ -59,7 +59,7 @@ int compare(const CompareArguments& arguments) {
         const std::string& name = file_argument("--diff", *arguments.difference);
         require_other_file("--diff", name, "A", name_of_a);
         require_other_file("--diff", name, "B", name_of_b);
-        require_other_output("--diff", name, "standard output, which has the figures", "-");
+        require_other_output("--diff", name, "standard output, which receives the result", "-");
         output.emplace(name, exr_of);
         require_writable("--diff", output->format());
     }
@@ -77,17 +77,16 @@ int compare(const CompareArguments& arguments) {
 
 Command add_compare_command(CLI::App& app) {
     CLI::App& command =
-        add_command(app, "compare", "Say by how much two pictures differ; exit code 1 if they do",
+        add_command(app, "compare", "Compare two images; exit code 1 if they differ",
                     "raylane compare before.png after.png --diff difference.png");
     auto arguments = std::make_shared<CompareArguments>();
-    add_positional(command, "A", arguments->a, "A picture: PNG, EXR, HDR or PFM");
-    add_positional(command, "B", arguments->b, "Another");
+    add_positional(command, "A", arguments->a, "First image, PNG, EXR, HDR or PFM.");
+    add_positional(command, "B", arguments->b, "Second image, of the same size.");
     add_option(command, "--tolerance", arguments->tolerance,
-               "The largest difference of a component that does not count; 1 is white (default: 0)",
-               "T");
+               "Largest difference of a component that is ignored; 1 is white. Default: 0.", "T");
     add_option(command, "--diff", arguments->difference,
-               "Write the differences as a picture, amplified to white", "FILE");
-    add_flag(command, "--json", arguments->json, "Print the figures as JSON");
+               "Write an image of the differences, amplified to white.", "FILE");
+    add_flag(command, "--json", arguments->json, "Print the result as JSON.");
     return {&command, [arguments] { return compare(*arguments); }};
 }
 

@@ -33,7 +33,7 @@ int convert(const ConvertArguments& arguments) {
     for (const std::string& what : export_scene(output, seen(std::move(loaded), change, settings)))
         differences.append(differences.empty() ? "" : ", ").append(what);
     if (!differences.empty() && verbosity != Verbosity::quiet)
-        std::fprintf(stderr, "%s: not as in the scene, for want of a word in the format: %s\n",
+        std::fprintf(stderr, "%s: differs from the scene, because the format cannot express: %s\n",
                      printable(output, 4096).c_str(), differences.c_str());
     return 0;
 }
@@ -45,11 +45,10 @@ Command add_convert_command(CLI::App& app) {
                                     "raylane convert scenes/lattice.json lattice.pov");
     auto arguments = std::make_shared<ConvertArguments>();
     add_positional(command, "SCENE", arguments->scene,
-                   "A scene, or atoms, as render reads them; - is standard input");
-    add_positional(
-        command, "OUTPUT", arguments->output,
-        "The file to write: .json, .nff, .pov for POV-Ray 3.7, or .rl as build writes it; or - for "
-        "JSON to standard output");
+                   "Scene or atoms, in any format that render reads; - is standard input.");
+    add_positional(command, "OUTPUT", arguments->output,
+                   "Output file, .json, .nff, .pov (POV-Ray 3.7) or .rl (same as build); - writes "
+                   "JSON to standard output.");
     arguments->scene_arguments.add_to(command);
     return {&command, [arguments] { return convert(*arguments); }};
 }

@@ -86,19 +86,19 @@ Command add_help_command(CLI::App& app) {
     CLI::App& command =
         add_command(app, "help", "Print a page of the documentation", "raylane help scenes");
     auto topic = std::make_shared<Argument>();
-    add_option(command, "TOPIC", *topic, "A page or a command (default: list the pages)", "");
+    add_option(command, "TOPIC", *topic, "Page or command. Default: list the pages.", "");
     return {&command, [&app, topic] { return print_help(app, *topic); }};
 }
 
 Command add_manual_command(CLI::App& app) {
-    CLI::App& command =
-        add_command(app, "manual", "Print the page of a command for man, or of the whole tool",
-                    "raylane manual render | man -l -");
+    CLI::App& command = add_command(app, "manual", "Print a manual page, in the format of man",
+                                    "raylane manual render | man -l -");
     auto arguments = std::make_shared<ManualArguments>();
-    add_option(command, "COMMAND", arguments->command, "A command (default: the whole tool)", "");
-    add_option(command, "--all", arguments->folder,
-               "Write the pages of all commands into a folder, as raylane.1, raylane-render.1, ...",
-               "FOLDER");
+    add_option(command, "COMMAND", arguments->command, "Command. Default: the whole tool.", "");
+    add_option(
+        command, "--all", arguments->folder,
+        "Write the pages of all commands into a folder, named raylane.1, raylane-render.1, ...",
+        "FOLDER");
     return {&command, [&app, arguments] { return print_manual(app, *arguments); }};
 }
 
@@ -113,11 +113,10 @@ void name_commands(CLI::App& app) {
 }
 
 Command add_completion_command(CLI::App& app) {
-    CLI::App& command = add_command(
-        app, "completion", "Print a script for bash that completes commands, options and files",
-        "source <(raylane completion bash)");
+    CLI::App& command = add_command(app, "completion", "Print a completion script for bash",
+                                    "source <(raylane completion bash)");
     auto shell = std::make_shared<Argument>();
-    add_option(command, "SHELL", *shell, "The shell: bash", "bash")->required();
+    add_option(command, "SHELL", *shell, "Shell: bash.", "bash")->required();
     return {&command, [&app, shell] {
                 choice_argument<bool>("SHELL", **shell, {{"bash", true}});
                 std::fputs(completion_script(app).c_str(), stdout);

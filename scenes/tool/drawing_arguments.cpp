@@ -17,8 +17,8 @@ std::array<int, 3> repeat_argument(const std::string& text) {
         if (!number || *number < 1 || *number > 1000 ||
             (end == std::string_view::npos) != (axis == 2))
             throw BadInput("--repeat", "",
-                           "must be how many cells along each edge, from 1 to 1000, such as 2x2x1, "
-                           "got \"" +
+                           "must be the number of cells along each edge, from 1 to 1000, such as "
+                           "2x2x1, got \"" +
                                printable(text) + "\"");
         result[axis] = *number;
         rest.remove_prefix(std::min(end, rest.size() - 1) + 1);
@@ -33,36 +33,36 @@ void DrawingArguments::add_to(CLI::App& command) {
         add_option(command, name, value, help, type)->group(atoms_group);
     };
     add("--style", style,
-        "balls (and sticks), sticks, licorice, spheres (van der Waals' radii) or points (default: "
-        "balls of up to 500 atoms, spheres of more)",
+        "Style of atoms and bonds. balls have sticks; spheres have van der Waals radii. Default: "
+        "balls for up to 500 atoms, otherwise spheres.",
         "balls|sticks|licorice|spheres|points");
     add("--color", color,
-        "By element, chain, residue, or a number that the file has for each atom, such as b_factor "
-        "(default: element)",
+        "Property that colours the atoms: element, chain, residue, or a number per atom in the "
+        "file, such as b_factor. Default: element.",
         "BY");
     add("--select", select,
-        "The atoms to draw (default: all): all, none, protein, nucleic, water, hetero, hydrogen, "
-        "backbone, chain A B, residue ALA 17 20-30, element C Fe, name CA, type 1, index 1-100, a "
-        "number that the file has for each atom, such as b_factor < 30, within 5 of ..., not ..., "
-        "... and ..., ... or ..., in parentheses if need be",
+        "Atoms to show: all, none, protein, nucleic, water, hetero, hydrogen, backbone, chain A B, "
+        "residue ALA 17 20-30, element C Fe, name CA, type 1, index 1-100, a number per atom in "
+        "the file, such as b_factor < 30, or within 5 of ... Combine these by not, and, or and "
+        "parentheses. Default: all.",
         "WHICH");
     add("--opacity", opacity,
-        "How much atoms and bonds cover of what is behind them, above 0 and up to 1; walls inside "
-        "of "
-        "what overlaps are not seen (default: 1)",
+        "Opacity of atoms and bonds, above 0 and up to 1. Inner surfaces of overlapping shapes are "
+        "hidden. Default: 1.",
         "A");
-    add("--repeat", repeat, "Cells side by side, such as 2x2x1", "AxBxC");
+    add("--repeat", repeat, "Repeat the unit cell along its edges, such as 2x2x1. Default: 1x1x1.",
+        "AxBxC");
     add("--atom-style", atom_style,
-        "Atom style of LAMMPS' data, such as full or \"hybrid sphere dipole\" (default: the remark "
-        "behind Atoms, or the style that fits the columns)",
+        "Atom style of a LAMMPS data file, such as full or \"hybrid sphere dipole\". Default: the "
+        "comment after Atoms, otherwise the style that fits the columns.",
         "STYLE");
     const auto flag = [&](const char* name, bool& value, const char* help) {
         add_flag(command, name, value, help);
         command.get_option(name)->group(atoms_group);
     };
-    flag("--cell", cell, "Show the cell's edges");
+    flag("--cell", cell, "Show the edges of the unit cell.");
     flag("--ellipsoids", ellipsoids,
-         "Draw displacements (ANISOU, U and B) as ellipsoids or spheres of half their probability");
+         "Show displacements (ANISOU, U and B) as ellipsoids or spheres of 50 % probability.");
 }
 
 Drawing DrawingArguments::drawing() const {

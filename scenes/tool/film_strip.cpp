@@ -15,7 +15,7 @@ namespace raylane::scenes {
 namespace {
 
 [[noreturn]] void refuse_none() {
-    throw BadInput("--frames", "", "must be of at least one picture, got none");
+    throw BadInput("--frames", "", "must select at least one frame, got none");
 }
 
 /// A picture to draw.
@@ -130,7 +130,7 @@ class Stage {
     void fit_to_all() {
         std::atomic<std::size_t> count = 0;
         const ProgressLine line(strip_.verbosity,
-                                [&] { return std::to_string(count) + " pictures looked at"; });
+                                [&] { return std::to_string(count) + " frames surveyed"; });
         for (; strip_.source->next(); ++count) {
             const core::Scene scene = strip_.source->scene();
             core::Camera camera = scene.camera();
@@ -175,14 +175,14 @@ class StripProgress {
         const std::size_t done = drawn_ + kept_;
         const std::string rate =
             with_prefix(static_cast<double>(rays_ + progress_.rays) / seconds) + "rays/s";
-        if (count_ == 0) return "picture " + std::to_string(done + 1) + "  " + rate;
+        if (count_ == 0) return "image " + std::to_string(done + 1) + "  " + rate;
         const double part =
             std::min(1.0, static_cast<double>(progress_.pixels) / static_cast<double>(pixels_));
         const double drawn = static_cast<double>(drawn_) + (done < count_ ? part : 0.0);
         const double left = static_cast<double>(count_ - std::min(count_, done)) - part;
         return bar_text(std::min(1.0, (static_cast<double>(kept_) + drawn) /
                                           static_cast<double>(count_))) +
-               "  picture " + std::to_string(std::min(done + 1, count_)) + " of " +
+               "  image " + std::to_string(std::min(done + 1, count_)) + " of " +
                std::to_string(count_) + "  " + rate + "  " +
                (drawn > 0.0 ? duration_text(seconds * std::max(0.0, left) / drawn) + " left" : "");
     }
@@ -200,14 +200,14 @@ class StripProgress {
 
 void refuse_turn(const Turn& turn, const std::string& otherwise) {
     throw BadInput("--turn", "",
-                   "must be in as many pictures as there are otherwise, " + otherwise + ", got " +
+                   "must have as many images as the sequence, " + otherwise + ", got " +
                        std::to_string(turn.count));
 }
 
 Shot first_shot(const FilmStrip& strip) {
     const auto start = std::chrono::steady_clock::now();
     const ProgressLine line(strip.verbosity, [start] {
-        return "its frame is read: " + duration_text(seconds_since(start));
+        return "reading the frame: " + duration_text(seconds_since(start));
     });
     return Stage(strip).first();
 }
@@ -242,10 +242,10 @@ void draw(const FilmStrip& strip) {
     const std::size_t kept = progress.kept_count();
     if (strip.verbosity == Verbosity::verbose ||
         (strip.verbosity == Verbosity::normal && is_terminal()))
-        std::fprintf(stderr, "%zu pictures drawn in %s\n", pictures - kept,
+        std::fprintf(stderr, "%zu images rendered in %s\n", pictures - kept,
                      duration_text(seconds_since(start)).c_str());
     if (kept > 0 && strip.verbosity != Verbosity::quiet)
-        std::fprintf(stderr, "%zu of %zu pictures are there already; --overwrite draws them anew\n",
+        std::fprintf(stderr, "%zu of %zu images exist already; --overwrite renders them again\n",
                      kept, pictures);
 }
 

@@ -47,7 +47,7 @@ std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
     auto parameters = scene_arguments.parameters.values(true);
     if (!range && !strip.turn && !scene_arguments.parameters.has_sweep()) return std::nullopt;
     if (range && !parameters.front().empty())
-        throw BadInput("--set", "", "goes with a scene in JSON, and --frames with atoms");
+        throw BadInput("--set", "", "goes with a JSON scene, but --frames goes with atoms");
 
     LoadOptions options = scene_arguments.load_options(true);
     strip.workers = std::make_shared<simd::ParallelWorkers>(threads);

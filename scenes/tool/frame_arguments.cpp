@@ -24,18 +24,19 @@ void FrameArguments::add_to(CLI::App& command) {
         add_option(command, name, value, help, type)->group(group_of_several);
     };
     add("--frames", frames,
-        "Of a file with several frames of atoms START:STOP:STEP as Python has it, or one; a "
-        "picture's number is its frame's (default: 0)",
+        "Frames of a trajectory of atoms: one number, or START:STOP:STEP as in Python, with a step "
+        "of at least 1. Images are numbered by frame. Default: 0.",
         "WHICH");
     add("--turn", turn,
-        "Go around what is seen by DEGREES, in so many pictures, the camera to its right",
-        "DEGREES/PICTURES");
+        "Turn the camera to its right around the point that it looks at: IMAGES images, each "
+        "turned by DEGREES/IMAGES from the one before.",
+        "DEGREES/IMAGES");
     add("--camera-from", camera_from,
-        "What a camera sees all of that finds its place by itself, and what ranges of colours "
-        "span: the first frame, all, or each its own (default: first)",
+        "Frames that an automatic camera and the ranges of colours are fitted to: the first one, "
+        "all, or each one separately. Default: first.",
         "first|all|each");
     add_flag(command, "--overwrite,--force", overwrite,
-             "Draw pictures of several anew that are there already");
+             "Render images of a sequence again that exist already.");
     command.get_option("--overwrite")->group(group_of_several);
 }
 
@@ -82,8 +83,7 @@ std::optional<Turn> FrameArguments::turning() const {
     const int count = parts.size() == 2 ? to_int(parts[1]).value_or(0) : 0;
     if (!degrees || count < 1 || count > most_pictures)
         throw BadInput("--turn", "",
-                       "must be DEGREES/PICTURES, such as 360/120, got \"" + printable(*turn) +
-                           "\"");
+                       "must be DEGREES/IMAGES, such as 360/120, got \"" + printable(*turn) + "\"");
     return Turn{static_cast<double>(*degrees), static_cast<std::size_t>(count)};
 }
 

@@ -12,7 +12,7 @@
 namespace raylane::scenes {
 
 /// The heading in the help of options for several pictures.
-inline constexpr const char* group_of_several = "Parameters and several pictures";
+inline constexpr const char* group_of_several = "Parameters and sequences";
 inline constexpr int most_pictures = 1'000'000;
 
 /// Python's start:stop:step; negative numbers count from the end.

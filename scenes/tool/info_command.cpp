@@ -125,7 +125,7 @@ void print(const Json& info) {
     const bool has_limit = info["max_see_through"] < core::Settings::see_through_limit;
     line("limits",
          "depth " + number("max_depth") + ", weight " + number("min_weight") +
-             (has_limit ? ", " + number("max_see_through") + " surfaces seen through" : ""));
+             (has_limit ? ", " + number("max_see_through") + " transparent surfaces" : ""));
     line("needs", joined(info["needed"]));
     line("left out", joined(info["left_out"]));
     const std::string doubles =
@@ -152,12 +152,12 @@ int info(const InfoArguments& arguments) {
 } // namespace
 
 Command add_info_command(CLI::App& app) {
-    CLI::App& command =
-        add_command(app, "info", "Say what a scene holds and what its picture therefore needs",
-                    "raylane info scenes/birthday.json");
+    CLI::App& command = add_command(app, "info", "Print the contents of a scene",
+                                    "raylane info scenes/birthday.json");
     auto arguments = std::make_shared<InfoArguments>();
-    add_positional(command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
-    add_flag(command, "--json", arguments->json, "Print it as JSON");
+    add_positional(command, "SCENE", arguments->scene,
+                   "Scene or atoms, in any format that render reads.");
+    add_flag(command, "--json", arguments->json, "Print JSON.");
     arguments->scene_arguments.add_to(command);
     return {&command, [arguments] { return info(*arguments); }};
 }

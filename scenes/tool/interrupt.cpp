@@ -50,7 +50,7 @@ extern "C" void stop_first(int signal) {
     progress->stop = true;
     constexpr itimerspec half_a_second{{}, {0, 500'000'000}};
     ::timer_settime(patience, 0, &half_a_second, nullptr);
-    if (is_shown()) say("\nraylane: finishing what is under way; once more to end at once\n");
+    if (is_shown()) say("\nraylane: finishing tiles in progress; interrupt again to end at once\n");
 }
 
 extern "C" void abandon(int signal) {
@@ -67,7 +67,7 @@ extern "C" void lose_pages(int) {
     ending = true;
     remove_temporaries();
     if (is_shown()) say("\n");
-    say("raylane: a built scene became shorter while it was in use, or can no longer be read\n");
+    say("raylane: a built scene was truncated while in use, or can no longer be read\n");
     ::_exit(refused);
 }
 

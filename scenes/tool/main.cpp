@@ -42,7 +42,7 @@ std::string exit_codes_text() {
 }
 
 int run(int argc, const char* const* argv) {
-    CLI::App app("raylane draws scenes of spheres, cylinders, cones, boxes and other quadrics.",
+    CLI::App app("raylane renders scenes of spheres, cylinders, cones, boxes and other quadrics.",
                  "raylane");
     app.set_version_flag("--version", "raylane " RAYLANE_VERSION, "Print the version and exit");
     app.footer("Example: raylane render scenes/birthday.json -o birthday.png\n" +

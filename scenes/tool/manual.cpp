@@ -83,6 +83,11 @@ void add_options_to(std::string& page, const CLI::App& command) {
     }
 }
 
+void add_details_to(std::string& page, std::string_view footer) {
+    const std::string_view details = footer.substr(0, footer.find("Example: "));
+    if (!details.empty()) page += ".SH DESCRIPTION\n" + plain(details);
+}
+
 void add_examples_to(std::string& page, std::string_view footer) {
     constexpr std::string_view sign = "Example: ";
     for (std::string_view rest = footer; !rest.empty();) {
@@ -137,7 +142,9 @@ std::string manual_page(const CLI::App& app, const CLI::App& command) {
         for (const CLI::App* each : commands_of(app))
             page += ".TP\n" + synopsis_of(*each) + "\n" + plain(each->get_description()) + "\n";
     } else {
-        page += synopsis_of(command) + "\n.SH ARGUMENTS\n";
+        page += synopsis_of(command) + "\n";
+        if (!command.get_prefix_command()) add_details_to(page, command.get_footer());
+        page += ".SH ARGUMENTS\n";
         for (const CLI::Option* option : positionals_of(command))
             page += ".TP\n" + italic(option->get_name()) + "\n" + plain(option->get_description()) +
                     "\n";

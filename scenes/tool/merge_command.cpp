@@ -31,33 +31,32 @@ class Merger {
         ExrPicture picture = read_own_exr(name);
         const PicturePart part = part_of(name, picture.texts);
         if (text_in(name, picture.texts, "Pixels") != fingerprint_of(picture.film))
-            throw BadInput(name, "", "has other pixels than it says that it was drawn with");
+            throw BadInput(name, "", "has pixels that differ from its Pixels attribute");
         if (!first_) begin(name, picture);
         const ExrPicture& first = *first_;
         for (const char* key : {"Scene", "Comment", "Software"})
             if (text_in(name, picture.texts, key) != text_in(first_name_, first.texts, key))
                 throw BadInput(name, "",
-                               std::string("is of another picture than ") + first_name_ + ": its " +
+                               std::string("belongs to another image than ") + first_name_ + ": " +
                                    key + " differs");
         if (optional_text("Options", picture.texts) != optional_text("Options", first.texts))
             throw BadInput(name, "",
-                           "is of another picture than " + first_name_ + ": its Options differ");
+                           "belongs to another image than " + first_name_ + ": Options differs");
         if (optional_text("Film", picture.texts) != optional_text("Film", first.texts))
-            throw BadInput(name, "", "is of another picture of a film than " + first_name_);
+            throw BadInput(name, "", "belongs to another image of a sequence than " + first_name_);
         if (part.count != has_.size() || tile_of(picture.texts) != tile_of(first.texts) ||
             picture.film.width() != first.film.width() ||
             picture.film.height() != first.film.height() ||
             picture.film.has_alpha() != first.film.has_alpha())
-            throw BadInput(name, "", "is a part of another division than " + first_name_);
+            throw BadInput(name, "", "belongs to another division into parts than " + first_name_);
         if (picture.layers.has_value() != first.layers.has_value())
             throw BadInput(name, "",
-                           picture.layers ? "has layers, and " + first_name_ + " has none"
-                                          : "has no layers, and " + first_name_ + " has some");
-        if (has_[part.number - 1])
-            throw BadInput(name, "", "is part " + part.text() + " once more");
+                           picture.layers ? "has layers, but " + first_name_ + " has none"
+                                          : "has no layers, but " + first_name_ + " has some");
+        if (has_[part.number - 1]) throw BadInput(name, "", "repeats part " + part.text());
         has_[part.number - 1] = true;
         const std::optional<RayTiers> rays = ray_tiers_of(text_in(name, picture.texts, "Rays"));
-        if (!rays) throw BadInput(name, "", "says what its rays were in vain");
+        if (!rays) throw BadInput(name, "", "has a malformed \"Rays\" attribute");
         rays_ += *rays;
         // Parts may name the scene differently. Part 1's name is used, whatever the order of the
         // arguments.
@@ -73,8 +72,8 @@ class Merger {
             if (!has_[i]) missing += (missing.empty() ? "" : ", ") + std::to_string(i + 1);
         if (!missing.empty())
             throw BadInput("PARTS", "",
-                           "must be all " + std::to_string(has_.size()) +
-                               ", but there is no part " + printable(missing, 200));
+                           "must be all parts, 1 to " + std::to_string(has_.size()) +
+                               "; missing: " + printable(missing, 200));
         // Same order as in the files that render writes.
         PictureTexts texts;
         for (const char* key : {"Title", "Software", "Comment", "Film", "Scene", "Options"})
@@ -88,11 +87,11 @@ class Merger {
 
   private:
     static PicturePart part_of(const std::string& name, const PictureTexts& texts) {
-        if (!has_text(texts, "Part"))
-            throw BadInput(name, "", "must be what render --part has drawn");
+        if (!has_text(texts, "Part")) throw BadInput(name, "", "must be written by render --part");
         const std::string& text = text_in(name, texts, "Part");
         const std::optional<PicturePart> part = picture_part_of(text.substr(0, text.find(' ')));
-        if (!part || tile_of(texts) == 0) throw BadInput(name, "", "says which part it is in vain");
+        if (!part || tile_of(texts) == 0)
+            throw BadInput(name, "", "has a malformed \"Part\" attribute");
         return *part;
     }
     /// Returns the text, or an empty one if it is missing. Only parts of a film have Film, and
@@ -112,10 +111,11 @@ class Merger {
     void require_fit(const std::string& name, const ExrPicture& picture, bool alpha) const {
         const bool is_exr = output_ == PictureFormat::exr;
         if (picture.layers && !is_exr)
-            throw BadInput(name, "",
-                           "was drawn with --layers, which goes with an output that ends in .exr");
+            throw BadInput(
+                name, "",
+                "was rendered with --layers, which goes with an output that ends in .exr");
         if (alpha && !is_exr && output_ != PictureFormat::png)
-            throw BadInput(name, "", "was drawn with --alpha, which goes with PNG or EXR");
+            throw BadInput(name, "", "was rendered with --alpha, which goes with PNG or EXR");
     }
 
     void begin(const std::string& name, const ExrPicture& picture) {
@@ -132,7 +132,7 @@ class Merger {
         crop_ = options.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
         if (crop_.x1 - crop_.x0 != picture.film.width() ||
             crop_.y1 - crop_.y0 != picture.film.height())
-            throw BadInput(name, "", "has another size than its Comment says");
+            throw BadInput(name, "", "has another size than its Comment states");
         grid_.emplace(simd::grid_of(settings_, options));
         has_.assign(part_of(name, picture.texts).count, false);
         first_ = picture;
@@ -193,24 +193,22 @@ int merge(const MergeArguments& arguments) {
 } // namespace
 
 Command add_merge_command(CLI::App& app) {
-    CLI::App& command = add_command(
-        app, "merge",
-        "Put the parts of a picture together that render --part has drawn: the same bits as "
-        "if it had been drawn at once",
-        "raylane merge part-*.exr -o out.png");
+    CLI::App& command = add_command(app, "merge", "Merge the parts written by render --part",
+                                    "raylane merge part-*.exr -o out.png",
+                                    "The merged image has the same bits as one rendered at once.");
     auto arguments = std::make_shared<MergeArguments>();
-    command.add_option("PARTS", arguments->parts, "All parts of one picture, in any order")
+    command.add_option("PARTS", arguments->parts, "All parts of one image, in any order.")
         ->required()
         ->type_name("");
-    add_option(command, "-o,--output", arguments->output, "The picture, as render writes it",
-               "FILE")
+    add_option(command, "-o,--output", arguments->output,
+               "Image, in any format that render writes.", "FILE")
         ->required();
     add_option(command, "--bits", arguments->bits,
-               "Of a component: 8 or 16 in PNG (default: 8), 16 (halves) or 32 (floats) in EXR "
-               "(default: 32, as the parts have)",
+               "Bits per channel: 8 or 16 (PNG), 16 (half) or 32 (float) (EXR). Default: 8 (PNG), "
+               "32 (EXR), same as the parts.",
                "N");
     add_option(command, "--dpi", arguments->dpi,
-               "Pixels per inch that PNG or EXR tells who prints it", "N");
+               "Print resolution stored in PNG or EXR, in pixels per inch. Default: none.", "N");
     return {&command, [arguments] { return merge(*arguments); }};
 }
 

@@ -20,11 +20,10 @@ void* function_of(const Module& module, const std::string& what_fails) {
         void* const loaded = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (loaded == nullptr) refuse(::dlerror());
         void* const function = ::dlsym(loaded, module.function);
-        if (function == nullptr) refuse(std::string(module.file) + " is of another version");
+        if (function == nullptr) refuse(std::string(module.file) + " belongs to another version");
         return function;
     }
-    refuse("there is no " + std::string(module.file) + ", which is built where " +
-           module.built_where);
+    refuse("missing module " + std::string(module.file) + ", which needs " + module.built_where);
     return nullptr;
 }
 

@@ -18,10 +18,10 @@ std::string default_output(const std::filesystem::path& scene, const std::string
 NumberedName::NumberedName(const std::string& option, const std::string& pattern,
                            bool needs_number) {
     const auto refuse = [&] {
-        throw BadInput(option, "",
-                       "must have one number for each picture's, such as %05d, and %% for a %, "
-                       "got \"" +
-                           printable(pattern, 4096) + "\"");
+        throw BadInput(
+            option, "",
+            "must have one placeholder for the image number, such as %05d, and %% for a %, got \"" +
+                printable(pattern, 4096) + "\"");
     };
     for (std::size_t i = 0; i < pattern.size(); ++i) {
         std::string& part = has_number_ ? behind_ : before_;

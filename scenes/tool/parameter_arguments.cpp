@@ -30,10 +30,9 @@ struct Setting {
 
 Setting setting_argument(const std::string& text) {
     const auto refuse = [&] {
-        throw BadInput(
-            "--set", "",
-            "must be NAME=NUMBER, or NAME=FIRST:LAST:COUNT for several pictures, got \"" +
-                printable(text) + "\"");
+        throw BadInput("--set", "",
+                       "must be NAME=NUMBER, or NAME=FIRST:LAST:COUNT for a sequence, got \"" +
+                           printable(text) + "\"");
     };
     const std::size_t equals = text.find('=');
     Setting setting{text.substr(0, equals), {}, false};
@@ -63,9 +62,9 @@ Setting setting_argument(const std::string& text) {
 void ParameterArguments::add_to(CLI::App& command, bool sweeps) {
     command
         .add_option("--set", set,
-                    sweeps ? "What \"$NAME\" in a scene stands for: a number, or FIRST:LAST:COUNT "
-                             "for as many pictures; several go along with each other"
-                           : "The number that \"$NAME\" in a scene stands for")
+                    sweeps ? "Value of \"$NAME\" in a JSON scene: a number, or FIRST:LAST:COUNT "
+                             "for a sequence of COUNT images. Several of these advance together."
+                           : "Value of \"$NAME\" in a JSON scene, a number.")
         ->type_name("NAME=VALUE")
         ->expected(1)
         ->allow_extra_args(false)
@@ -80,14 +79,16 @@ std::vector<std::map<std::string, double>> ParameterArguments::values(bool sweep
         const Setting setting = setting_argument(text);
         for (const Setting& other : settings)
             if (other.name == setting.name)
-                throw BadInput("--set", "", "must give \"" + printable(setting.name) + "\" once");
+                throw BadInput("--set", "",
+                               "must set \"" + printable(setting.name) + "\" only once");
         const std::size_t values = setting.values.size();
         if (values > 1 && !sweeps)
-            throw BadInput("--set", "", "must be one number here, got \"" + printable(text) + "\"");
+            throw BadInput("--set", "",
+                           "must be NAME=NUMBER for this command, got \"" + printable(text) + "\"");
         if (values > 1 && count > 1 && values != count)
             throw BadInput("--set", "",
-                           "must have as many values each, got " + std::to_string(count) + " and " +
-                               std::to_string(values));
+                           "must have the same number of values in all sweeps, got " +
+                               std::to_string(count) + " and " + std::to_string(values));
         if (values > 1) count = values;
         settings.push_back(setting);
     }

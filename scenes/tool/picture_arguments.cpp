@@ -14,7 +14,7 @@ namespace raylane::scenes {
 
 namespace {
 
-constexpr const char* pictures_group = "Pictures";
+constexpr const char* pictures_group = "Images";
 
 /// Parses X,Y,WxH.
 core::Region crop_argument(const std::string& text) {
@@ -101,31 +101,33 @@ void PictureArguments::add_to(CLI::App& command) {
         add_option(command, name, value, help, type)->group(pictures_group);
     };
     add("--crop", crop,
-        "Draw this part of the picture alone: from X to the right and Y downwards, in pixels of "
-        "the whole",
+        "Render only this rectangle: its upper left corner and its size, in pixels of the whole "
+        "image.",
         "X,Y,WxH");
     add("--bits", bits,
-        "Of a component: 8 or 16 in PNG (default: 8), 16 (halves) or 32 (floats) in EXR (default: "
-        "16)",
+        "Bits per channel: 8 or 16 (PNG), 16 (half) or 32 (float) (EXR). Default: 8 (PNG), 16 "
+        "(EXR).",
         "N");
-    add("--dpi", dpi, "Pixels per inch that PNG or EXR tells who prints it", "N");
-    add_flag(command, "--layers", layers,
-             "Into EXR, what each pixel's middle shows as well: Z (the distance along the ray), "
-             "N.X, N.Y, N.Z, id.shape, id.material, and the number of samples");
+    add("--dpi", dpi, "Print resolution stored in PNG or EXR, in pixels per inch. Default: none.",
+        "N");
+    add_flag(
+        command, "--layers", layers,
+        "Add AOVs of the first surface at the middle of each pixel to an EXR: Z (distance along "
+        "the ray), N.X, N.Y, N.Z, id.shape, id.material and samples (number of samples).");
     command.get_option("--layers")->group(pictures_group);
     add_flag(command, "--alpha", alpha,
-             "Leave out the background, so that the picture can be laid over another: PNG or EXR "
-             "say how much of each pixel is covered");
+             "Omit the background, for compositing. The alpha of a PNG or EXR is the covered share "
+             "of each pixel.");
     command.get_option("--alpha")->group(pictures_group);
     add("--outline", outline,
-        "Draw lines where one surface is seen before another, so many pixels wide; 0: none "
-        "(default: as the scene says)",
+        "Draw outlines where one surface hides another: their width in pixels, 0 for none. "
+        "Default: as in the scene.",
         "WIDTH");
-    add("--outline-color", outline_color, "Of these lines (default: as the scene says, or #000000)",
-        "#RRGGBB");
+    add("--outline-color", outline_color,
+        "Colour of the outlines. Default: as in the scene, otherwise #000000.", "#RRGGBB");
     add("--outline-creases", outline_creases,
-        "Draw them also between materials, and where surfaces that meet are bent by so many "
-        "degrees; 180: not there (default: as the scene says, or 180)",
+        "Draw outlines between materials as well, and where surfaces meet and bend by more than "
+        "DEGREES; 180 for none of these. Default: as in the scene, otherwise 180.",
         "DEGREES");
 }
 
@@ -158,7 +160,7 @@ void PictureChoice::require_fit(PictureFormat format) const {
 void require_writable(const std::string& option, PictureFormat format) {
     if (format == PictureFormat::exr && !has_exr())
         throw BadInput(option, "",
-                       "must be .png, .hdr or .pfm, for raylane was built without libopenexr-dev");
+                       "must be .png, .hdr or .pfm: raylane was built without libopenexr-dev");
 }
 
 void PictureChoice::apply_to(core::Settings& settings) const {
@@ -174,7 +176,7 @@ void PictureChoice::apply_to(core::Settings& settings) const {
 void PictureChoice::apply_to(simd::RenderOptions& options, const core::Settings& settings) const {
     if (crop && (crop->x1 > settings.width || crop->y1 > settings.height))
         throw BadInput("--crop", "",
-                       "must lie in the picture of " + std::to_string(settings.width) + " x " +
+                       "must lie in the image of " + std::to_string(settings.width) + " x " +
                            std::to_string(settings.height) + " pixels, got \"" + text_of(*crop) +
                            "\"");
     options.crop = crop;

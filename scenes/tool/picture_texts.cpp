@@ -19,8 +19,8 @@ const std::string& text_in(const std::string& picture, const PictureTexts& texts
     for (const auto& [key, text] : texts)
         if (key == name) return text;
     throw BadInput(picture, "",
-                   "must be a PNG or EXR that raylane has drawn, which says by which scene and "
-                   "options: it has no " +
+                   "must be a PNG or EXR rendered by raylane, which names its scene and options, "
+                   "got one without " +
                        name);
 }
 
@@ -30,7 +30,7 @@ RenderArguments arguments_of(const std::string& picture, const PictureTexts& tex
     if (!take_options(text_in(picture, texts, "Comment"),
                       [&](CLI::App& command) { arguments.add_to(command); }) ||
         arguments.scene)
-        throw BadInput(picture, "", "has a Comment that is no list of render's options");
+        throw BadInput(picture, "", "has a Comment that is not a list of options of render");
     arguments.scene = scene;
     return arguments;
 }

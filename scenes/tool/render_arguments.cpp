@@ -24,9 +24,10 @@ simd::Isa isa_argument(const std::string& text, simd::Engine engine) {
     if (engine != simd::Engine::vector) throw BadInput("--isa", "", "goes with --engine vector");
     if (!simd::is_built(isa))
         throw BadInput("--isa", "",
-                       "this program was built without " + text + ", with " + available);
+                       "raylane was built without " + text + "; available: " + available);
     if (!simd::is_available(isa))
-        throw BadInput("--isa", "", "this processor has no " + text + ", but " + available);
+        throw BadInput("--isa", "",
+                       "this processor does not support " + text + "; available: " + available);
     return isa;
 }
 
@@ -37,64 +38,64 @@ void RenderArguments::add_to(CLI::App& command) {
         add_option(command, names, value, help, type);
     };
     add_positional(command, "SCENE", scene,
-                   "A scene in JSON, NFF, POV-Ray's language or Tachyon's, or that build wrote, or "
-                   "atoms in PDB, mmCIF, CIF, XYZ, "
-                   "GRO or LAMMPS' formats, compressed by gzip or not; - is standard input");
+                   "Scene (JSON, NFF, POV-Ray, Tachyon, or .rl from build) or atoms (PDB, mmCIF, "
+                   "CIF, XYZ, GRO, LAMMPS), optionally gzipped; - is standard input.");
     add("-o,--output", output,
-        "The picture: .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, or - for a PNG to standard "
-        "output "
-        "(default: the scene's name, .png)",
+        "Image, .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm; - writes a PNG to standard output. "
+        "Default: the scene's name with .png, in the current folder.",
         "FILE");
-    add("--size", size, "Pixels (default: as the scene says)", "WxH");
-    add("--spp", samples, "Samples per pixel, a square number (default: as the scene says)", "N");
+    add("--size", size, "Image width and height in pixels. Default: as in the scene.", "WxH");
+    add("--spp", samples, "Samples per pixel, a square number. Default: as in the scene.", "N");
     add("--quality", quality,
-        "Decibels (PSNR) that the picture is to have against a converged one, 10 to 80, instead of "
-        "--spp; 40 is good print (default: as the scene says)",
+        "Target PSNR against a converged image, 10 to 80 dB, instead of --spp; 40 suits print. "
+        "Default: as in the scene.",
         "DB");
     add("--filter", filter,
-        "What of its surroundings a pixel shows: box (its own square), gaussian or "
-        "blackman-harris, which reach 1.5 pixels far and are smoother (default: as the scene says)",
+        "Pixel filter: box (the square of the pixel), or the smoother gaussian or blackman-harris "
+        "(radius 1.5 pixels). Default: as in the scene.",
         "box|gaussian|blackman-harris");
     add("--light-samples", light_samples,
-        "Rays to each light with a size, from each point that a sample sees (default: as the scene "
-        "says, or four if pixels have one sample, one otherwise); -1: hard light, which is one ray "
-        "to the middle of each lamp, and a sky that nothing shades",
+        "Shadow rays to each area or sky light, from each shaded point. -1: hard shadows, with one "
+        "ray to the centre of each light, and an unshadowed sky. Default: as in the scene, "
+        "otherwise 4 with one sample per pixel, 1 with more.",
         "N");
-    add_flag(command, "--draft", draft, "For a quick look: --spp 1 --light-samples -1");
-    add_flag(command, "--print", print, "For print, without grain at 300 dpi: --quality 50");
+    add_flag(command, "--draft", draft, "Fast preview, same as --spp 1 --light-samples -1.");
+    add_flag(command, "--print", print,
+             "Print quality, without grain at 300 dpi, same as --quality 50.");
     add("--max-depth", max_depth,
-        "Reflections and refractions one after the other (default: as the scene says)", "N");
+        "Maximum number of reflections and refractions along a path. Default: as in the scene.",
+        "N");
     add("--max-see-through", max_see_through,
-        "See-through surfaces that are shown one behind the other; further ones are left out "
-        "(default: as the scene says, or all)",
+        "Maximum number of transparent surfaces shown one behind the other; further ones are "
+        "omitted. Default: as in the scene, otherwise all.",
         "N");
     add("--min-weight", min_weight,
-        "Leave paths of less influence on the pixel (default: as the scene says)", "W");
-    add("--threads", threads, "Threads (default: all processors)", "N");
+        "Minimum weight of a path in its pixel, 0 to 1; paths below it end. Default: as in the "
+        "scene.",
+        "W");
+    add("--threads", threads, "Number of threads. Default: all processors.", "N");
     add("--engine", engine,
-        "What traces: vector, or reference, which is slow and written to be read (default: vector)",
+        "Engine: vector, or reference, which is scalar and slow. Default: vector.",
         "vector|reference");
-    add("--isa", isa, "The vector engine's instructions (default: the best there are)",
+    add("--isa", isa, "Instruction set of the vector engine. Default: the widest available one.",
         "portable|sse4.2|avx2|avx512|neon");
     add("--tile", tile,
-        "Pixels on the side of the squares that threads work on, 8 to 64; changes no exact picture",
+        "Side of the tiles that threads render, 8 to 64 pixels. Images of precision exact do not "
+        "depend on it.",
         "N");
     add("--precision", precision,
-        "What decides where rays hit: fast (textbook formulas in float), robust (the best in "
-        "float), exact (certified, as real numbers would have it) or double (robust's "
-        "formulas in double) (default: exact)",
+        "Arithmetic of intersections: fast (textbook formulas in float), robust (best formulas in "
+        "float), exact (certified, with the results of real arithmetic) or double (formulas of "
+        "robust in double). Default: exact.",
         "fast|robust|exact|double");
-    add("--transfer", transfer, "From light to PNG (default: as the scene says)", "srgb|linear");
-    add("--stats", stats, "Write figures about the rendering as JSON; - is standard output",
-        "FILE");
+    add("--transfer", transfer,
+        "Transfer function of 8-bit and 16-bit images. Default: as in the scene.", "srgb|linear");
+    add("--stats", stats, "Write statistics of the render as JSON; - is standard output.", "FILE");
     add_flag(command, "--no-resume", no_resume,
-             "Do not go on with what an earlier rendering has left in FILE.part when it was ended, "
-             "and leave nothing to go on with");
+             "Ignore checkpoints of interrupted renders (FILE.part), and write none.");
     add("--part", part,
-        "Draw this part of the picture's tiles alone, for N processes or machines to draw one "
-        "each, into an EXR that merge puts together with the others; of several pictures every "
-        "N-th, "
-        "from the K-th on",
+        "Render part K of N, for N processes or machines: some tiles of an image, in an EXR for "
+        "merge; of a sequence, every N-th image from the K-th on.",
         "K/N");
     picture.add_to(command);
     frames.add_to(command);

@@ -273,8 +273,9 @@ int render(const RenderArguments& arguments) {
     job.together([&] {
         if (!is_frame) strip = film(options.threads);
         if (files.stats && strip)
-            throw BadInput("--stats", "",
-                           "goes without --frames of several, --turn and several values");
+            throw BadInput(
+                "--stats", "",
+                "goes with a single image, without --turn, ranges of --frames and sweeps of --set");
         if (!strip) return;
         const OutputFile writable(strip->name(0), exr_of); // throws at once if it cannot be written
         picture.require_fit(writable.format());
@@ -295,7 +296,7 @@ int render(const RenderArguments& arguments) {
             drawing.end_if_signalled();
         };
         if (!arguments.no_resume && job.is_first())
-            say_when_ended("raylane: stopped between pictures; those that are there are whole\n");
+            say_when_ended("raylane: stopped between images; existing images are complete\n");
         job.together([&] { draw(*strip); });
         say_when_ended(nullptr);
         return 0;
@@ -384,7 +385,7 @@ int render(const RenderArguments& arguments) {
 
 Command add_render_command(CLI::App& app) {
     CLI::App& command =
-        add_command(app, "render", "Draw the picture of a scene",
+        add_command(app, "render", "Render an image of a scene",
                     "raylane render scenes/birthday.json -o birthday.png --size 1000x1000 "
                     "--spp 16");
     auto arguments = std::make_shared<RenderArguments>();

@@ -16,7 +16,7 @@ class Sweep : public SceneSource {
           std::vector<std::map<std::string, double>> parameters)
         : path_(std::move(path)), options_(std::move(options)), parameters_(std::move(parameters)) {
         if (path_ == "-" && parameters_.size() > 1)
-            throw BadInput("SCENE", "", "must be a file for several pictures, got standard input");
+            throw BadInput("SCENE", "", "must be a file to render a sequence, got standard input");
     }
 
     std::optional<std::size_t> next() override {
@@ -42,7 +42,7 @@ class Trajectory : public SceneSource {
         : file_(path), options_(std::move(options)), format_(format_of(file_)), range_(range) {
         if (!is_structure(format_))
             throw BadInput("--frames", "",
-                           "goes with a file of atoms, and " + printable(file_.name(), 4096) +
+                           "goes with a file of atoms, but " + printable(file_.name(), 4096) +
                                " is a scene");
         reader_ = open_reader();
         if (!range_.counts_from_end()) return;
@@ -83,8 +83,8 @@ class Trajectory : public SceneSource {
         reader_.reset();
         if (!file_.rewind())
             throw BadInput(file_.name(), "",
-                           "must be a file for frames that are counted from the end, or for a "
-                           "camera from all of them");
+                           "must be a file, not a stream, for negative frame numbers and for "
+                           "--camera-from all");
         reader_ = open_reader();
         read_ = 0;
         at_.reset();
@@ -108,8 +108,8 @@ class Trajectory : public SceneSource {
     std::optional<std::size_t> end() const {
         if (at_) return std::nullopt;
         throw BadInput("--frames", "",
-                       "must be of the " + std::to_string(read_) + " frames that " +
-                           printable(file_.name(), 4096) + " has, from 0 on, got none of them");
+                       "must select some of the " + std::to_string(read_) + " frames that " +
+                           printable(file_.name(), 4096) + " has, numbered from 0, got none");
     }
 
     InputFile file_;

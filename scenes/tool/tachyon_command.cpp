@@ -21,32 +21,33 @@ namespace {
 constexpr int most = std::numeric_limits<int>::max();
 
 constexpr const char* help =
-    R"(Draw a scene as the program tachyon would, by its command line
+    R"(Render a scene by the command line of Tachyon
 Usage: raylane tachyon SCENE [OPTIONS]
 
-  SCENE                  A scene of Tachyon's (.dat), or any that raylane render reads
-  -o FILE                The picture (default: outfile.tga)
-  -format NAME           TARGA, PNG, BMP or PPM (default: as FILE ends, and else TARGA)
-  -res W H               Its size in pixels
-  -aasamples N           Samples per pixel beside the first; about as many are taken
-  -numthreads N          Threads (default: all processors)
-  -fullshade, -mediumshade, -lowshade, -lowestshade
-                         All, as -fullshade, or colours alone
-  -rescale_lights X      Factor of all lights; -auto_skylight has its own
-  -auto_skylight X       Light X from all over the sky, 1 - X of all others
-  -add_skylight X        Light X from all over the sky beside all others
-  -skylight_samples N    Rays to the sky
+  SCENE                  Tachyon scene (.dat), or any scene that raylane render reads
+  -o FILE                Image. Default: outfile.tga.
+  -format NAME           TARGA, PNG, BMP or PPM. Default: by the ending of FILE, otherwise TARGA.
+  -res W H               Image width and height in pixels
+  -aasamples N           Samples per pixel besides the first; the number is approximate
+  -numthreads N          Number of threads. Default: all processors.
+  -fullshade, -mediumshade
+                         Full shading; -mediumshade omits the light of the sky
+  -lowshade, -lowestshade
+                         Colours only, without light
+  -rescale_lights X      Factor of all lights; no effect beside -auto_skylight
+  -auto_skylight X       Sky light of X; all other lights times 1 - X
+  -add_skylight X        Sky light of X besides all other lights
+  -skylight_samples N    Rays to the sky from each shaded point
   -shade_blinn, -shade_blinn_fast, -shade_phong, -shade_nullphong
-                         Blinn's highlights, Phong's, or none
+                         Highlights: Blinn, Blinn, Phong, none
   -trans_orig, -trans_vmd, -trans_raster3d
-                         What is transparent
-  -trans_max_surfaces N  Surfaces that are seen through one after the other
-  -raydepth N            Rays one after the other on a path
-  -fog_radial, -fog_vmd  Fog by distance, or by depth
-  +V, -V                 Accepted, as are -nobounding, -boundthresh N,
-                         -shadow_filter_on, -shadow_filter_off, -normalfixup NAME, -clamp,
-                         -normalize and -gamma X, of which those that would change a picture say
-                         that they do not
+                         Transparency model
+  -trans_max_surfaces N  Maximum number of transparent surfaces one behind the other
+  -raydepth N            Maximum number of rays along a path
+  -fog_radial, -fog_vmd  Fog by distance, by depth
+  Accepted without effect: +V, -V, -nobounding, -boundthresh N, -shadow_filter_on, -clamp.
+  Accepted without effect, with a warning: -shadow_filter_off, -normalfixup NAME, -normalize,
+  -gamma X.
 
 Example: raylane tachyon vmdscene.dat -aasamples 12 -format TARGA -o vmdscene.tga
 )";
@@ -212,7 +213,7 @@ int draw(const std::vector<std::string>& words) {
     require_other_than_scene("-o", arguments.output, scene_name);
     OutputFile output(arguments.output, format_of(arguments));
     for (const std::string& option : arguments.without_effect)
-        std::fprintf(stderr, "%s: changes nothing here\n", option.c_str());
+        std::fprintf(stderr, "%s: is ignored\n", option.c_str());
 
     simd::RenderOptions options;
     options.threads = arguments.threads ? *arguments.threads : simd::default_threads();
@@ -240,7 +241,7 @@ int draw(const std::vector<std::string>& words) {
 /// dash.
 Command add_tachyon_command(CLI::App& app) {
     CLI::App* command =
-        app.add_subcommand("tachyon", "Draw a scene by the command line of the program tachyon");
+        app.add_subcommand("tachyon", "Render a scene by the command line of Tachyon");
     command->set_help_flag();
     command->footer(help);
     command->prefix_command();

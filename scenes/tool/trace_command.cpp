@@ -223,24 +223,26 @@ int trace(const TraceArguments& arguments) {
 } // namespace
 
 Command add_trace_command(CLI::App& app) {
-    CLI::App& command = add_command(app, "trace", "Find what rays of a file hit in a scene",
+    CLI::App& command = add_command(app, "trace", "Intersect rays from a file with a scene",
                                     "raylane trace scenes/birthday.json rays.npy -o hits.npy");
     auto arguments = std::make_shared<TraceArguments>();
-    add_positional(command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
-    add_positional(command, "RAYS", arguments->rays,
-                   "Rays in NumPy's format (.npy): an array of float32 or float64 with a shape of "
-                   "(n, 6), origins and directions, or (n, 8), with t_min and t_max; - is standard "
-                   "input, which must be a file as well");
+    add_positional(command, "SCENE", arguments->scene,
+                   "Scene or atoms, in any format that render reads.");
+    add_positional(
+        command, "RAYS", arguments->rays,
+        "Rays, a NumPy file (.npy) of float32 or float64. Shape (n, 6): origins and directions; "
+        "(n, 8): t_min and t_max as well. - is standard input, which must be a regular file.");
     add_option(command, "-o,--output", arguments->output,
-               "What they hit, in NumPy's format, an element for each ray: t, normal, shape, "
-               "entering and face (default: RAYS-hits.npy)",
+               "Hits, a NumPy file with a record per ray: t, normal, shape, entering and face. "
+               "Default: RAYS-hits.npy.",
                "FILE");
     add_flag(command, "--occluded", arguments->occluded,
-             "Say of each ray whether it hits anything, and no more");
+             "Write only whether each ray hits a shape, a bool per ray.");
     add_option(command, "--precision", arguments->precision,
-               "What decides where rays hit, as render has it (default: exact)",
+               "Arithmetic of intersections, same as in render. Default: exact.",
                "fast|robust|exact|double");
-    add_option(command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
+    add_option(command, "--threads", arguments->threads,
+               "Number of threads. Default: all processors.", "N");
     arguments->scene_arguments.add_to(command);
     return {&command, [arguments] { return trace(*arguments); }, true};
 }

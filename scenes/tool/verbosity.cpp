@@ -5,9 +5,8 @@
 namespace raylane::scenes {
 
 void VerbosityArguments::add_to(CLI::App& command) {
-    add_flag(command, "-q,--quiet", quiet, "Say nothing on standard error but complaints");
-    add_flag(command, "-v,--verbose", verbose,
-             "Say on standard error what is done, and how long it takes");
+    add_flag(command, "-q,--quiet", quiet, "Print only errors on standard error.");
+    add_flag(command, "-v,--verbose", verbose, "Print steps and their times on standard error.");
 }
 
 Verbosity VerbosityArguments::verbosity() const {

@@ -71,15 +71,15 @@ Image whole_picture(const std::string& name, const std::string& bytes) {
     InputFile file(name, bytes);
     Image image = read_image(file);
     if (has_text(image.texts, "Part"))
-        throw BadInput(image.name, "", "is a part of a picture, to be merged first");
+        throw BadInput(image.name, "", "must be a whole image, got a part: merge the parts first");
     if (!has_text(image.texts, "Comment")) return image; // refused later: it has no texts
     if (image.linear_float) {
         InputFile again(name, bytes);
         static_cast<void>(read_own_exr(again));
     } else if (const std::string chunk = foreign_chunk(bytes); !chunk.empty()) {
         throw BadInput(image.name, "",
-                       "must have only chunks that raylane writes, for others may change how the "
-                       "picture is seen, got " +
+                       "must have only chunks that raylane writes, because others may change its "
+                       "appearance, got " +
                            printable(chunk));
     }
     return image;
@@ -120,7 +120,7 @@ class Verifier {
         options_.threads = threads_;
         part_ = options_.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
         if (part_.x1 - part_.x0 != image_.width || part_.y1 - part_.y0 != image_.height)
-            throw BadInput(image_.name, "", "has another size than its Comment says");
+            throw BadInput(image_.name, "", "has another size than its Comment states");
     }
 
     bool scene_is_the_same() const {
@@ -257,8 +257,9 @@ class Verifier {
             film_strip_of(render_.frames, render_.scene_arguments, *render_.scene, std::nullopt,
                           threads_, Verbosity::quiet);
         if (!strip || !place || *place < 0)
-            throw BadInput(image_.name, "",
-                           "has a Film that is no number of a picture, or a Comment of no film");
+            throw BadInput(
+                image_.name, "",
+                "must have the number of an image as Film and options of a sequence as Comment");
         strip->only = static_cast<std::size_t>(*place);
         strip->overwrites = true;
         strip->name = [](std::size_t) { return std::string(); }; // nothing is written
@@ -269,9 +270,9 @@ class Verifier {
         scenes::draw(*strip);
         if (!result)
             throw BadInput(image_.name, "",
-                           "is picture " + std::to_string(std::size_t{1} + *place) +
-                               " of its film, and " + printable(*render_.scene, 4096) +
-                               " makes fewer");
+                           "is image " + std::to_string(std::size_t{1} + *place) +
+                               " of its sequence, but " + printable(*render_.scene, 4096) +
+                               " has fewer");
         settings_ = settings_of(result->settings());
         return *std::move(result);
     }
@@ -326,19 +327,20 @@ class Verifier {
 int verify(const VerifyArguments& arguments) {
     Verifier verifier(arguments);
     const bool is_same_scene = verifier.scene_is_the_same();
-    std::printf("scene      %s\n", is_same_scene ? "the one that the picture names"
-                                                 : "another one than the picture names");
+    std::printf("scene      %s\n", is_same_scene ? "same as the image names"
+                                                 : "differs from the one that the image names");
     if (!is_same_scene) return 1;
     const std::optional<bool> are_same_options = verifier.options_are_the_same();
     if (are_same_options)
-        std::printf("options    %s\n", *are_same_options ? "those that the picture names"
-                                                         : "others than the picture names");
+        std::printf("options    %s\n", *are_same_options
+                                           ? "same as the image names"
+                                           : "differ from those that the image names");
     std::fflush(stdout); // the rest may take as long as the picture
     const Verdict verdict = verifier.sample();
-    std::printf("pixels     %zu drawn again by %s: %zu the same, %zu within a step, %zu others\n",
-                verdict.all(),
-                verifier.is_exact() ? "the reference" : "the picture's own precision", verdict.same,
-                verdict.within_a_step, verdict.others.size());
+    std::printf(
+        "pixels     %zu rendered again by %s: %zu equal, %zu within one step, %zu different\n",
+        verdict.all(), verifier.is_exact() ? "the reference" : "the precision of the image",
+        verdict.same, verdict.within_a_step, verdict.others.size());
     bool are_only_ties = true;
     if (!verdict.others.empty()) {
         std::printf("first      at pixel %s\n", verifier.place_of(verdict.others.front()).c_str());
@@ -347,23 +349,23 @@ int verify(const VerifyArguments& arguments) {
             verifier.is_exact() ? verifier.as_they_were(verdict.others).same : 0;
         are_only_ties = ties == verdict.others.size() && !verdict.has_many(ties);
         if (ties > 0)
-            std::printf(
-                "ties       %zu of the others are as its own engine draws them: paths that meet "
-                "edges exactly, so that a last bit decides%s\n",
-                ties, verdict.has_many(ties) ? "; so many are no ties" : "");
+            std::printf("ties       %zu different pixels equal those of its own engine: paths meet "
+                        "edges exactly, where the last bit decides%s\n",
+                        ties, verdict.has_many(ties) ? "; too many for ties" : "");
     }
     if (verdict.has_many_within_a_step())
-        std::printf("steps      more than 1 pixel in 50 is only within one, as by no rounding\n");
+        std::printf(
+            "steps      more than 1 pixel in 50 differs by one step, more than rounding causes\n");
     bool has_its_bits = true;
     if (arguments.whole) {
         const Verifier::Whole again = verifier.again();
         has_its_bits = again.has_its_bits;
         std::printf("rays       %s\n", again.has_its_tiers
-                                           ? "decided as the picture says"
-                                           : "decided otherwise than the picture says, as by "
-                                             "another instruction set they may be");
+                                           ? "same counts as the image states"
+                                           : "counts differ from those of the image; they may "
+                                             "differ between instruction sets");
         std::printf("all bits   %s\n",
-                    has_its_bits ? "drawn again as they were" : "others than the picture had");
+                    has_its_bits ? "same as in the image" : "differ from the image");
     }
     return are_same_options.value_or(true) && are_only_ties && !verdict.has_many_within_a_step() &&
                    has_its_bits
@@ -374,21 +376,24 @@ int verify(const VerifyArguments& arguments) {
 } // namespace
 
 Command add_verify_command(CLI::App& app) {
-    CLI::App& command = add_command(
-        app, "verify",
-        "Draw random pixels of a picture again, by the scalar reference with exact "
-        "numbers or, if it was not drawn with these, by its own precision, and compare; "
-        "exit code 1 if they differ, and at once if the scene is another one",
-        "raylane verify birthday.png scenes/birthday.json");
+    CLI::App& command =
+        add_command(app, "verify", "Check an image by rendering random pixels again",
+                    "raylane verify birthday.png scenes/birthday.json",
+                    "Renders pixels by the scalar reference with exact numbers, or by the "
+                    "precision of the image if that is not exact.\nExit code 1: pixels, options or "
+                    "scene differ. A different scene ends the command at once.");
     auto arguments = std::make_shared<VerifyArguments>();
     add_positional(command, "PICTURE", arguments->picture,
-                   "A PNG or EXR that raylane has drawn, which says with which options");
-    add_positional(command, "SCENE", arguments->scene, "What it was drawn of");
-    add_option(command, "--pixels", arguments->pixels, "How many (default: 1000)", "N");
-    add_option(command, "--seed", arguments->seed, "Which; without it, others each time", "N");
+                   "PNG or EXR rendered by raylane. It names its options.");
+    add_positional(command, "SCENE", arguments->scene, "Scene that the image was rendered from.");
+    add_option(command, "--pixels", arguments->pixels,
+               "Number of pixels to render again. Default: 1000.", "N");
+    add_option(command, "--seed", arguments->seed,
+               "Random seed of the choice of pixels. Default: random.", "N");
     add_flag(command, "--whole", arguments->whole,
-             "Draw all of it again as well, and compare its bits before they were written");
-    add_option(command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
+             "Also render the whole image again, and compare the bits of its unrounded pixels.");
+    add_option(command, "--threads", arguments->threads,
+               "Number of threads. Default: all processors.", "N");
     arguments->verbosity.add_to(command);
     return {&command, [arguments] { return verify(*arguments); }};
 }

@@ -91,7 +91,7 @@ core::Staging ViewChange::staging(const core::Scene& scene, core::Camera& camera
         constexpr double least_sine = 1e-5;
         if (core::length(core::cross(wide_up, forward)) <=
             least_sine * core::length(wide_up) * core::length(forward))
-            throw BadInput("--up", "", "must not be along the view");
+            throw BadInput("--up", "", "must not be parallel to the direction of view");
     }
     if (staging.framing) {
         staging.framing->zoom = zoom.value_or(staging.framing->zoom);
@@ -130,19 +130,19 @@ void ViewArguments::add_to(CLI::App& command) {
         add_option(command, name, value, help, type)->group(camera_group);
     };
     add("--view", view,
-        "See all that has an end from front, back, left, right, top, bottom, x, y, z or corner, or "
-        "in the direction 1,-1,-0.5 (default: as the scene says; atoms: front)",
+        "Frame all bounded shapes from front, back, left, right, top, bottom, x, y, z or corner, "
+        "or looking in a direction such as 1,-1,-0.5. Default: as in the scene; front for atoms.",
         "WAY");
     add("--up", up,
-        "What is up in the picture: x, y, z, -x, -y or -z, or a direction such as 0,1,1 (default: "
-        "as the view or the scene says)",
+        "Upward direction of the image: x, y, z, -x, -y or -z, or a direction such as 0,1,1. "
+        "Default: as in the view or the scene.",
         "WAY");
-    add("--zoom", zoom, "How much larger (default: 1)", "TIMES");
-    add_flag(command, "--orthographic", orthographic, "Without perspective");
+    add("--zoom", zoom, "Magnification, 0.01 to 1000. Default: 1.", "TIMES");
+    add_flag(command, "--orthographic", orthographic, "Use an orthographic projection.");
     command.get_option("--orthographic")->group(camera_group);
     add("--depth-cue", depth_cue,
-        "How much of the background the farthest has, 0 to 0.99 (default: as the scene says; "
-        "atoms: 0.3)",
+        "Share of the background in the colour of the farthest shapes, 0 to 0.99. Default: as in "
+        "the scene; 0.3 for atoms.",
         "SHARE");
 }
 

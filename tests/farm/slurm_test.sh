@@ -123,7 +123,7 @@ done
 task=$(squeue -h -r -t RUNNING -o '%K %i' | sed -n 's/^1 //p')
 scancel --signal=TERM "$task"
 says_how_to_go_on() {
-    grep -qhs "the same command goes on" many.png.*.log
+    grep -qhs "the same command resumes" many.png.*.log
 }
 wait_until says_how_to_go_on || fail "the job does not end"
 # Slurm itself starts a requeued job only after two minutes.
@@ -135,4 +135,4 @@ wait_for "$last"
 # shellcheck disable=SC2086 # a list of options
 "$raylane" render "$scene" -q -o one.png $big
 cmp one.png many.png
-grep -qh "goes on at" many.png.*.log || fail "it has begun anew"
+grep -qh "resumes at" many.png.*.log || fail "it has begun anew"

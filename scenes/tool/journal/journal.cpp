@@ -429,7 +429,7 @@ std::optional<std::int64_t> Journal::write_all(int descriptor) const {
 void Journal::fail() {
     const bool is_others = errno == EEXIST; // made after open() searched for it
     problem_ = is_others ? printable(path_.string(), 4096) +
-                               ": is in use by another process, so this one kept none"
+                               ": is in use by another process, so this process keeps no checkpoint"
                          : SystemRefused(path_.string(), "write", errno).what();
     if (is_others) give_up();
     if (const auto tell = std::exchange(tell_, {})) tell(problem_);
@@ -474,7 +474,7 @@ bool Journal::give_room(std::size_t bytes) {
                                block * static_cast<std::uint64_t>(own.st_blocks);
     if (room < bytes || ::ftruncate(descriptor_, 0) != 0) return false;
     give_up(); // otherwise the journal would use the space again
-    if (problem_.empty()) problem_ = path_.string() + ": has given its room to the picture";
+    if (problem_.empty()) problem_ = path_.string() + ": was emptied to free space for the image";
     return true;
 }
 

@@ -74,24 +74,24 @@ void ResumableRendering::say_found() const {
         if (verbosity_ != Verbosity::quiet)
             say(printable(journal_->found_at().string(), 4096) + ": " + what);
     };
-    const std::string is_kept = ", and not gone on with; it stays until this picture is there";
+    const std::string is_kept = "; not resumed, kept until this image is complete";
     switch (journal_->found()) {
     case Journal::Found::nothing:
         return;
     case Journal::Found::same:
-        return say_of_it("goes on at " + std::to_string(percent(journal_->found_pixels())) + " %");
+        return say_of_it("resumes at " + std::to_string(percent(journal_->found_pixels())) + " %");
     case Journal::Found::other_scene:
-        return say_of_it("is of another scene" + is_kept);
+        return say_of_it("belongs to another scene" + is_kept);
     case Journal::Found::other_options:
-        return say_of_it("is of other options or another version" + is_kept);
+        return say_of_it("belongs to other options or another version" + is_kept);
     case Journal::Found::cut_off:
-        return say_of_it("has been cut off at its beginning, and is not gone on with");
+        return say_of_it("has a truncated header; not resumed");
     case Journal::Found::none_of_ours:
-        return say_of_it("is none of raylane's, so the picture is drawn without a journal");
+        return say_of_it("is not a checkpoint of this user; rendering without a checkpoint");
     case Journal::Found::in_use:
-        return say_of_it("is in use, so the picture is drawn without a journal");
+        return say_of_it("is in use; rendering without a checkpoint");
     case Journal::Found::named_too_long:
-        return say_of_it("has too long a name, so the picture is drawn without a journal");
+        return say_of_it("has too long a name; rendering without a checkpoint");
     }
 }
 
@@ -183,9 +183,9 @@ void ResumableRendering::stopped() const {
     const std::string done = "stopped at " + std::to_string(percent(drawn_)) + " %";
     const int signal = StopOnSignal::signal() != 0 ? StopOnSignal::signal() : SIGTERM;
     if (!journal_) throw Stopped(signal, done);
-    throw Stopped(signal, journal_->keep() ? done + "; the same command goes on with " +
+    throw Stopped(signal, journal_->keep() ? done + "; the same command resumes from " +
                                                  printable(journal_->path().string(), 4096)
-                          : journal_->problem().empty() ? done + ", without a journal to go on with"
+                          : journal_->problem().empty() ? done + ", without a checkpoint"
                                                         : done + "; " + journal_->problem());
 }
 
@@ -212,7 +212,7 @@ void ResumableRendering::end_if_signalled() {
     stop_on_signal_.reset();
     if (journal_ && StopOnSignal::signal() != 0)
         throw Stopped(StopOnSignal::signal(),
-                      "stopped, and " + printable(output_, 4096) + " is whole");
+                      "stopped; " + printable(output_, 4096) + " is complete");
 }
 
 } // namespace raylane::scenes

@@ -150,7 +150,7 @@ void Job::require_same(const std::string& text, const std::string& what) {
     if (!ranks_) return;
     const std::vector<std::string> texts = gathered(*ranks_, text);
     together([&] {
-        if (text != texts.front()) throw RankFailed(3, what + " is another one than rank 0's");
+        if (text != texts.front()) throw RankFailed(3, what + " differs from that of rank 0");
     });
 }
 

@@ -153,7 +153,7 @@ extern "C" [[gnu::visibility("default")]] Ranks* raylane_join_ranks(const char**
     int provided = MPI_THREAD_SINGLE;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS ||
         provided < MPI_THREAD_SERIALIZED) {
-        *why = "this MPI cannot be called by several threads in turn";
+        *why = "this MPI does not support calls from several threads (MPI_THREAD_SERIALIZED)";
         return nullptr;
     }
     return new MpiRanks;

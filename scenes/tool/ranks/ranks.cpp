@@ -45,7 +45,8 @@ std::unique_ptr<Ranks> join_ranks() {
     has_joined = true;
     const std::string failure = "cannot join the other ranks";
     const auto join = reinterpret_cast<JoinRanks>(function_of(
-        {"raylane-mpi.so", join_ranks_name, "MPI is (Debian: libopenmpi-dev)"}, failure));
+        {"raylane-mpi.so", join_ranks_name, "MPI at build time (Debian: libopenmpi-dev)"},
+        failure));
     const char* why = "";
     Ranks* const ranks = join(&why);
     if (ranks == nullptr) throw SystemRefused(failure + ": " + printable(why, 400));

@@ -89,7 +89,7 @@ bool order_of(Literal& text) {
 
 /// Parses a tuple. A tuple of one number has a comma.
 std::vector<std::uint64_t> shape_of(Literal& text) {
-    constexpr const char* none = "has a shape that is none";
+    constexpr const char* none = "has a malformed shape";
     std::vector<std::uint64_t> numbers;
     if (!text.takes('(')) text.refuse(none);
     bool has_comma = true;
@@ -106,7 +106,7 @@ std::vector<std::uint64_t> shape_of(Literal& text) {
 } // namespace
 
 NpyHead npy_head_of(std::string_view text, const std::string& file) {
-    constexpr const char* none = "has a head that is no dictionary of Python's";
+    constexpr const char* none = "has a header that is not a Python dictionary";
     Literal literal(text, file);
     std::optional<std::string> type;
     std::optional<bool> by_columns;
@@ -123,13 +123,13 @@ NpyHead npy_head_of(std::string_view text, const std::string& file) {
         else if (*key == "shape")
             shape = shape_of(literal);
         else
-            literal.refuse("has an unknown key in its head, \"" + printable(*key) + "\"");
+            literal.refuse("has an unknown key in its header, \"" + printable(*key) + "\"");
         has_comma = literal.takes(',');
     }
     if (!literal.is_at_end()) literal.refuse(none);
-    if (!type) literal.refuse("has no descr in its head");
-    if (!by_columns) literal.refuse("has no fortran_order in its head");
-    if (!shape) literal.refuse("has no shape in its head");
+    if (!type) literal.refuse("has no descr in its header");
+    if (!by_columns) literal.refuse("has no fortran_order in its header");
+    if (!shape) literal.refuse("has no shape in its header");
     return {*type, *by_columns, *shape};
 }
 
@@ -172,7 +172,7 @@ void RayFile::refuse(const std::string& message) const {
 void RayFile::read_head() {
     struct stat status {};
     if (::fstat(descriptor_, &status) != 0) throw SystemRefused(name_, "read", errno);
-    if (!S_ISREG(status.st_mode)) refuse("must be a file");
+    if (!S_ISREG(status.st_mode)) refuse("must be a regular file");
     const auto size = static_cast<std::uint64_t>(status.st_size);
     // Standard input may have another position than the start.
     const auto begin = std::min<std::uint64_t>(
@@ -185,7 +185,7 @@ void RayFile::read_head() {
     std::uint32_t length = 0;
     std::memcpy(&length, start + 8, version == 1 ? 2 : 4);
     start_ = begin + (version == 1 ? 10 : 12) + length;
-    if (start_ > size || length > 1U << 20) refuse("ends in its head");
+    if (start_ > size || length > 1U << 20) refuse("must be complete, got a truncated header");
     std::string text(length, '\0');
     read_bytes(start_ - length, text.data(), text.size());
     const NpyHead head = npy_head_of(text, printable(name_, 4096));
@@ -196,21 +196,21 @@ void RayFile::read_head() {
     by_columns_ = head.by_columns;
     const auto& shape = head.shape;
     const bool is_pairs = shape.size() == 3 && shape[1] == 2 && shape[2] == 3;
-    if (is_pairs && by_columns_) refuse("must be in C's order if its shape is (n, 2, 3)");
+    if (is_pairs && by_columns_) refuse("must be in C order if its shape is (n, 2, 3)");
     if (!is_pairs && (shape.size() != 2 || (shape[1] != 6 && shape[1] != 8)))
-        refuse("must have a shape of (n, 6), origins and directions, or (n, 8), with t_min and "
-               "t_max");
+        refuse(
+            "must have the shape (n, 6), origins and directions, or (n, 8), with t_min and t_max");
     count_ = shape[0];
     columns_ = is_pairs ? 6 : shape[1];
     const std::size_t ray_bytes = columns_ * (has_doubles_ ? 8 : 4);
     if (count_ > most_bytes / ray_bytes || size - start_ != count_ * ray_bytes)
-        refuse("has another length than its head says");
+        refuse("has another length than its header states");
 }
 
 void RayFile::read_bytes(std::uint64_t place, char* bytes, std::size_t count) const {
     if (read_at(descriptor_, static_cast<std::int64_t>(place), {bytes, count}) == count) return;
     if (errno != 0) throw SystemRefused(name_, "read", errno);
-    refuse("has become shorter");
+    refuse("was truncated while it was read");
 }
 
 template <class Real>

@@ -60,14 +60,14 @@ std::string what_is_at(const core::Scene& scene, const core::Settings& settings,
     hits.shape = &shape;
     hits.t_double = &t;
     simd::StreamTracer(scene, 1).nearest(rays, hits);
-    if (shape == core::no_shape) return "nothing but the background";
+    if (shape == core::no_shape) return "background";
     char distance[64];
     std::snprintf(distance, sizeof distance, "%.17g", t);
     std::string atoms = legend.of(shape);
     if (!atoms.empty()) atoms += ": ";
     return atoms + kind_of_shape(scene, shape) + " " + std::to_string(shape) + " of material " +
            material_text(scene, shape) + ", at " + place_text(ray.origin + t * ray.direction) +
-           ", " + distance + " away (the double nearest to the true one)";
+           ", " + distance + " away (rounded to nearest double)";
 }
 
 std::string camera_text(const core::Camera& camera) {

@@ -140,7 +140,7 @@ raylane_open_window(const char* title, int width, int height, const char** why) 
     static std::string reason;
     const bool is_there = SDL_Init(SDL_INIT_VIDEO) == 0;
     if (is_there && shows_nothing(SDL_GetCurrentVideoDriver()))
-        SDL_SetError("there is no display");
+        SDL_SetError("no display");
     else if (is_there)
         window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width,
                                   height, SDL_WINDOW_RESIZABLE);

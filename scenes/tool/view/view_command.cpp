@@ -209,18 +209,19 @@ class Viewer {
 } // namespace
 
 Command add_view_command(CLI::App& app) {
-    CLI::App& command = add_command(
-        app, "view",
-        "Show a scene in a window: drag to go around, with shift to move along, turn the "
-        "wheel to come nearer, click to ask what is there; keys: s saves the picture, c "
-        "prints the camera, r resets it, q ends",
-        "raylane view scenes/birthday.json");
+    CLI::App& command =
+        add_command(app, "view", "Show a scene in a window", "raylane view scenes/birthday.json",
+                    "Mouse: drag to orbit, drag with shift to pan, turn the wheel to come closer, "
+                    "click to print the shape under the pointer.\nKeys: s saves the image, c "
+                    "prints the camera, r resets it, q quits.");
     auto arguments = std::make_shared<ViewCommandArguments>();
     add_positional(command, "SCENE", arguments->scene,
-                   "A scene, or atoms, as render reads them; it is read anew when it is written");
+                   "Scene or atoms, in any format that render reads. The window reloads the file "
+                   "when it changes.");
     add_option(command, "--size", arguments->size,
-               "The window's, in pixels (default: as the scene says)", "WxH");
-    add_option(command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
+               "Window width and height in pixels. Default: as in the scene.", "WxH");
+    add_option(command, "--threads", arguments->threads,
+               "Number of threads. Default: all processors.", "N");
     arguments->scene_arguments.add_to(command);
     return {&command, [arguments] {
                 Viewer(*arguments).run();

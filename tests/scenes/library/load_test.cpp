@@ -167,7 +167,7 @@ TEST_CASE("a saved scene is the same when it is loaded again") {
     save(scene, path("a.pov"), [&](const std::string& remark) { remarks.push_back(remark); });
     REQUIRE(!remarks.empty());
     CHECK(remarks[0].starts_with(path("a.pov").string() +
-                                 ": not as in the scene, for want of a word in the format: "));
+                                 ": differs from the scene, because the format cannot express: "));
     CHECK(refusal_of([&] {
               save(scene, path("a.xyz"));
           }).ends_with("must end in .json, .nff, .pov or .rl"));

@@ -419,7 +419,7 @@ TEST_CASE("options that cannot be drawn give an error of one line") {
                 "ITEM: ATOMS xs ys zs\n0.5 0 0\n",
                 [](LoadOptions&) {}) == "a.dump: atom 1 must have coordinates from -1e30 to 1e30");
     CHECK(error("a.json", "{}", [](LoadOptions& o) { o.option_for_atoms = "--style"; }) ==
-          "--style: goes with a file of atoms, and a.json is a scene");
+          "--style: goes with a file of atoms, but a.json is a scene");
 }
 
 TEST_CASE("one atom and atoms at one point can be drawn") {

@@ -59,7 +59,7 @@ TEST_CASE("a built scene that is truncated while it is in use ends the command w
     CHECK(outcome.code == 3);
     CHECK(outcome.exited);
     CHECK(last_line(outcome.err) ==
-          "raylane: a built scene became shorter while it was in use, or can no longer be read");
+          "raylane: a built scene was truncated while in use, or can no longer be read");
     CHECK(count_of("raylane: ", outcome.err) == 1);
     CHECK(!std::filesystem::exists(workshop.output() / "picture.png"));
 }

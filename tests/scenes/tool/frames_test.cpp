@@ -133,7 +133,7 @@ TEST_CASE("a sweep of one value makes a numbered image") {
     CHECK(workshop.render("one.pfm", {"--set", "r=2"}).code == 0);
     CHECK(picture(workshop, "s0.pfm") == picture(workshop, "one.pfm"));
     CHECK(complaint(workshop, {"scene.json", "-o", "f.png", "--set", "r=2:3:1"})
-              .find("--output: must have one number") != std::string::npos);
+              .find("--output: must have one placeholder") != std::string::npos);
 }
 
 TEST_CASE("whole numbers stay whole in a sweep") {
@@ -165,7 +165,7 @@ TEST_CASE("the option --turn moves automatic and fixed cameras around the scene"
     const Workshop other(growing);
     CHECK(other.render("t%d.pfm", {"--turn", "90/2", "--set", "x=0:1:2"}).code == 0);
     CHECK(complaint(other, {"scene.json", "-o", "t%d.pfm", "--turn", "90/2", "--set", "x=0:1:3"})
-              .find("as many pictures as there are otherwise, 3, got 2") != std::string::npos);
+              .find("as many images as the sequence, 3, got 2") != std::string::npos);
 }
 
 TEST_CASE("the option --turn must have as many images as there are frames") {
@@ -182,8 +182,7 @@ TEST_CASE("the option --turn must have as many images as there are frames") {
     const auto drawn = [&] {
         return std::distance(std::filesystem::directory_iterator(workshop.output()), {});
     };
-    const std::string must =
-        "raylane: --turn: must be in as many pictures as there are otherwise, ";
+    const std::string must = "raylane: --turn: must have as many images as the sequence, ";
     CHECK(complaint(workshop, film("0:5", "90/9")) == must + "5, got 9\n");
     CHECK(drawn() == 0);
     // Too few frames are noticed at the end,
@@ -217,7 +216,7 @@ TEST_CASE("existing images are kept unless --overwrite is given") {
     std::filesystem::remove(workshop.path() / "s2.pfm");
     const Outcome again = workshop.render("s%d.pfm", sweep);
     CHECK(again.code == 0);
-    CHECK(again.err == "2 of 3 pictures are there already; --overwrite draws them anew\n");
+    CHECK(again.err == "2 of 3 images exist already; --overwrite renders them again\n");
     CHECK(picture(workshop, "s0.pfm") == "mine");
     CHECK(picture(workshop, "s2.pfm") == last);
     CHECK(workshop.render("s%d.pfm", joined(sweep, {"--force"})).code == 0);
@@ -235,10 +234,9 @@ TEST_CASE("a film that was interrupted goes on where it was") {
     CHECK(process.wait().code == 128 + SIGINT);
     CHECK(std::filesystem::exists(workshop.output() / "f1.pfm.part"));
     CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 2);
-    CHECK(workshop.run(film).err ==
-          "raylane: out/f1.pfm.part: is of other options or another version, and not gone on with; "
-          "it stays until this picture is there\n"
-          "1 of 3 pictures are there already; --overwrite draws them anew\n");
+    CHECK(workshop.run(film).err == "raylane: out/f1.pfm.part: belongs to other options or another "
+                                    "version; not resumed, kept until this image is complete\n1 of "
+                                    "3 images exist already; --overwrite renders them again\n");
     CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 3);
     CHECK(picture(workshop, "out/f0.pfm") == "drawn");
     CHECK(std::filesystem::exists(workshop.output() / "f2.pfm"));
@@ -261,9 +259,9 @@ TEST_CASE("the option --view works for any scene and moves the lights that follo
     CHECK(convert({"--view", "1,1,0", "--up", "0,0,1"})["camera"]["up"] ==
           nlohmann::json({0, 0, 1}));
     CHECK(complaint(workshop, {"scene.json", "--view", "top", "--up", "y"}) ==
-          "raylane: --up: must not be along the view\n");
+          "raylane: --up: must not be parallel to the direction of view\n");
     CHECK(complaint(workshop, {"scene.json", "--view", "1,2,3", "--up", "0.1,0.2,0.3"}) ==
-          "raylane: --up: must not be along the view\n");
+          "raylane: --up: must not be parallel to the direction of view\n");
     CHECK(convert({"--up", "-x"})["camera"]["up"] == nlohmann::json({-1, 0, 0}));
     CHECK(complaint(workshop, {"scene.json", "--up", "0,0,0"})
               .starts_with(
@@ -320,7 +318,7 @@ END_SCENE
                   .code == 0);
         CHECK(picture(workshop, name + "0.pfm") != picture(workshop, name + "1.pfm"));
         CHECK(complaint(workshop, {name, "--frames", "0:2"}) ==
-              "raylane: --frames: goes with a file of atoms, and " + name + " is a scene\n");
+              "raylane: --frames: goes with a file of atoms, but " + name + " is a scene\n");
         CHECK(complaint(workshop, {name, "--set", "n=1:2:2"}).find("only JSON may") !=
               std::string::npos);
     }
@@ -337,15 +335,16 @@ TEST_CASE("mistakes about several images give an error of one line") {
     };
     for (const char* pattern : {"p.png", "p%d%d.png", "p%s.png", "p%n.png", "p%.png", "p%05x.png",
                                 "p%1000d.png", "%", "p%ld.png"})
-        says({"scene.json", "-o", pattern, "--set", "r=1:2:2"}, "--output: must have one number");
+        says({"scene.json", "-o", pattern, "--set", "r=1:2:2"},
+             "--output: must have one placeholder");
     says({"scene.json", "--set", "r"}, "--set: must be NAME=NUMBER");
     says({"scene.json", "--set", "r=1:2"}, "--set: must be NAME=NUMBER");
     says({"scene.json", "--set", "r=1:2:0"}, "--set: must be NAME=NUMBER");
     says({"scene.json", "--set", "1=1"}, "--set: must be NAME=NUMBER");
     says({"scene.json", "--set", "r=nan"}, "--set: must be NAME=NUMBER");
-    says({"scene.json", "--set", "r=1", "--set", "r=2"}, "--set: must give \"r\" once");
+    says({"scene.json", "--set", "r=1", "--set", "r=2"}, "--set: must set \"r\" only once");
     says({"scene.json", "--set", "r=1:2:2", "--set", "x=1:2:3"},
-         "as many values each, got 2 and 3");
+         "the same number of values in all sweeps, got 2 and 3");
     says({"scene.json", "--set", "q=1"}, "scene.json: has no number \"$q\"");
     says({"scene.json", "--frames", "0:2"}, "--frames: goes with a file of atoms");
     says({"move.xyz", "--set", "r=1"}, "only JSON may");
@@ -354,17 +353,19 @@ TEST_CASE("mistakes about several images give an error of one line") {
     says({"move.xyz", "--frames", ""}, "--frames: must be");
     says({"move.xyz", "--frames", "2", "-o", "x.png"}, "of the 2 frames");
     says({"move.xyz", "--frames", "-3", "-o", "x.png"},
-         "--frames: must be of the 2 frames that move.xyz has, from 0 on, got none of them\n");
+         "--frames: must select some of the 2 frames that move.xyz has, numbered from 0, got "
+         "none\n");
     workshop.write("nothing", "");
     says({"nothing", "--frames", "0:2"}, "nothing: must be a scene or atoms, got an empty file");
     says({"move.xyz", "--frames", "0:2", "-o", "f%d.gif"}, "f0.gif: must end in");
-    says({"move.xyz", "--frames", "1:1"}, "--frames: must be of at least one picture");
-    says({"scene.json", "--turn", "360"}, "--turn: must be DEGREES/PICTURES");
-    says({"scene.json", "--turn", "360/0"}, "--turn: must be DEGREES/PICTURES");
+    says({"move.xyz", "--frames", "1:1"}, "--frames: must select at least one frame");
+    says({"scene.json", "--turn", "360"}, "--turn: must be DEGREES/IMAGES");
+    says({"scene.json", "--turn", "360/0"}, "--turn: must be DEGREES/IMAGES");
     says({"scene.json", "--turn", "360/4", "--camera-from", "last"}, "--camera-from: must be");
-    says({"scene.json", "--turn", "360/4", "--stats", "s.json"}, "--stats: goes without --frames");
-    CHECK(workshop.run({"info", "scene.json", "--set", "r=1:2:3"}).err.find("one number here") !=
-          std::string::npos);
+    says({"scene.json", "--turn", "360/4", "--stats", "s.json"},
+         "--stats: goes with a single image");
+    CHECK(workshop.run({"info", "scene.json", "--set", "r=1:2:3"})
+              .err.find("must be NAME=NUMBER for this command") != std::string::npos);
 }
 
 TEST_CASE("a malformed frame ends the sequence after the frames before it") {

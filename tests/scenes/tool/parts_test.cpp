@@ -99,22 +99,22 @@ TEST_CASE("parts that do not make a whole give an error of one line") {
     };
     draw_parts(workshop, 3);
     CHECK(refusal(merged({1, 3}, "out/a.png")) ==
-          "raylane: PARTS: must be all 3, but there is no part 2\n");
+          "raylane: PARTS: must be all parts, 1 to 3; missing: 2\n");
     CHECK(refusal(merged({3}, "out/a.png")) ==
-          "raylane: PARTS: must be all 3, but there is no part 1, 2\n");
-    CHECK(refusal(merged({1, 1}, "out/a.png")) == "raylane: part-1.exr: is part 1/3 once more\n");
+          "raylane: PARTS: must be all parts, 1 to 3; missing: 1, 2\n");
+    CHECK(refusal(merged({1, 1}, "out/a.png")) == "raylane: part-1.exr: repeats part 1/3\n");
     REQUIRE(workshop.run(part(2, 4)).code == 0);
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
-          "raylane: part-2.exr: is a part of another division than part-1.exr\n");
+          "raylane: part-2.exr: belongs to another division into parts than part-1.exr\n");
     REQUIRE(workshop.run(part(2, 3, {"--tile", "8"})).code == 0);
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
-          "raylane: part-2.exr: is a part of another division than part-1.exr\n");
+          "raylane: part-2.exr: belongs to another division into parts than part-1.exr\n");
     REQUIRE(workshop.run(part(2, 3, {"--max-depth", "1"})).code == 0);
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
-          "raylane: part-2.exr: is of another picture than part-1.exr: its Comment differs\n");
+          "raylane: part-2.exr: belongs to another image than part-1.exr: Comment differs\n");
     REQUIRE(workshop.render("part-2.exr").code == 0);
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
-          "raylane: part-2.exr: must be what render --part has drawn\n");
+          "raylane: part-2.exr: must be written by render --part\n");
     {
         scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / "part-1.exr");
         picture.film.at(3, 4) += core::Color(1.0F);
@@ -124,7 +124,7 @@ TEST_CASE("parts that do not make a whole give an error of one line") {
         scenes::OutputFile(workshop.path() / "part-2.exr", scenes::exr_of)
             .commit(picture.film, options);
         CHECK(refusal(merged({2, 3}, "out/a.png")) ==
-              "raylane: part-2.exr: has other pixels than it says that it was drawn with\n");
+              "raylane: part-2.exr: has pixels that differ from its Pixels attribute\n");
     }
     workshop.write("part-2.exr", "mine");
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
@@ -132,7 +132,7 @@ TEST_CASE("parts that do not make a whole give an error of one line") {
     CHECK(refusal(merged({1, 4}, "out/a.png")) == "raylane: part-4.exr: no such file\n");
     CHECK(refusal(merged({1, 3}, "part-1.exr")).starts_with("raylane: --output: "));
     CHECK(refusal({"verify", "part-1.exr", "scene.json", "--quiet"}) ==
-          "raylane: part-1.exr: is a part of a picture, to be merged first\n");
+          "raylane: part-1.exr: must be a whole image, got a part: merge the parts first\n");
     CHECK(workshop.is_output_empty());
 }
 
@@ -157,8 +157,8 @@ TEST_CASE("parts of scenes with different settings are refused even if the Comme
         REQUIRE(workshop.run(part(2, 2)).code == 0);
         const Outcome outcome = workshop.run(merged({1, 2}, "out/a.png"));
         CHECK(outcome.code == 2);
-        CHECK(outcome.err == "raylane: part-2.exr: is of another picture than part-1.exr: its "
-                             "Options differ\n");
+        CHECK(outcome.err ==
+              "raylane: part-2.exr: belongs to another image than part-1.exr: Options differs\n");
         CHECK(workshop.is_output_empty());
     }
 }
@@ -169,9 +169,9 @@ TEST_CASE("parts with and without layers are not merged") {
     draw_parts(workshop, 2);
     REQUIRE(workshop.run(part(2, 2, {"--layers"})).code == 0);
     CHECK(workshop.run(merged({1, 2}, "out/a.exr")).err ==
-          "raylane: part-2.exr: has layers, and part-1.exr has none\n");
+          "raylane: part-2.exr: has layers, but part-1.exr has none\n");
     CHECK(workshop.run(merged({2, 1}, "out/a.exr")).err ==
-          "raylane: part-1.exr: has no layers, and part-2.exr has some\n");
+          "raylane: part-1.exr: has no layers, but part-2.exr has some\n");
     CHECK(workshop.is_output_empty());
 }
 
@@ -192,7 +192,7 @@ TEST_CASE("parts without an Options attribute can be merged") {
     CHECK(workshop.run({"verify", "a.png", "scene.json", "--quiet"}).code == 0);
     // They cannot be merged with a part that has Options.
     REQUIRE(workshop.run(part(2, 2)).code == 0);
-    CHECK(workshop.run(merged({1, 2}, "out/a.png")).err.ends_with(": its Options differ\n"));
+    CHECK(workshop.run(merged({1, 2}, "out/a.png")).err.ends_with(": Options differs\n"));
 }
 
 TEST_CASE("one frame of several can be drawn in parts") {
@@ -233,7 +233,7 @@ TEST_CASE("one frame of several can be drawn in parts") {
         }
         std::filesystem::remove(workshop.path() / "part-2.exr");
         CHECK(workshop.run(merged({1, 3}, "out/a.png")).err ==
-              "raylane: PARTS: must be all 3, but there is no part 2\n");
+              "raylane: PARTS: must be all parts, 1 to 3; missing: 2\n");
     }
     // The name has the frame's number, which is known after the file is read.
     ran({"render", "move.xyz", "--quiet", "--frames", "-1", "-o", "f%02d.exr", "--part", "1/2",
@@ -255,7 +255,7 @@ TEST_CASE("parts with alpha or layers are not merged into a format without them"
         CAPTURE(output);
         const Outcome outcome = workshop.run(merged({2, 1}, output));
         CHECK(outcome.code == 2);
-        CHECK(outcome.err == "raylane: part-2.exr: was drawn with " + message + "\n");
+        CHECK(outcome.err == "raylane: part-2.exr: was rendered with " + message + "\n");
     };
     const auto becomes = [&](const std::string& output) {
         CAPTURE(output);
@@ -315,7 +315,7 @@ TEST_CASE("a part with a missing or malformed Rays attribute is refused") {
         CHECK(is_one_line(outcome.err));
         return outcome.err;
     };
-    CHECK(refusal("many") == "raylane: part-2.exr: says what its rays were in vain\n");
+    CHECK(refusal("many") == "raylane: part-2.exr: has a malformed \"Rays\" attribute\n");
     CHECK(refusal("").ends_with("it has no Rays\n"));
     CHECK(workshop.is_output_empty());
 }
@@ -342,7 +342,7 @@ TEST_CASE("verify understands the selection that an image names") {
         REQUIRE(drawn.code == 0);
         const Outcome verified = workshop.run({"verify", "a.png", "atoms.pdb", "--quiet"});
         CHECK(verified.err.empty());
-        CHECK(verified.out.starts_with("scene      the one that the picture names\n"));
+        CHECK(verified.out.starts_with("scene      same as the image names\n"));
         CHECK(verified.code == 0);
         return content(workshop, "a.png");
     };
@@ -420,8 +420,8 @@ TEST_CASE("parts can be merged and verified without their instruction set") {
     // --whole renders with the named instruction set, which is missing.
     const Outcome again = workshop.run(joined(verify, {"--whole"}));
     CHECK(again.code == 2);
-    CHECK(again.err.starts_with("raylane: --isa: this program was built without " + absent +
-                                ", with "));
+    CHECK(again.err.starts_with("raylane: --isa: raylane was built without " + absent +
+                                "; available: "));
 }
 
 TEST_CASE("an interrupted part resumes") {
@@ -439,7 +439,7 @@ TEST_CASE("an interrupted part resumes") {
         CHECK(stopped.code == 128 + SIGTERM);
         const Outcome resumed = workshop.run(part(2, 2, options));
         CHECK(resumed.code == 0);
-        CHECK(resumed.err.find("goes on at ") != std::string::npos);
+        CHECK(resumed.err.find("resumes at ") != std::string::npos);
         const std::string picture = content_of(workshop.path() / "part-2.exr");
         CHECK(workshop.run(part(2, 2, joined(options, {"--no-resume"}))).code == 0);
         CHECK((content_of(workshop.path() / "part-2.exr") == picture));

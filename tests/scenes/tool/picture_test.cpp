@@ -110,7 +110,7 @@ TEST_CASE("options that an image cannot have give an error of one line") {
                                    "1,2,3x4x5", "1,2,3,4", "a,b,cxd", "1,2,99999999999x3"})
         CHECK(error_of(workshop, "a.png", {"--crop", text}) == crop + text + "\"\n");
     CHECK(error_of(workshop, "a.png", {"--crop", "10,0,7x3"}) ==
-          "raylane: --crop: must lie in the picture of 16 x 12 pixels, got \"10,0,7x3\"\n");
+          "raylane: --crop: must lie in the image of 16 x 12 pixels, got \"10,0,7x3\"\n");
     CHECK(error_of(workshop, "a.png", {"--layers"}) ==
           "raylane: --layers: goes with an output that ends in .exr\n");
     CHECK(error_of(workshop, "a.pfm", {"--dpi", "300"}) ==
@@ -134,9 +134,8 @@ TEST_CASE("options that an image cannot have give an error of one line") {
 TEST_CASE("layers are written to an EXR") {
     const Workshop workshop;
     if (!scenes::has_exr()) {
-        CHECK(error_of(workshop, "a.exr", {}) ==
-              "raylane: --output: must be .png, .hdr or .pfm, for raylane was built without "
-              "libopenexr-dev\n");
+        CHECK(error_of(workshop, "a.exr", {}) == "raylane: --output: must be .png, .hdr or .pfm: "
+                                                 "raylane was built without libopenexr-dev\n");
         return;
     }
     CHECK(error_of(workshop, "a.exr", {"--bits", "8"}) ==

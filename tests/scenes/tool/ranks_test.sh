@@ -285,7 +285,7 @@ end_newest KILL
 exec 5>&-
 "$raylane" render "$scene" -q -o one.png --size 600x600 --spp 16
 job 2 render "$scene" -o many.png --size 600x600 --spp 16 2>err || fail "it does not go on"
-grep -q "many.png.part: goes on at" err || fail "it has begun anew"
+grep -q "many.png.part: resumes at" err || fail "it has begun anew"
 same one.png many.png
 # A rendering of hours, in tiles of a second.
 has_tiles() { # bytes

@@ -248,8 +248,8 @@ TEST_CASE("one frame of several can be rendered with figures") {
     CHECK(workshop
               .run({"render", "move.xyz", "--frames", "0:1", "-o", "out/f%d.png", "--stats",
                     "s.json"})
-              .err ==
-          "raylane: --stats: goes without --frames of several, --turn and several values\n");
+              .err == "raylane: --stats: goes with a single image, without --turn, ranges of "
+                      "--frames and sweeps of --set\n");
 }
 
 TEST_CASE("an image and its figures cannot go into one stream") {

@@ -54,8 +54,7 @@ std::string whole(const Workshop& workshop, const Options& command = drawing()) 
     return picture;
 }
 
-constexpr const char* kept_until_complete =
-    ", and not gone on with; it stays until this picture is there\n";
+constexpr const char* kept_until_complete = "; not resumed, kept until this image is complete\n";
 
 bool has_journal(const Workshop& workshop) {
     return std::filesystem::exists(workshop.output() / "picture.png.part");
@@ -71,7 +70,7 @@ void begin_journal(const Workshop& workshop) {
 Outcome end_held(Process& process, Hold& hold, int signal) {
     REQUIRE(hold.wait());
     process.send(signal);
-    REQUIRE(process.wait_for_err("once more to end at once"));
+    REQUIRE(process.wait_for_err("interrupt again to end at once"));
     hold.release();
     return process.wait();
 }
@@ -105,14 +104,14 @@ void leave_whole_journal(const Workshop& workshop) {
 TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image can be resumed") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
-    const std::string goes_on = " %; the same command goes on with out/picture.png.part";
+    const std::string goes_on = " %; the same command resumes from out/picture.png.part";
     for (const int signal : {SIGINT, SIGTERM}) {
         const Outcome stopped = interrupt(workshop, signal);
         CAPTURE(stopped.err);
         CHECK(stopped.code == 128 + signal);
         CHECK(stopped.exited);
         CHECK(stopped.err.find(
-                  "\nraylane: finishing what is under way; once more to end at once\r\n") !=
+                  "\nraylane: finishing tiles in progress; interrupt again to end at once\r\n") !=
               std::string::npos);
         CHECK(last_line(stopped.err).starts_with("raylane: stopped at "));
         CHECK(last_line(stopped.err).ends_with(goes_on));
@@ -124,7 +123,7 @@ TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image 
         hold.release();
         const Outcome again = process.wait();
         CHECK(again.code == 128 + signal);
-        CHECK(again.err.starts_with("raylane: out/picture.png.part: goes on at "));
+        CHECK(again.err.starts_with("raylane: out/picture.png.part: resumes at "));
         const std::string messages = messages_in(again.err);
         const std::string err = messages.substr(messages.find('\n') + 1);
         CHECK(is_one_line(err));
@@ -132,7 +131,7 @@ TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image 
         CHECK(err.ends_with(goes_on + "\n"));
         const Outcome resumed = workshop.run(drawing());
         CHECK(resumed.code == 0);
-        CHECK(resumed.err.starts_with("raylane: out/picture.png.part: goes on at "));
+        CHECK(resumed.err.starts_with("raylane: out/picture.png.part: resumes at "));
         CHECK(picture_of(workshop) == expected);
         CHECK(!has_journal(workshop));
         std::filesystem::remove(workshop.output() / "picture.png");
@@ -142,7 +141,7 @@ TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image 
 TEST_CASE("the second signal ends a rendering at once and keeps the finished tiles") {
     const auto end_by_two = [](Process& process) {
         process.send(SIGTERM);
-        static_cast<void>(process.wait_for_err("once more to end at once"));
+        static_cast<void>(process.wait_for_err("interrupt again to end at once"));
         process.send(SIGINT);
         return process.wait();
     };
@@ -170,7 +169,7 @@ TEST_CASE("the second signal ends a rendering at once and keeps the finished til
             CHECK(outcome.exited);
             CHECK(outcome.code == 128 + SIGINT);
             CHECK(messages_in(workshop.run(drawing_two("16")).err) ==
-                  "raylane: out/picture.png.part: goes on at " + std::to_string(50 * kept) +
+                  "raylane: out/picture.png.part: resumes at " + std::to_string(50 * kept) +
                       " %\n");
         }
     }
@@ -224,7 +223,7 @@ TEST_CASE("a journal of another scene or other options is reported and not resum
     workshop.write("scene.json", other);
     told({}, "another scene");
     workshop.write("scene.json", scene);
-    CHECK(workshop.run(drawing()).err.starts_with("raylane: out/picture.png.part: goes on at "));
+    CHECK(workshop.run(drawing()).err.starts_with("raylane: out/picture.png.part: resumes at "));
     CHECK(picture_of(workshop) == expected);
 }
 
@@ -255,9 +254,8 @@ TEST_CASE("a foreign file and a journal in use are left alone") {
     workshop.write("out/picture.png.part", "mine");
     const Outcome outcome = workshop.run(drawing());
     CHECK(outcome.code == 0);
-    CHECK(messages_in(outcome.err) ==
-          "raylane: out/picture.png.part: is none of raylane's, so the picture is "
-          "drawn without a journal\n");
+    CHECK(messages_in(outcome.err) == "raylane: out/picture.png.part: is not a checkpoint of this "
+                                      "user; rendering without a checkpoint\n");
     CHECK(content_of(workshop.output() / "picture.png.part") == "mine");
     CHECK((picture_of(workshop) == expected));
     std::filesystem::remove(workshop.output() / "picture.png.part");
@@ -269,8 +267,7 @@ TEST_CASE("a foreign file and a journal in use are left alone") {
     const Outcome second = workshop.run(drawing());
     hold.release();
     CHECK(second.code == 0);
-    CHECK(second.err.find("is in use, so the picture is drawn without a journal") !=
-          std::string::npos);
+    CHECK(second.err.find("is in use; rendering without a checkpoint") != std::string::npos);
     CHECK(first.wait().code == 0);
     CHECK((picture_of(workshop) == expected));
 }
@@ -330,7 +327,7 @@ TEST_CASE("a tile is kept while the next one takes long") {
     process.send(SIGKILL);
     CHECK(!process.wait().exited);
     Process again = workshop.start(second_takes_minutes);
-    CHECK(again.wait_for_err("raylane: out/picture.png.part: goes on at 50 %\n"));
+    CHECK(again.wait_for_err("raylane: out/picture.png.part: resumes at 50 %\n"));
 }
 
 TEST_CASE("The same command with another option leaves the tiles of the first") {
@@ -350,7 +347,7 @@ TEST_CASE("The same command with another option leaves the tiles of the first") 
     CHECK(count == 2);
     for (const Options& options : {second_takes_minutes, other}) {
         Process process = workshop.start(options);
-        CHECK(process.wait_for_err(": goes on at 50 %\n"));
+        CHECK(process.wait_for_err(": resumes at 50 %\n"));
     }
 }
 
@@ -374,7 +371,7 @@ TEST_CASE("a signal while the last tile is written ends the program after the wh
         const Outcome outcome = end_held(process, hold, SIGTERM);
         CAPTURE(outcome.err);
         CHECK(outcome.code == 128 + SIGTERM);
-        CHECK(last_line(outcome.err) == "raylane: stopped, and out/" + name + " is whole");
+        CHECK(last_line(outcome.err) == "raylane: stopped; out/" + name + " is complete");
         CHECK(std::filesystem::exists(workshop.output() / name));
         CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
     };
@@ -397,8 +394,7 @@ TEST_CASE("a journal distinguishes settings of a scene that no option has") {
     static_cast<void>(interrupt(workshop));
     workshop.write("scene.json", with_outline("[1, 0.3, 0.1]"));
     CHECK(messages_in(workshop.run(drawing()).err) ==
-          "raylane: out/picture.png.part: is of other options or "
-          "another version" +
+          "raylane: out/picture.png.part: belongs to other options or another version" +
               std::string(kept_until_complete));
     const std::string picture = picture_of(workshop);
     CHECK(workshop.run(drawing({"--no-resume"})).code == 0);
@@ -415,7 +411,7 @@ TEST_CASE("a journal has the permissions of the existing image") {
     REQUIRE(workshop.wait_for(workshop.output() / "picture.png.part"));
     CHECK(std::filesystem::status(workshop.output() / "picture.png.part").permissions() == mode);
     process.send(SIGTERM);
-    CHECK(process.wait().err.ends_with("; the same command goes on with out/picture.png.part\n"));
+    CHECK(process.wait().err.ends_with("; the same command resumes from out/picture.png.part\n"));
 }
 
 TEST_CASE("a signal after the last tile leaves the whole image or its journal") {
@@ -438,14 +434,14 @@ TEST_CASE("a signal after the last tile leaves the whole image or its journal") 
         CAPTURE(outcome.err);
         CHECK(outcome.code == 128 + SIGTERM);
         const std::string messages = messages_in(outcome.err);
-        CHECK(messages.starts_with("raylane: out/picture.png.part: goes on at 100 %\n"));
+        CHECK(messages.starts_with("raylane: out/picture.png.part: resumes at 100 %\n"));
         const std::string said = messages.substr(messages.find('\n') + 1);
         if (call == std::string("pread")) {
             CHECK(said.starts_with("raylane: stopped at "));
-            CHECK(said.ends_with("; the same command goes on with out/picture.png.part\n"));
+            CHECK(said.ends_with("; the same command resumes from out/picture.png.part\n"));
             continue;
         }
-        CHECK(said == "raylane: stopped, and out/picture.png is whole\n");
+        CHECK(said == "raylane: stopped; out/picture.png is complete\n");
         CHECK((picture_of(workshop) == expected)); // too long to be printed
         CHECK(!has_journal(workshop));
         std::filesystem::remove(workshop.output() / "picture.png");
@@ -495,7 +491,7 @@ TEST_CASE("a full disk is reported at once and the journal continues when it has
     const Outcome outcome = process.wait();
     CHECK(outcome.code == 128 + SIGTERM);
     CHECK(count_of("cannot write", outcome.err) == 1);
-    CHECK(outcome.err.ends_with(" %; the same command goes on with out/picture.png.part\n"));
+    CHECK(outcome.err.ends_with(" %; the same command resumes from out/picture.png.part\n"));
     CHECK(std::filesystem::file_size(journal) > room);
 }
 
@@ -527,10 +523,10 @@ TEST_CASE("a journal whose name would be too long is reported and omitted") {
         const std::string name = "out/" + std::string(length - 4, 'n') + ".png";
         const Outcome outcome = workshop.render(name);
         CHECK(outcome.code == 0);
-        CHECK(outcome.err == (length == 250 ? ""
-                                            : "raylane: " + name +
-                                                  ".part: has too long a name, so the picture is "
-                                                  "drawn without a journal\n"));
+        CHECK(outcome.err ==
+              (length == 250 ? ""
+                             : "raylane: " + name +
+                                   ".part: has too long a name; rendering without a checkpoint\n"));
         CHECK(workshop.render(name, {"--no-resume"}).err.empty());
     }
 }

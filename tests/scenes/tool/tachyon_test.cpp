@@ -96,9 +96,10 @@ TEST_CASE("raylane tachyon takes tachyon's options") {
     const Outcome useless =
         draw(workshop, {"-gamma", "2", "a.dat", "-normalize", "-normalfixup", "off"});
     CHECK(useless.code == 0);
-    CHECK(useless.err == "-gamma: changes nothing here\n-normalfixup: changes nothing here\n"
-                         "-normalize: changes nothing here\n");
-    CHECK(draw(workshop, {"-help"}).out.starts_with("Draw a scene as the program tachyon would"));
+    CHECK(useless.err == "-gamma: is ignored\n-normalfixup: is ignored\n"
+                         "-normalize: is ignored\n");
+    CHECK(
+        draw(workshop, {"-help"}).out.starts_with("Render a scene by the command line of Tachyon"));
     CHECK(draw(workshop, {"-version"}).code == 0);
 }
 

@@ -77,26 +77,26 @@ TEST_CASE("invalid headers of ray files are refused") {
     for (const char* shape : {"2, 6", "[2, 6]", "(2 6)", "(2,, 6)", "(, 2, 6)", "(2, 6", "(2, -6)",
                               "(2)", "(02, 6)", "(2.0, 6)", "(2, 6x)", "(0x2, 6)", "()x"})
         refused("{'descr': '<f4', 'fortran_order': False, 'shape': " + std::string(shape) + "}",
-                std::string(shape) == "()x" ? "has a head that is no dictionary of Python's"
-                                            : "has a shape that is none");
+                std::string(shape) == "()x" ? "has a header that is not a Python dictionary"
+                                            : "has a malformed shape");
     for (const char* type : {"f4", "[('x', '<f4')]", "'<f4", "u'<f4'", ""})
         refused("{'fortran_order': False, 'shape': (2, 6), 'descr': " + std::string(type) + "}",
                 "must have numbers of one type, float32 or float64");
     refused("{'descr': '<f4' '<f4', 'fortran_order': False, 'shape': (2, 6)}",
-            "has a head that is no dictionary of Python's");
+            "has a header that is not a Python dictionary");
     refused("'descr': '<f4', 'fortran_order': False, 'shape': (2, 6)",
-            "has a head that is no dictionary of Python's");
+            "has a header that is not a Python dictionary");
     refused("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 6)",
-            "has a head that is no dictionary of Python's");
+            "has a header that is not a Python dictionary");
     refused("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 6)} x",
-            "has a head that is no dictionary of Python's");
+            "has a header that is not a Python dictionary");
     refused("{'descr': '<f4', 'fortran_order': False 'shape': (2, 6)}",
-            "has a head that is no dictionary of Python's");
-    refused("{'descr': '<f4', 'shape': (2, 6)}", "has no fortran_order in its head");
-    refused("{'fortran_order': False, 'shape': (2, 6)}", "has no descr in its head");
-    refused("{'descr': '<f4', 'fortran_order': False}", "has no shape in its head");
+            "has a header that is not a Python dictionary");
+    refused("{'descr': '<f4', 'shape': (2, 6)}", "has no fortran_order in its header");
+    refused("{'fortran_order': False, 'shape': (2, 6)}", "has no descr in its header");
+    refused("{'descr': '<f4', 'fortran_order': False}", "has no shape in its header");
     refused("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 6), 'order': 1}",
-            "has an unknown key in its head, \"order\"");
+            "has an unknown key in its header, \"order\"");
 }
 
 TEST_CASE("rays from standard input are read from the file's current offset") {
@@ -127,7 +127,7 @@ TEST_CASE("rays from standard input are read from the file's current offset") {
     };
     Outcome outcome = workshop.run({"trace", "scene.json", "-", "-o", "out/a"}, pipe);
     CHECK(outcome.code == 2);
-    CHECK(outcome.err == "raylane: standard input: must be a file\n");
+    CHECK(outcome.err == "raylane: standard input: must be a regular file\n");
     outcome = workshop.run({"trace", "-", "-", "-o", "out/a"}, from(rays, 0));
     CHECK(outcome.code == 2);
     CHECK(outcome.err == "raylane: RAYS: must be another file than SCENE, got \"-\"\n");

@@ -30,7 +30,7 @@ TEST_CASE("an invalid command line gives an error of one line") {
     const std::vector<std::pair<Arguments, std::string>> rows = {
         {{},
          "must be given a command: render, info, compare, convert, build, tachyon, trace, merge, "
-         "verify, view, manual or "
+         "verify, view, help, manual or "
          "completion" +
              see},
         {{"rendr", "scene.json"}, R"(unknown argument "rendr", did you mean "render"?)" + see},
@@ -180,9 +180,9 @@ TEST_CASE("an invalid file name gives an error of one line before any file is re
         {{"render", "-", "-o", "-", "--stats", "-"},
          R"(--stats: must be another file than --output, got "-")"},
         {{"compare", "a.png", "b.png", "--diff", "-"},
-         R"(--diff: must be another file than standard output, which has the figures, got "-")"},
+         R"(--diff: must be another file than standard output, which receives the result, got "-")"},
         {{"compare", "-", "b.png", "--json", "--diff", "-"},
-         R"(--diff: must be another file than standard output, which has the figures, got "-")"},
+         R"(--diff: must be another file than standard output, which receives the result, got "-")"},
     };
     for (const auto& [arguments, message] : rows)
         check(workshop, arguments, message);

@@ -21,13 +21,13 @@ Outcome verify(const Workshop& workshop, const std::string& picture, const Optio
     return workshop.run(joined({"verify", picture, "scene.json", "--quiet"}, options));
 }
 
-constexpr const char* right = "scene      the one that the picture names\n"
-                              "options    those that the picture names\n"
-                              "pixels     192 drawn again by the reference: 192 the same, 0 within "
-                              "a step, 0 others\n";
+constexpr const char* right =
+    "scene      same as the image names\n"
+    "options    same as the image names\n"
+    "pixels     192 rendered again by the reference: 192 equal, 0 within one step, 0 different\n";
 
-constexpr const char* again = "rays       decided as the picture says\n"
-                              "all bits   drawn again as they were\n";
+constexpr const char* again = "rays       same counts as the image states\n"
+                              "all bits   same as in the image\n";
 
 /// Returns a film with the codes of a PNG. Those of its first `pixels` are changed by one step.
 core::Film film_of(const scenes::Image& image, int pixels = 0) {
@@ -129,7 +129,7 @@ TEST_CASE("verify finds one changed bit in each format") {
     const auto others = [&](const std::string& name) {
         const Outcome outcome = verify(workshop, name, {"--whole", "--pixels", "1"});
         CHECK(outcome.code == 1);
-        CHECK(outcome.out.ends_with("all bits   others than the picture had\n"));
+        CHECK(outcome.out.ends_with("all bits   differ from the image\n"));
     };
     {
         REQUIRE(workshop.render("a.png", {"--bits", "16", "--transfer", "linear"}).code == 0);
@@ -150,7 +150,7 @@ TEST_CASE("verify finds one changed bit in each format") {
         // A step of 8 bits is 257 steps of 16 bits.
         one.y += one.y > 0.5F ? -0.5F / 255.0F : 0.5F / 255.0F;
         scenes::OutputFile(workshop.path() / "a.png").commit(film, options);
-        CHECK(verify(workshop, "a.png").out.find("191 the same, 0 within a step, 1 others") !=
+        CHECK(verify(workshop, "a.png").out.find("191 equal, 0 within one step, 1 different") !=
               std::string::npos);
     }
     if (!scenes::has_exr()) return;
@@ -201,10 +201,10 @@ TEST_CASE("verify detects a changed pixel and a changed scene") {
     turn_one_over(workshop.path() / "a.png");
     const Outcome changed = verify(workshop, "a.png");
     CHECK(changed.code == 1);
-    CHECK(changed.out == "scene      the one that the picture names\n"
-                         "options    those that the picture names\n"
-                         "pixels     192 drawn again by the reference: 191 the same, 0 within a "
-                         "step, 1 others\n"
+    CHECK(changed.out == "scene      same as the image names\n"
+                         "options    same as the image names\n"
+                         "pixels     192 rendered again by the reference: 191 equal, 0 within one "
+                         "step, 1 different\n"
                          "first      at pixel 3, 4\n");
 
     REQUIRE(workshop.render("a.png").code == 0);
@@ -213,7 +213,7 @@ TEST_CASE("verify detects a changed pixel and a changed scene") {
     workshop.write("scene.json", scene);
     const Outcome other = verify(workshop, "a.png", {"--whole"});
     CHECK(other.code == 1);
-    CHECK(other.out == "scene      another one than the picture names\n");
+    CHECK(other.out == "scene      differs from the one that the image names\n");
 }
 
 TEST_CASE("an image records options that override its scene and the precision") {
@@ -232,7 +232,7 @@ TEST_CASE("an image records options that override its scene and the precision") 
         CAPTURE(options);
         REQUIRE(workshop.render("a.png", options).code == 0);
         const Outcome outcome = verify(workshop, "a.png", {"--whole"});
-        CHECK(outcome.out.ends_with("all bits   drawn again as they were\n"));
+        CHECK(outcome.out.ends_with("all bits   same as in the image\n"));
         CHECK(outcome.code == 0);
     }
     if (!scenes::has_exr()) return;
@@ -254,8 +254,9 @@ TEST_CASE("verify renders an image with its own precision") {
                                    {"--precision", "fast", "--bits", "16", "--tile", "17"}}) {
         CAPTURE(options);
         REQUIRE(workshop.render("a.png", options).code == 0);
-        const std::string pixels = "drawn again by the picture's own precision: 500 the same, 0 "
-                                   "within a step, 0 others\n";
+        const std::string pixels =
+            "rendered again by the precision of the image: 500 equal, 0 within "
+            "one step, 0 different\n";
         const Outcome outcome = verify(workshop, "a.png", {"--whole", "--pixels", "500"});
         CHECK(outcome.out.find(pixels) != std::string::npos);
         CHECK(outcome.code == 0);
@@ -305,8 +306,8 @@ TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
         const Outcome outcome = with(chunks, place);
         CHECK(outcome.code == 2);
         CHECK(outcome.out.empty());
-        CHECK(outcome.err == "raylane: b.png: must have only chunks that raylane writes, for "
-                             "others may change how the picture is seen, got " +
+        CHECK(outcome.err == "raylane: b.png: must have only chunks that raylane writes, because "
+                             "others may change its appearance, got " +
                                  type + "\n");
     };
     const std::string zero(1, '\0');
@@ -344,7 +345,7 @@ TEST_CASE("the option --whole checks the whole image for any choice of pixels") 
         const Outcome outcome =
             verify(workshop, "a.png", {"--whole", "--pixels", "2", "--seed", std::to_string(seed)});
         CHECK(outcome.code == 1);
-        CHECK(outcome.out.ends_with("all bits   others than the picture had\n"));
+        CHECK(outcome.out.ends_with("all bits   differ from the image\n"));
         found += outcome.out.find("2 the same") != std::string::npos ? 1 : 0;
     }
     CHECK(found > 0);
@@ -418,9 +419,9 @@ TEST_CASE("verify renders each image of a sequence by itself") {
             CHECK(outcome.code == 2);
             CHECK(is_one_line(outcome.err));
             if (std::string(place) == "3")
-                CHECK(outcome.err == std::string("raylane: other.png: is picture 4 of its film, "
-                                                 "and ") +
-                                         film.scene + " makes fewer\n");
+                CHECK(outcome.err ==
+                      std::string("raylane: other.png: is image 4 of its sequence, but ") +
+                          film.scene + " has fewer\n");
         }
         for (int i = 0; i < film.count; ++i)
             std::filesystem::remove(workshop.path() / ("f" + std::to_string(i) + ".png"));
@@ -458,8 +459,8 @@ TEST_CASE("settings that no Comment has belong to the options of an image") {
         // For any pixel that is chosen.
         const Outcome outcome = verify(workshop, "a.png", {"--pixels", "1"});
         CHECK(outcome.code == 1);
-        CHECK(outcome.out.starts_with("scene      the one that the picture names\n"
-                                      "options    others than the picture names\n"));
+        CHECK(outcome.out.starts_with("scene      same as the image names\noptions    differ from "
+                                      "those that the image names\n"));
         workshop.write("scene.json", outlined);
         CHECK(verify(workshop, "a.png").out == right);
     }
@@ -479,7 +480,7 @@ TEST_CASE("settings that no Comment has belong to the options of an image") {
     write_again(workshop.path() / "a.png", workshop.path() / "a.png", without);
     const Outcome older = verify(workshop, "a.png");
     CHECK(older.code == 0);
-    CHECK(older.out.starts_with("scene      the one that the picture names\npixels     192 "));
+    CHECK(older.out.starts_with("scene      same as the image names\npixels     192 "));
 }
 
 /// Light passes the box along its diagonal plane, and meets its edges to the last bit.
@@ -494,7 +495,7 @@ TEST_CASE("verify distinguishes ties in the last bit from errors") {
     const Outcome outcome = verify(workshop, "p.png", {"--pixels", "4096"});
     CAPTURE(outcome.out);
     CHECK(outcome.code == 0);
-    CHECK(outcome.out.find(" 0 others\n") == std::string::npos); // this scene has ties
+    CHECK(outcome.out.find(" 0 different\n") == std::string::npos); // this scene has ties
     CHECK(outcome.out.find("\nties       ") != std::string::npos);
 
     turn_one_over(workshop.path() / "p.png");
@@ -511,7 +512,7 @@ TEST_CASE("verify does not confirm an image that has lost its alpha") {
     REQUIRE(scenes::read_image(workshop.path() / "a.png").alpha.size() == 0);
     const Outcome outcome = verify(workshop, "a.png");
     CHECK(outcome.code == 1);
-    CHECK(outcome.out.find("0 the same, 0 within a step, 192 others") != std::string::npos);
+    CHECK(outcome.out.find("0 equal, 0 within one step, 192 different") != std::string::npos);
 }
 
 TEST_CASE("verify does not confirm an image with many pixels one step off") {
@@ -524,10 +525,10 @@ TEST_CASE("verify does not confirm an image with many pixels one step off") {
         const Outcome outcome = verify(workshop, "b.png");
         CAPTURE(pixels, outcome.out);
         CHECK(outcome.code == code);
-        CHECK(outcome.out.find(" the same, " + std::to_string(pixels) +
-                               " within a step, 0 others\n") != std::string::npos);
-        CHECK(outcome.out.ends_with("steps      more than 1 pixel in 50 is only within one, as by "
-                                    "no rounding\n") == (code == 1));
+        CHECK(outcome.out.find(" equal, " + std::to_string(pixels) +
+                               " within one step, 0 different\n") != std::string::npos);
+        CHECK(outcome.out.ends_with("steps      more than 1 pixel in 50 differs by one step, more "
+                                    "than rounding causes\n") == (code == 1));
     }
     // Two of a few pixels may be one step off.
     write_again(a, b, same, 192);
@@ -546,8 +547,8 @@ TEST_CASE("images without valid texts give an error of one line") {
         CHECK(outcome.err.find(with) != std::string::npos);
     };
     REQUIRE(workshop.render("a.pfm").code == 0);
-    refused("a.pfm", "a.pfm: must be a PNG or EXR that raylane has drawn, which says by which "
-                     "scene and options: it has no Comment");
+    refused("a.pfm", "a.pfm: must be a PNG or EXR rendered by raylane, which names its scene and "
+                     "options, got one without Comment");
     refused("none.png", "none.png: no such file");
     const auto with_comment = [&](const std::string& comment) {
         scenes::PictureOptions options;
@@ -555,16 +556,16 @@ TEST_CASE("images without valid texts give an error of one line") {
         scenes::OutputFile(workshop.path() / "b.png").commit(core::Film(16, 12), options);
     };
     with_comment("made by hand");
-    refused("b.png", "b.png: has a Comment that is no list of render's options");
+    refused("b.png", "b.png: has a Comment that is not a list of options of render");
     for (const char* comment : {"--bogus", "--spp 4 --bogus", "--spp 4 --bogus=3", "--spp 4 -z",
                                 "--spp 4 other.json", "--bogus 3", "--spp 4 --spp 4"}) {
         with_comment(comment);
-        refused("b.png", "b.png: has a Comment that is no list of render's options");
+        refused("b.png", "b.png: has a Comment that is not a list of options of render");
     }
     with_comment("--help");
-    refused("b.png", "b.png: has a Comment that is no list of render's options");
+    refused("b.png", "b.png: has a Comment that is not a list of options of render");
     with_comment("--size 5000x5000");
-    refused("b.png", "b.png: has another size than its Comment says");
+    refused("b.png", "b.png: has another size than its Comment states");
     with_comment("--spp 7");
     refused("b.png", "--spp: must be");
     CHECK(verify(workshop, "b.png", {"--pixels", "0"}).err.find("--pixels: must be") !=
