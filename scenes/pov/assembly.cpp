@@ -67,9 +67,9 @@ Solid part_of(const Object& object) {
             } else if constexpr (core::has_inside<core::InFloat<Shape>>) {
                 return solid;
             } else {
-                fail(object.place, "must have an inside to be a part of another object, or to be "
-                                   "clipped, and a " +
-                                       std::string(core::name_of(kind)) + " has none");
+                fail(object.place,
+                     "must have an inside to be a part of another object or to be clipped, got a " +
+                         std::string(core::name_of(kind)) + ", which has none");
             }
         },
         object.shape);
@@ -215,7 +215,8 @@ void Assembly::add(const Object& object, const Look& inherited, const Shared<Mot
             add(*part, look, motion, clips);
         return;
     case ObjectKind::mesh:
-        if (!clips.empty()) fail(object.place, "must not be clipped, as a mesh has no inside here");
+        if (!clips.empty())
+            fail(object.place, "must not be clipped, because meshes have no inside");
         add_mesh(object, look, motion);
         return;
     case ObjectKind::shape:
@@ -264,7 +265,7 @@ Solid Assembly::made_of(const Object& object, const Look& look, const Shared<Mot
     }
     if (object.kind == ObjectKind::mesh)
         fail(object.place,
-             "must have an inside to be a part of another object, and a mesh has none");
+             "must have an inside to be a part of another object, got a mesh, which has none");
     Solid all{Made::by_union}, less{Made::by_difference};
     if (object.kind == ObjectKind::intersection || object.kind == ObjectKind::difference)
         all.made = Made::by_intersection;
@@ -274,13 +275,12 @@ Solid Assembly::made_of(const Object& object, const Look& look, const Shared<Mot
         const bool is_taken = object.kind == ObjectKind::difference && !is_first;
         const bool is_kept = is_taken == is_inside_out(*part);
         if (!is_kept && all.made == Made::by_union)
-            fail(part->place,
-                 "must not be inverse in a union: of all that is outside there is no end");
+            fail(part->place, "must not be inverse in a union, because its outside is unbounded");
         (is_kept ? all : less).parts.push_back(described(*part, look, motion, false));
         is_first = false;
     }
     if (all.parts.empty())
-        fail(object.place, "must have an object that is not inverse, nor taken away");
+        fail(object.place, "must have an object that is neither inverse nor subtracted");
     if (less.parts.empty()) return all;
     less.parts.insert(less.parts.begin(),
                       all.parts.size() == 1 ? std::move(all.parts[0]) : std::move(all));
@@ -306,7 +306,7 @@ Solid Assembly::clipped(Solid solid, const Clips& clips) {
     result.parts.push_back(std::move(solid));
     for (const Clip& clip : clips) {
         if (is_inside_out(*clip.by))
-            fail(clip.by->place, "must not be inverse where it clips, unless it is a plane");
+            fail(clip.by->place, "must not be inverse if it clips, unless it is a plane");
         result.parts.push_back(described(*clip.by, {}, clip.above, true));
     }
     return result;

@@ -40,7 +40,7 @@ Token Tokens::skip_to(const Place& place, Until until) {
     Scanner& scanner = frames_.back().scanner;
     for (std::size_t open = 0;;) {
         Token token = scanner.next();
-        if (token.kind == TokenKind::end) fail(place, "must have an #end, and the file ends");
+        if (token.kind == TokenKind::end) fail(place, "must have an #end, got the end of the file");
         if (!token.is("#")) continue;
         token = scanner.next();
         if (token.is("end")) {
@@ -108,7 +108,7 @@ void Tokens::begin_for(const Place& place) {
     const double last = read_number(*this);
     const double step = accept(",") ? read_number(*this) : 1.0;
     expect(")");
-    if (step == 0.0) fail(place, "must have steps other than 0");
+    if (step == 0.0) fail(place, "must have a step other than 0");
     if (step > 0.0 ? first > last : first < last) {
         skip_to(place, Until::end);
         return;
@@ -133,8 +133,7 @@ void Tokens::leave_loop(const Place& place) {
 void Tokens::end(const Place& place) {
     Frame& frame = frames_.back();
     if (frame.conditions.empty()) {
-        if (frame.kind != FrameKind::macro)
-            fail(place, "must end something, and nothing has begun");
+        if (frame.kind != FrameKind::macro) fail(place, "must end a block, got none open");
         frames_.pop_back();
         return;
     }

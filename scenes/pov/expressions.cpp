@@ -93,7 +93,7 @@ Tuple read_primary(Tokens& tokens) {
     }
     if (token.kind == TokenKind::word)
         fail(token.place,
-             "must be a number, and " + token.quoted() + " is not known" + tokens.origin_of(token));
+             "must be a number, got the unknown name " + token.quoted() + tokens.origin_of(token));
     fail(token.place, "must be a number, got " + token.quoted());
 }
 

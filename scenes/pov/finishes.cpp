@@ -18,7 +18,8 @@ double read_share(Tokens& tokens, const char* what) {
     const double mean = (tuple.at[0] + tuple.at[1] + tuple.at[2]) / 3.0;
     const auto differs = [&](std::size_t i) { return tuple.at[i] != tuple.at[0]; };
     if (differs(1) || differs(2)) {
-        tokens.remark(place, std::string("colours ") + what + ", which is drawn without colour");
+        tokens.remark(place,
+                      std::string("coloured ") + what + " is not supported: its mean is used");
         return mean;
     }
     return tuple.at[0];
@@ -48,16 +49,16 @@ void read_reflection(Tokens& tokens, Finish& finish, const Place& place) {
         if (word.is("fresnel"))
             finish.fresnel = number != 0.0;
         else if (word.is("falloff") || word.is("exponent") || word.is("metallic"))
-            tokens.remark(word.place,
-                          "has " + word.quoted() + " of reflection, which is not drawn");
+            tokens.remark(word.place, word.quoted() + " of a reflection is ignored");
         else
             fail(word.place, "must be of a reflection, got " + word.quoted());
     }
     finish.reflection = has_range && !finish.fresnel ? 0.5 * (least + most) : most;
     if (has_range && !finish.fresnel && least != most)
-        tokens.remark(place, "reflects by the angle, which is drawn as the mean of both");
+        tokens.remark(place, "reflection that depends on the angle is not supported: the mean of "
+                             "both limits is used");
     if (finish.fresnel && (least != 0.0 || most != 1.0))
-        tokens.remark(place, "has limits of Fresnel's reflection, which are not drawn");
+        tokens.remark(place, "limits of Fresnel reflection are ignored");
 }
 
 /// Skips "normal { ... }". Returns false if something else comes next.
@@ -65,7 +66,7 @@ bool accept_normal(Tokens& tokens) {
     const Place place = tokens.peek().place;
     if (!tokens.accept("normal")) return false;
     tokens.skip_braces();
-    tokens.remark(place, "bends normals, which are drawn as they are");
+    tokens.remark(place, "normal is ignored: surfaces stay smooth");
     return true;
 }
 
@@ -139,7 +140,8 @@ Finish read_finish(Tokens& tokens, Finish finish) {
         } else if (word.is("brilliance")) {
             finish.brilliance = std::max(number(), 0.0);
             if (finish.brilliance != 1.0)
-                tokens.remark(word.place, "has brilliance, drawn as less diffuse light");
+                tokens.remark(word.place,
+                              "brilliance is not supported: diffuse light is reduced instead");
         } else if (word.is("phong")) {
             finish.phong = share(of_albedo.phong);
         } else if (word.is("phong_size")) {
@@ -153,15 +155,16 @@ Finish read_finish(Tokens& tokens, Finish finish) {
             read_reflection(tokens, finish, word.place);
         } else if (word.is("metallic")) {
             if (at_tuple(tokens)) read_number(tokens);
-            tokens.remark(word.place, "is metallic, and highlights have the light's colour here");
+            tokens.remark(word.place,
+                          "metallic is ignored: highlights have the colour of the light");
         } else if (word.is("conserve_energy")) {
             if (at_tuple(tokens)) read_number(tokens);
         } else if (word.is("crand") || word.is("reflection_exponent")) {
             read_number(tokens);
-            tokens.remark(word.place, "has " + word.quoted() + ", which is not drawn");
+            tokens.remark(word.place, word.quoted() + " is ignored");
         } else if (word.is("irid") || word.is("subsurface")) {
             tokens.skip_braces();
-            tokens.remark(word.place, "has " + word.quoted() + ", which is not drawn");
+            tokens.remark(word.place, word.quoted() + " is ignored");
         } else {
             fail(word.place, "must be of a finish, got " + word.quoted());
         }
@@ -231,7 +234,7 @@ Interior read_interior(Tokens& tokens) {
             read_number(tokens);
         else
             fail(word.place, "must be of an interior, got " + word.quoted());
-        tokens.remark(word.place, "has " + word.quoted() + " inside, which is not drawn");
+        tokens.remark(word.place, word.quoted() + " of an interior is ignored");
     }
     return interior;
 }

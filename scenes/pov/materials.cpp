@@ -126,7 +126,8 @@ std::array<float, 24> key_of(const core::Material& m) {
 void set_highlight(const Finish& finish, core::Material& material, Tokens& tokens,
                    const Place& place) {
     if (finish.specular > 0.0 && finish.phong > 0.0)
-        tokens.remark(place, "has two highlights in one finish, of which the stronger is drawn");
+        tokens.remark(place,
+                      "two highlights in a finish are not supported: the stronger one is used");
     const bool is_phong = finish.phong > std::max(finish.specular, 0.0);
     material.specular =
         static_cast<float>(is_phong ? finish.phong : std::max(finish.specular, 0.0));
@@ -145,7 +146,7 @@ core::Material Materials::material_of(const Look& look, const Place& place,
     core::Material material;
     if (takes_light(pigment.color) ||
         (pigment.kind != PigmentKind::color && takes_light(pigment.other)))
-        tokens_.remark(place, "has colours that take light away, which are black here");
+        tokens_.remark(place, "negative components of colours are not supported: 0 is used");
     material.pattern.colors[0] = color_of(pigment.color);
     if (pigment.kind != PigmentKind::color) {
         const Shared<Motion> motion = both(pigment.motion, look.above);
@@ -158,22 +159,23 @@ core::Material Materials::material_of(const Look& look, const Place& place,
             material.pattern = pattern;
             // In scenes that convert writes, gradients are visible only between their ends.
             if (pattern.kind == core::PatternKind::gradient && !tokens_.is_by_convert())
-                tokens_.remark(place, "has a gradient, which repeats beyond its ends, and has the "
-                                      "colours of the ends there here");
+                tokens_.remark(place, "repetition of a gradient is not supported: beyond its ends "
+                                      "it has the colours of the ends");
         } else {
             material.pattern.colors[0] = 0.5F * (color_of(pigment.color) + color_of(pigment.other));
-            tokens_.remark(place, "has a pattern that is turned or moved, drawn as one colour");
+            tokens_.remark(place,
+                           "this position of a pattern is not supported: its mean colour is used");
         }
     }
     const auto& color = pigment.color.at;
     if (pigment.kind != PigmentKind::color &&
         (color[3] != pigment.other.at[3] || color[4] != pigment.other.at[4]))
-        tokens_.remark(place, "has a pattern of colours that let different light through, of which "
-                              "all is as the first here");
+        tokens_.remark(
+            place,
+            "different transparencies in a pattern are not supported: the first one is used");
     const double largest = std::clamp(std::max({color[0], color[1], color[2]}), 0.0, 1.0);
     if (color[3] != 0.0)
-        tokens_.remark(place,
-                       "has colours that filter light, which lets it through uncoloured here");
+        tokens_.remark(place, "filter of a colour is not supported: light passes without colour");
     const double through = std::clamp(color[4] + color[3] * largest, 0.0, 1.0);
     // So much of a ray in the direction that most are seen from as cos^brilliance in the mean.
     const double diffuse = std::max(finish.diffuse, 0.0) * (4.0 / (3.0 + finish.brilliance));
@@ -219,7 +221,7 @@ core::MaterialIndex Materials::index_of(const Look& look, const Place& place,
         try {
             found->second = builder_.add_material(material);
         } catch (const core::InvalidValue& invalid) {
-            fail(place, "has a material that cannot be: " + std::string(invalid.what()));
+            fail(place, "has an invalid material: " + std::string(invalid.what()));
         }
     }
     if (look.texture != nullptr) {

@@ -77,7 +77,7 @@ struct Face {
 /// there.
 bool accept_inside(Tokens& tokens) {
     if (!tokens.at("inside_vector")) return false;
-    tokens.remark(tokens.next().place, "has meshes with an inside, which are surfaces here");
+    tokens.remark(tokens.next().place, "inside_vector is ignored: the mesh is a surface");
     read_vector(tokens);
     return true;
 }
@@ -153,15 +153,15 @@ class Mesh2Reader {
         while (count < 3 && !tokens_.at("<") && !tokens_.at("}")) {
             of_corners[count++] = read_count(tokens_);
             if (of_corners[count - 1] >= mesh_.textures.size())
-                fail(face.place, "must have textures of texture_list, of which there are " +
+                fail(face.place, "must have indices into texture_list, below " +
                                      std::to_string(mesh_.textures.size()) + ", got " +
                                      std::to_string(of_corners[count - 1]));
         }
         face.texture = static_cast<int>(of_corners[0]);
         const auto color = [&](int i) { return mesh_.textures[of_corners[i]]->pigment.color.at; };
         if (count == 3 && (color(0) != color(1) || color(0) != color(2))) {
-            tokens_.remark(face.place,
-                           "has triangles that change colour, which have the first corner's here");
+            tokens_.remark(face.place, "different colours at the corners of a triangle are not "
+                                       "supported: the first one is used");
             if (color(1) == color(2)) face.texture = static_cast<int>(of_corners[1]);
         }
     }
@@ -249,7 +249,7 @@ Shared<Mesh> read_polygon(Tokens& tokens) {
             fail(place, "must be a polygon of one outline, got one of several");
     }
     if (!are_coplanar(corners)) {
-        tokens.remark(place, "has polygons with corners outside their plane, which are left out");
+        tokens.remark(place, "polygons with corners outside their plane are omitted");
         return std::make_shared<const Mesh>();
     }
     Mesh mesh;

@@ -61,8 +61,9 @@ class Modifiers {
         collect_textures(object_, textures);
         if (textures.empty()) return;
         if (textures.size() > 1)
-            tokens_.remark(object_.place, "has cutaway_textures of several textures, of which the "
-                                          "first is drawn where others are cut");
+            tokens_.remark(
+                object_.place,
+                "cutaway_textures of several textures are not supported: the first one is used");
         set(std::move(textures.front()));
     }
 
@@ -143,14 +144,13 @@ class Modifiers {
             if (word.is("hollow")) object_.is_hollow = holds;
             if (word.is("cutaway_textures")) cuts_textures_ = holds;
             if (word.is("uv_mapping") && holds)
-                tokens_.remark(word.place, "has patterns on a surface's own axes, drawn in space");
+                tokens_.remark(word.place, "uv_mapping is ignored: patterns are in space");
             if ((word.is("no_shadow") || word.is("no_image") || word.is("no_reflection")) && holds)
-                tokens_.remark(word.place,
-                               word.is("no_shadow")
-                                   ? "has objects without shadows, which have them here"
-                               : word.is("no_image")
-                                   ? "has objects without an image, which are left out"
-                                   : "has objects without a reflection, which have one here");
+                tokens_.remark(
+                    word.place,
+                    word.is("no_shadow")  ? "no_shadow is ignored: the objects cast shadows"
+                    : word.is("no_image") ? "no_image objects are omitted"
+                                          : "no_reflection is ignored: the objects are reflected");
         } else if (word.is("normal") || word.is("photons") || word.is("radiosity") ||
                    word.is("interior_texture") || word.is("uv_vectors")) {
             if (!word.is("uv_vectors")) tokens_.skip_braces();
@@ -158,7 +158,7 @@ class Modifiers {
                 read_tuple(tokens_);
                 tokens_.accept(",");
             }
-            tokens_.remark(word.place, "has " + word.quoted() + ", which is not drawn");
+            tokens_.remark(word.place, word.quoted() + " is ignored");
         } else {
             fail(word.place, "must be of an object, got " + word.quoted());
         }

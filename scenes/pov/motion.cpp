@@ -46,7 +46,7 @@ Motion rotation(const Vec3d& degrees) {
 Motion scaling(Vec3d by, Tokens& tokens, const Place& place) {
     for (int axis = 0; axis < 3; ++axis)
         if (by[axis] == 0.0) {
-            tokens.remark(place, "scales by 0, which is taken as 1");
+            tokens.remark(place, "a scale of 0 is replaced by 1");
             by[axis] = 1.0;
         }
     return linear(core::Transform::scaling(by), {by.x, 0.0, 0.0}, {0.0, by.y, 0.0},

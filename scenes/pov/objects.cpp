@@ -76,7 +76,7 @@ core::PartShape read_disc(Tokens& tokens) {
     skip_comma(tokens);
     disc.radius = std::abs(read_number(tokens));
     if (tokens.accept(",") && read_number(tokens) != 0.0)
-        tokens.remark(place, "has a hole in a disc, which is not drawn");
+        tokens.remark(place, "the hole of a disc is ignored");
     return disc;
 }
 
@@ -247,7 +247,7 @@ void leave_out_if_flat(Tokens& tokens, Object& object) {
         },
         object.shape);
     if (!is_flat) return;
-    tokens.remark(object.place, "has objects without a size, which are left out");
+    tokens.remark(object.place, "objects without a size are omitted");
     object.kind = ObjectKind::all_in_one;
     object.count = 0;
 }
@@ -263,7 +263,7 @@ core::PartShape smooth_or_flat(const core::SmoothTriangleOf<double>& t) {
 
 bool has_no_area(Tokens& tokens, const core::TriangleOf<double>& triangle, const Place& place) {
     if (!core::checks::are_collinear(triangle.a, triangle.b, triangle.c)) return false;
-    tokens.remark(place, "has objects without a size, which are left out");
+    tokens.remark(place, "objects without a size are omitted");
     return true;
 }
 
@@ -292,9 +292,9 @@ Shared<Object> read_object(Tokens& tokens) {
     if (shape == nullptr && mesh == nullptr && compound == nullptr && !word.is("object")) {
         if (std::find(std::begin(not_read), std::end(not_read), word.text) != std::end(not_read))
             fail(word.place,
-                 "must be made of quadrics, and " + word.quoted() + " is not: it is not read");
+                 "must be made of quadrics, got " + word.quoted() + ", which is not supported");
         fail(word.place,
-             "must be an object that is read, got " + word.quoted() + tokens.origin_of(word));
+             "must be a supported object, got " + word.quoted() + tokens.origin_of(word));
     }
     tokens.expect("{");
     if (shape != nullptr) {
@@ -307,7 +307,7 @@ Shared<Object> read_object(Tokens& tokens) {
     } else if (compound != nullptr) {
         object.kind = compound->read;
         if (word.is("light_group"))
-            tokens.remark(word.place, "has lights of a group, which shine everywhere here");
+            tokens.remark(word.place, "light_group is ignored: its lights shine everywhere");
         object.count = 0;
         if (object.kind == ObjectKind::all_in_one) object.pieces = 0;
         while (begins_object(tokens, tokens.peek()) ||

@@ -186,7 +186,8 @@ class PatternReader {
     }
 
     void set_one(const Texture& mean, const Token& word) {
-        tokens_.remark(word.place, "has the pattern " + word.quoted() + ", drawn as one colour");
+        tokens_.remark(word.place,
+                       "pattern " + word.quoted() + " is not supported: its mean colour is used");
         const Shared<Motion> motion = pigment().motion;
         texture_ = mean;
         pigment().motion = motion;
@@ -195,9 +196,11 @@ class PatternReader {
     void set_two(PigmentKind kind, const Texture& first, const Texture& second,
                  const Place& place) {
         if (first.pigment.kind != PigmentKind::color || second.pigment.kind != PigmentKind::color)
-            tokens_.remark(place, "has patterns in a pattern, each drawn as one colour");
+            tokens_.remark(
+                place, "patterns in a pattern are not supported: the mean colour of each is used");
         if (first.finish != second.finish)
-            tokens_.remark(place, "has a pattern of several finishes, drawn with their mean");
+            tokens_.remark(place,
+                           "different finishes in a pattern are not supported: their mean is used");
         texture_.finish = finish_of({{0.5, first}, {0.5, second}});
         pigment().kind = kind;
         pigment().color = color_with(first, texture_.finish);
@@ -210,7 +213,7 @@ class PatternReader {
             return set_two(PigmentKind::gradient, map.first, map.last, place);
         }
         if (pigment().kind != PigmentKind::color)
-            tokens_.remark(place, "has a map of colours, drawn as one");
+            tokens_.remark(place, "this map of a pattern is not supported: its mean is used");
         set_mean(map, false);
     }
 
@@ -258,10 +261,9 @@ class PatternReader {
         if ((word.is("interior") || word.is("exterior")) && tokens_.accept(","))
             read_tuple(tokens_);
         if (word.is("uv_mapping"))
-            tokens_.remark(word.place, "has patterns on a surface's own axes, drawn in space");
+            tokens_.remark(word.place, "uv_mapping is ignored: patterns are in space");
         else if (pigment().kind != PigmentKind::color && !word.text.starts_with("quick"))
-            tokens_.remark(word.place,
-                           "has " + word.quoted() + " of a pattern, which is not drawn");
+            tokens_.remark(word.place, word.quoted() + " of a pattern is ignored");
     }
 
     Tokens& tokens_;
@@ -381,7 +383,7 @@ Shared<Texture> layered(Tokens& tokens, const Shared<Texture>& below, Shared<Tex
     };
     const Tuple top = color_of(above->pigment), bottom = color_of(below->pigment);
     if (through(top) == 0.0) return above;
-    tokens.remark(place, "has layers of textures, drawn as one");
+    tokens.remark(place, "layered textures are not supported: their mean is used");
     const bool is_pattern_below = below->pigment.kind != PigmentKind::color;
     Texture texture = is_pattern_below ? *below : *above;
     texture.finish = finish_of({{1.0 - through(top), *above}, {through(top), *below}});

@@ -46,8 +46,7 @@ class Reader {
         builder_.workers = workers;
         builder_.wants_light = false;
         builder_.on_light_moved = [this](std::size_t i) {
-            tokens_.remark(assembly_.lights[i].place,
-                           "has lights on a surface, which shine from beside it here");
+            tokens_.remark(assembly_.lights[i].place, "lights on a surface are moved off it");
         };
     }
 
@@ -58,12 +57,13 @@ class Reader {
         if (!has_camera_) set_camera(Camera{}, beginning);
         const bool has_fog = builder_.fog.kind != core::FogKind::none;
         if (has_fog && assembly_.fog_differs_at)
-            tokens_.remark(*assembly_.fog_differs_at,
-                           "has transparent objects in fog, which fills those without an ior here, "
-                           "hollow or not");
+            tokens_.remark(*assembly_.fog_differs_at, "hollow is ignored in fog: fog fills exactly "
+                                                      "the transparent objects without an ior");
         for (const LightSource& light : assembly_.lights) {
             if (light.is_dimmed && has_fog)
-                tokens_.remark(light.place, "has lights that fog dims, which shine undimmed here");
+                tokens_.remark(
+                    light.place,
+                    "dimming of lights by fog is not supported: lights keep their brightness");
             try {
                 builder_.add_light(light_of(light));
             } catch (const core::InvalidValue& invalid) {
@@ -99,17 +99,16 @@ class Reader {
             const bool was_dark = settings_.ambient_light == 1.0;
             read_global_settings(tokens_, settings_);
             if (was_dark && settings_.ambient_light != 1.0 && builder_.shape_count() > 0)
-                tokens_.remark(word.place,
-                               "sets ambient_light behind objects that are drawn without");
+                tokens_.remark(word.place, "ambient_light does not apply to the objects before it");
             assembly_.materials.ambient_light = settings_.ambient_light;
         } else if (tokens_.accept("sky_sphere")) {
             const Sky sky = read_sky(tokens_);
             if (!has_background_) background_ = sky.color;
-            tokens_.remark(word.place, "has a sky_sphere, of which one colour is drawn");
+            tokens_.remark(word.place, "sky_sphere is not supported: its mean colour is used");
         } else if (word.is("rainbow") || word.is("media")) {
             tokens_.next();
             tokens_.skip_braces();
-            tokens_.remark(word.place, "has " + word.quoted() + ", which is not drawn");
+            tokens_.remark(word.place, word.quoted() + " is ignored");
         } else {
             read_object(tokens_); // throws, with the reason
         }
@@ -131,7 +130,7 @@ class Reader {
     void set_camera(const Camera& camera, const Place& place) {
         const View view = view_of(camera, tokens_, place);
         if (has_camera_ && view.mirrored != mirrored_)
-            fail(place, "must see the world on the same side as the camera before it");
+            fail(place, "must have the same handedness as the camera before it");
         camera_place_ = place;
         builder_.camera = view.camera;
         aspect_ = view.aspect;
@@ -167,8 +166,9 @@ class Reader {
         picture.transfer =
             gamma > 0.0 && gamma < in_between ? core::Transfer::srgb : core::Transfer::linear;
         if (gamma != 0.0 && gamma != 1.0 && std::abs(gamma - 2.2) > 0.01)
-            tokens_.remark(camera_place_,
-                           "assumes a gamma other than 1 and 2.2, of which the nearer is taken");
+            tokens_.remark(
+                camera_place_,
+                "an assumed_gamma other than 1 and 2.2 is not supported: the nearer one is used");
     }
 
     Tokens tokens_;

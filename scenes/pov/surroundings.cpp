@@ -64,8 +64,8 @@ Camera read_camera(Tokens& tokens) {
             if (word.is("cylinder")) read_number(tokens);
             if (word.is("mesh_camera")) tokens.skip_braces();
             is_wide = true;
-            tokens.remark(word.place, "has a camera that is " + word.quoted() +
-                                          ", whose picture is drawn in perspective");
+            tokens.remark(word.place, "camera type " + word.quoted() +
+                                          " is not supported: the image is in perspective");
         } else if (word.is("aperture") || word.is("blur_samples") || word.is("confidence") ||
                    word.is("variance") || word.is("focal_point") || word.is("bokeh")) {
             if (word.is("bokeh"))
@@ -74,10 +74,10 @@ Camera read_camera(Tokens& tokens) {
                 read_tuple(tokens);
             tokens.accept(",");
             if (at_tuple(tokens)) read_tuple(tokens);
-            tokens.remark(word.place, "has a camera that is not sharp everywhere, and is here");
+            tokens.remark(word.place, "depth of field is ignored: the image is sharp everywhere");
         } else if (word.is("normal")) {
             tokens.skip_braces();
-            tokens.remark(word.place, "bends the camera's rays, which are straight here");
+            tokens.remark(word.place, "normal of the camera is ignored: its rays stay straight");
         } else {
             fail(word.place, "must be of a camera, got " + word.quoted());
         }
@@ -135,8 +135,7 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
         return std::abs(core::dot(a, b)) <= 1e-6 * core::length(a) * core::length(b);
     };
     if (!is_across(direction, right) || !is_across(direction, up) || !is_across(right, up))
-        tokens.remark(place,
-                      "has a camera whose axes are not at right angles, which they are here");
+        tokens.remark(place, "oblique axes of a camera are not supported: right angles are used");
     view.mirrored = core::dot(core::cross(direction, up), right) < 0.0;
     view.aspect = core::length(right) / core::length(up);
     core::Camera& camera = view.camera;
@@ -187,10 +186,9 @@ LightSource read_light(Tokens& tokens) {
         } else if (word.is("point_at")) {
             light.point_at = read_vector(tokens);
         } else if (word.is("spotlight") || word.is("cylinder")) {
-            remark("has a light that is a " + std::string(word.text) +
-                   ", which shines everywhere here");
+            remark(std::string(word.text) + " is ignored: the light shines in all directions");
         } else if (word.is("shadowless")) {
-            remark("has lights without shadows, which have them here");
+            remark("shadowless is ignored: the lights cast shadows");
         } else if (word.is("area_light")) {
             has_area = true;
             first = read_vector(tokens);
@@ -212,7 +210,7 @@ LightSource read_light(Tokens& tokens) {
             light.is_dimmed = !at_tuple(tokens) || read_number(tokens) != 0.0;
         } else if (word.is("looks_like") || word.is("projected_through")) {
             tokens.skip_braces();
-            remark("has " + word.quoted() + " of a light, which is not drawn");
+            remark(word.quoted() + " of a light is ignored");
         } else if (word.is("photons")) {
             tokens.skip_braces();
         } else if (!word.is("orient") && !word.is("jitter")) {
@@ -222,7 +220,7 @@ LightSource read_light(Tokens& tokens) {
     for (int channel = 0; channel < 3; ++channel) {
         if (light.color[channel] >= 0.0) continue;
         light.color[channel] = 0.0;
-        tokens.remark(light.place, "has lights that take light away, which are black here");
+        tokens.remark(light.place, "negative components of lights are not supported: 0 is used");
     }
     const double radius = 0.5 * core::length(first);
     // POV-Ray's light fades by 2 / (1 + (d / fade_distance)^2), raylane's by (radius / d)^2.
@@ -232,10 +230,9 @@ LightSource read_light(Tokens& tokens) {
         light.color = (2.0 * share * share) * light.color;
         return light;
     }
-    if (has_area)
-        tokens.remark(light.place, "has lights with a size, whose shadows have sharp edges here");
+    if (has_area) tokens.remark(light.place, "area_light is ignored: shadows have sharp edges");
     if (fade_distance > 0.0 && fade_power > 0.0)
-        tokens.remark(light.place, "has lights that fade, which do not here");
+        tokens.remark(light.place, "fade_distance is ignored: lights do not fade");
     return light;
 }
 
@@ -269,7 +266,7 @@ core::Fog read_fog(Tokens& tokens) {
             fog.color = core::convert<float>(rgb_of(color));
             if (color.at[3] != 0.0 || color.at[4] != 0.0)
                 tokens.remark(tokens.peek().place,
-                              "has fog that lets light through, which is opaque far away here");
+                              "transparent fog is not supported: distant fog is opaque");
             continue;
         }
         const Token word = tokens.next();
@@ -277,7 +274,7 @@ core::Fog read_fog(Tokens& tokens) {
             distance = read_number(tokens);
         } else if (word.is("fog_type")) {
             is_ground = read_number(tokens) != 1.0;
-            if (is_ground) tokens.remark(word.place, "has fog by height, which is left out");
+            if (is_ground) tokens.remark(word.place, "ground fog is omitted");
         } else if (word.is("turbulence") || word.is("turb_depth") || word.is("omega") ||
                    word.is("lambda") || word.is("octaves") || word.is("fog_offset") ||
                    word.is("fog_alt") || word.is("up")) {
@@ -332,10 +329,11 @@ void read_global_settings(Tokens& tokens, GlobalSettings& settings) {
             const Vec3d color = rgb_of(read_color(tokens));
             settings.ambient_light = (color.x + color.y + color.z) / 3.0;
             if (color.x != color.y || color.y != color.z)
-                tokens.remark(word.place, "colours ambient light, which is drawn without colour");
+                tokens.remark(word.place,
+                              "coloured ambient_light is not supported: its mean is used");
         } else if (word.is("radiosity") || word.is("photons") || word.is("subsurface")) {
             tokens.skip_braces();
-            tokens.remark(word.place, "has " + word.quoted() + ", which is not drawn");
+            tokens.remark(word.place, word.quoted() + " is ignored");
         } else if (word.is("charset")) {
             tokens.next();
         } else if (word.is("hf_gray_16") || word.is("irid_wavelength") ||

@@ -24,7 +24,8 @@ Tokens::Tokens(Source source, const OnRemark& on_remark) : on_remark_(on_remark)
 std::string Tokens::origin_of(const Token& name) const {
     const auto standard = standard_names_.find(name.text);
     if (name.kind != TokenKind::word || standard == standard_names_.end()) return "";
-    return ": it is of \"" + std::string(standard->second.file) + "\", and not read";
+    return ", which is declared in \"" + std::string(standard->second.file) +
+           "\" and not supported";
 }
 
 bool Tokens::is_by_convert() const {
@@ -57,8 +58,9 @@ Token Tokens::raw() {
 bool Tokens::leave_frame(const Place& end) {
     const Frame& frame = frames_.back();
     if (!frame.conditions.empty())
-        fail(frame.conditions.back().place, "must have an #end, and " + end.source->name + " ends");
-    if (frame.kind == FrameKind::macro) fail(frame.place, "must be of a macro that has an #end");
+        fail(frame.conditions.back().place,
+             "must have an #end before the end of " + end.source->name);
+    if (frame.kind == FrameKind::macro) fail(frame.place, "must be a macro with an #end");
     if (frames_.size() == 1) return false;
     frames_.pop_back();
     return true;
@@ -92,8 +94,8 @@ Token Tokens::element_of(Token name, std::shared_ptr<Array> array) {
         const auto* inner = element.get_if<std::shared_ptr<Array>>();
         if (inner == nullptr || !is_before("[")) {
             if (element.get_if<std::monostate>() != nullptr)
-                fail(name.place, "must be an element that has a value, got one of " +
-                                     name.quoted() + " that has none");
+                fail(name.place,
+                     "must be an element with a value, got an unset element of " + name.quoted());
             element_ = element;
             break;
         }
@@ -219,8 +221,8 @@ Token Tokens::raw_word(const char* what) {
 
 void Tokens::enter(Frame frame) {
     if (frames_.size() >= static_cast<std::size_t>(deepest))
-        fail(frame.place, "must not be of files and macros that are in each other more than " +
-                              std::to_string(deepest) + " deep");
+        fail(frame.place,
+             "must not nest files and macros more than " + std::to_string(deepest) + " deep");
     frame.serial = ++frames_entered_;
     frames_.push_back(std::move(frame));
 }
@@ -303,9 +305,8 @@ void Tokens::directive(const Place& hash) {
         return;
     }
     if (name == "fopen" || name == "write" || name == "fclose") return file_directive(word);
-    if (name == "error")
-        fail(hash, "is refused by the file itself: " + printable(read_string(*this), 200));
-    fail(hash, "must be a directive that is read, got \"#" + printable(name) + "\"");
+    if (name == "error") fail(hash, "#error: " + printable(read_string(*this), 200));
+    fail(hash, "must be a supported directive, got \"#" + printable(name) + "\"");
 }
 
 /// Skips "#fopen NAME "file" write", "#write(NAME, ...)" and "#fclose NAME".
@@ -325,9 +326,8 @@ void Tokens::file_directive(const Token& word) {
     read_string(*this);
     const Token mode = next();
     if (!mode.is("write") && !mode.is("append"))
-        fail(mode.place,
-             "must be write or append, as other files are not read, got " + mode.quoted());
-    remark(word.place, "writes a file of its own, which is not written here");
+        fail(mode.place, "must be write or append, got " + mode.quoted());
+    remark(word.place, "output to files is ignored");
 }
 
 void Tokens::declaration(const Token& word) {
@@ -530,8 +530,9 @@ void Tokens::open(const std::string& name, const Place& place) {
                               std::filesystem::is_regular_file(installed / name, none))
         path = installed / name;
     if (path.empty())
-        fail(place, "must be a file beside this one, or one of POV-Ray's, got \"" +
-                        printable(name) + "\"");
+        fail(place,
+             "must be a file in the folder of this file, or an include file of POV-Ray, got \"" +
+                 printable(name) + "\"");
     const auto files = std::count_if(frames_.begin(), frames_.end(), [](const Frame& frame) {
         return frame.kind == FrameKind::file;
     });

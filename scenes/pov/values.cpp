@@ -56,8 +56,7 @@ void set_element(Budget& budget, Array& array, std::size_t index, Value value, c
     if (const auto* inner = value.get_if<std::shared_ptr<Array>>()) {
         array.depth = std::max(array.depth, (*inner)->depth + 1);
         if (array.depth > deepest)
-            fail(place, "must not be of arrays in each other more than " + std::to_string(deepest) +
-                            " deep");
+            fail(place, "must not nest arrays more than " + std::to_string(deepest) + " deep");
     }
     array.values[index] = std::move(value);
 }
@@ -98,7 +97,7 @@ Value read_value(Tokens& tokens) {
         return copy;
     }
     if (word.kind == TokenKind::word) return {read_object(tokens)}; // fails
-    fail(word.place, "must be a value that is read, got " + word.quoted());
+    fail(word.place, "must be a supported value, got " + word.quoted());
 }
 
 } // namespace raylane::scenes::pov

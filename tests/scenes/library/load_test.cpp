@@ -270,6 +270,6 @@ TEST_CASE("parsing reports features of a file that the scene does not have") {
         parse(pov, "a.pov", [&](const std::string& remark) { remarks.push_back(remark); });
     CHECK(scene.shape_count() == 1);
     CHECK(remarks ==
-          std::vector<std::string>{"a.pov:2:39: has lights without shadows, which have them here"});
+          std::vector<std::string>{"a.pov:2:39: shadowless is ignored: the lights cast shadows"});
     CHECK(parse(pov, "a.pov").shape_count() == 1);
 }

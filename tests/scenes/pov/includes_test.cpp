@@ -30,17 +30,17 @@ TEST_CASE("POV-Ray: an include is accepted until a name is used that raylane doe
         CHECK(of.remarks.empty());
     }
     CHECK(complaint(include("chars.inc") + "sphere { 0, 1 }\nobject { char_A }") ==
-          "a.pov:3:10: must be an object that is read, got \"char_A\": it is of \"chars.inc\", and "
-          "not read");
+          "a.pov:3:10: must be a supported object, got \"char_A\", which is declared in "
+          "\"chars.inc\" and not supported");
     CHECK(complaint(include("functions.inc") + "sphere { 0, f_torus(1, 2, 3, 4, 5) }") ==
-          "a.pov:2:13: must be a number, and \"f_torus\" is not known: it is of \"functions.inc\", "
-          "and not read");
+          "a.pov:2:13: must be a number, got the unknown name \"f_torus\", which is declared in "
+          "\"functions.inc\" and not supported");
     CHECK(complaint(include("math.inc") + "sphere { 0, Nothing }") ==
-          "a.pov:2:13: must be a number, and \"Nothing\" is not known");
+          "a.pov:2:13: must be a number, got the unknown name \"Nothing\"");
     CHECK(complaint("sphere { 0, 1 texture { T_Silver_3A } }") ==
           "a.pov:1:25: must be of a texture, got \"T_Silver_3A\"");
-    CHECK(
-        complaint(include("other.inc")).starts_with("a.pov:1:10: must be a file beside this one"));
+    CHECK(complaint(include("other.inc"))
+              .starts_with("a.pov:1:10: must be a file in the folder of this file"));
     CHECK(number("A", include("chars.inc") + "#ifdef (char_A) #declare A = 2; #end") == "2");
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("POV-Ray: textures of includes are those of POV-Ray's files") {
 
 TEST_CASE("POV-Ray: a pattern of an include gives its mean colour and a remark where it is used") {
     const Read of = read(include("woods.inc") + "sphere { 0, 1 texture { T_Wood1 } }");
-    CHECK(of.remarks == "a.pov:3:25: has the pattern \"wood\", drawn as one colour\n");
+    CHECK(of.remarks == "a.pov:3:25: pattern \"wood\" is not supported: its mean colour is used\n");
     const core::Vec3f color = of.material_of().pattern.colors[0];
     CHECK((color.x > color.y && color.y > color.z && color.z > 0.0F));
     CHECK(read("sphere { 0, 1 pigment { bozo color_map { [0.5 rgb 0] [0.5 rgb 1] [1 rgb 0] } } }")

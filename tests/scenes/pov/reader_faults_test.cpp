@@ -118,9 +118,9 @@ TEST_CASE("POV-Ray: an array is copied as a value") {
                "object { B[1] }")
               .scene.shape_count() == 1);
     CHECK(complaint("#declare A = array[1]; #while (1) #declare A[0] = A; #end")
-              .find("must not be of arrays in each other more than 128 deep") != std::string::npos);
+              .find("must not nest arrays more than 128 deep") != std::string::npos);
     CHECK(complaint("#declare A = array[1]; #while (1) #declare A = array[1] {A} #end")
-              .find("must not be of arrays in each other more than 128 deep") != std::string::npos);
+              .find("must not nest arrays more than 128 deep") != std::string::npos);
 }
 
 TEST_CASE("POV-Ray: a directive follows an array without a semicolon") {

@@ -19,7 +19,7 @@ std::size_t shapes(const std::string& text) {
 } // namespace
 
 TEST_CASE("a mesh with an inside gives a warning in both forms of meshes") {
-    const std::string inside = " inside_vector z }", told = "which are surfaces here";
+    const std::string inside = " inside_vector z }", told = "the mesh is a surface";
     const std::string triangle = "mesh { triangle { 0, x, y }",
                       list = "mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 2> }";
     for (const std::string& mesh : {triangle, list}) {
@@ -31,7 +31,7 @@ TEST_CASE("a mesh with an inside gives a warning in both forms of meshes") {
 TEST_CASE("POV-Ray: a gradient gets a remark since it repeats in POV-Ray") {
     const std::string gradient =
         "sphere { 0, 3 pigment { gradient y color_map { [0 rgb 0] [1 rgb 1] } } }";
-    CHECK(read(gradient).remarks_on("has a gradient, which repeats beyond its ends"));
+    CHECK(read(gradient).remarks_on("repetition of a gradient is not supported"));
     const std::string by_convert = "// povray +W640 +H480 +A0.3\n#version 3.7;\n"
                                    "global_settings { assumed_gamma 1 }\n";
     CHECK(read(gradient, by_convert + tests::camera).remarks.empty());
@@ -41,7 +41,7 @@ TEST_CASE("POV-Ray: a gradient gets a remark since it repeats in POV-Ray") {
 }
 
 TEST_CASE("POV-Ray: a pattern of colours with different transparency gets a remark") {
-    const std::string what = "has a pattern of colours that let different light through";
+    const std::string what = "different transparencies in a pattern are not supported";
     CHECK(read("plane { y, 0 pigment { checker rgb 1, rgbt 1 } }").remarks_on(what));
     CHECK(read("plane { y, 0 pigment { gradient y color_map { [0 rgb 0] [1 rgbf 1] } } }")
               .remarks_on(what));
@@ -58,7 +58,7 @@ TEST_CASE("POV-Ray: cutaway_textures give a cut the texture of the object that i
     CHECK(color_of_cut(read(cut + "cutaway_textures off }")) == core::Color(0, 0, 0));
     CHECK(read("difference { union { sphere { 0, 2 pigment { rgb x } } sphere { y, 2 pigment { rgb "
                "y } } } box { -3, <3, 3, 0> } cutaway_textures }")
-              .remarks_on("has cutaway_textures of several textures"));
+              .remarks_on("cutaway_textures of several textures are not supported"));
 }
 
 TEST_CASE("POV-Ray: albedo is the share of all reflected light") {
@@ -77,7 +77,7 @@ TEST_CASE("POV-Ray: albedo is the share of all reflected light") {
 TEST_CASE("POV-Ray: shapes without a size are left out and those with a negative one are read") {
     CHECK(number("0", "sphere { 0, -1 } cylinder { 0, y, -1 } disc { 0, y, -1 }") == "0");
     CHECK(shapes("sphere { 0, 0 } cylinder { 0, y, 0 } cylinder { 0, 0, 1 }") == 0);
-    CHECK(read("sphere { 0, 0 }").remarks_on("has objects without a size, which are left out"));
+    CHECK(read("sphere { 0, 0 }").remarks_on("objects without a size are omitted"));
     CHECK(shapes("box { 0, <1, 1, 0> }") == 2);
     CHECK(shapes("box { 0, <1, 0, 0> }") == 0);
     const std::string smooth = "smooth_triangle { 0, z, x, 0, y, z }";
@@ -88,7 +88,7 @@ TEST_CASE("POV-Ray: shapes without a size are left out and those with a negative
 }
 
 TEST_CASE("POV-Ray: polygons that are not flat are left out") {
-    const std::string what = "has polygons with corners outside their plane, which are left out";
+    const std::string what = "polygons with corners outside their plane are omitted";
     const auto polygon = [](const std::string& height) {
         return read("polygon { 5, -y, x, <1, 1, 0>, <0, 1, " + height + ">, -y } sphere { 0, 1 }");
     };
@@ -104,14 +104,14 @@ TEST_CASE("POV-Ray: negative components of a light become 0 with a remark") {
     const Read dark = read("light_source { 9*y, rgb <-1, 0.5, 0> } sphere { 0, 1 }");
     REQUIRE(dark.scene.lights().size() == 1);
     CHECK(dark.scene.lights()[0].color == core::Color(0, 0.5F, 0));
-    CHECK(dark.remarks_on("has lights that take light away, which are black here"));
+    CHECK(dark.remarks_on("negative components of lights are not supported: 0 is used"));
 }
 
 TEST_CASE("POV-Ray: a light that fog dims gets a remark") {
     const auto is_remarked = [](const std::string& modifier, const std::string& fog) {
         return read("light_source { 9*y, rgb 1 media_attenuation " + modifier + " } " + fog +
                     " sphere { 0, 1 }")
-            .remarks_on("has lights that fog dims, which shine undimmed here");
+            .remarks_on("dimming of lights by fog is not supported: lights keep their brightness");
     };
     const std::string fog = "fog { distance 80 rgb 0.5 }";
     CHECK(is_remarked("on", fog));
@@ -124,7 +124,7 @@ TEST_CASE("POV-Ray: transparent objects that fog fills in another way get a rema
     const auto is_remarked = [](const std::string& object, const std::string& modifiers,
                                 const std::string& fog = "fog { distance 80 rgb 0.5 }") {
         return read(fog + object + " pigment { rgbt 1 } " + modifiers + " }")
-            .remarks_on("has transparent objects in fog, which fills those without an ior here");
+            .remarks_on("hollow is ignored in fog: fog fills exactly the transparent objects");
     };
     const std::string ball = "sphere { 0, 1", bends = "interior { ior 1.5 } ";
     CHECK(is_remarked(ball, ""));
@@ -136,11 +136,11 @@ TEST_CASE("POV-Ray: transparent objects that fog fills in another way get a rema
     CHECK_FALSE(is_remarked("disc { 0, y, 1", ""));
     CHECK_FALSE(is_remarked(ball, "", ""));
     CHECK_FALSE(read("fog { distance 80 rgb 0.5 } sphere { 0, 1 pigment { rgb 1 } }")
-                    .remarks_on("has transparent objects in fog"));
+                    .remarks_on("hollow is ignored in fog"));
 }
 
 TEST_CASE("POV-Ray: negative components of a surface's colour become 0 with a remark") {
-    const std::string what = "has colours that take light away, which are black here";
+    const std::string what = "negative components of colours are not supported: 0 is used";
     const Read dark = read("sphere { 0, 1 pigment { rgb <-1, 0.5, 0> } }");
     CHECK(dark.material_of().pattern.colors[0] == core::Color(0, 0.5F, 0));
     CHECK(dark.remarks_on(what));
@@ -199,7 +199,7 @@ TEST_CASE("POV-Ray: a scene that writes files is drawn and one that reads them i
     const Read of = read("#fopen F \"none.txt\" write\n#write (F, \"a\", (1 + 2) * 3, x, \"\\n\")\n"
                          "#fclose F\nsphere { 0, 1 }");
     CHECK(of.scene.shape_count() == 1);
-    CHECK(of.remarks == "a.pov:2:2: writes a file of its own, which is not written here\n");
+    CHECK(of.remarks == "a.pov:2:2: output to files is ignored\n");
     CHECK(
         complaint("#fopen F \"none.txt\" read").starts_with("a.pov:1:21: must be write or append"));
 }

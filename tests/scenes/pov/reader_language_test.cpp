@@ -51,7 +51,7 @@ TEST_CASE("POV-Ray: an element of an array may stand wherever a name may") {
             "#declare V = array[2] { x, <1, 20, 3> } #declare A = array[2][2] {{1, 2}, {3, 4}}") ==
         "25");
     CHECK(complaint("#declare T = array[1]; sphere { 0, 1 texture { T[0] } }") ==
-          "a.pov:1:48: must be an element that has a value, got one of \"T\" that has none");
+          "a.pov:1:48: must be an element with a value, got an unset element of \"T\"");
 }
 
 TEST_CASE("POV-Ray: nested arrays keep separate elements") {
@@ -67,7 +67,7 @@ TEST_CASE("POV-Ray: nested arrays keep separate elements") {
     CHECK(complaint(nested + "#declare A[0][1][2] = 5;").find("must have fewer indices") !=
           std::string::npos);
     CHECK(complaint("#declare A = array[1] {array[1]} #for (I, 1, 200) #declare A[0][0] = A; #end")
-              .find("must not be of arrays in each other more than 128 deep") != std::string::npos);
+              .find("must not nest arrays more than 128 deep") != std::string::npos);
 }
 
 TEST_CASE("POV-Ray: macros that yield numbers may call themselves") {
@@ -193,7 +193,7 @@ TEST_CASE("POV-Ray: layers of textures are combined into one") {
         CHECK(color_of(of) == core::Color(0.75F, 0, 0.25F));
         CHECK(of.material_of().opacity == 1.0F);
         CHECK(of.material_of().specular == 0.4375F);
-        CHECK(of.remarks_on("has layers of textures, drawn as one"));
+        CHECK(of.remarks_on("layered textures are not supported: their mean is used"));
     }
     CHECK(color_of(read("#declare T = texture { pigment { rgb y } }\n"
                         "#declare S = sphere { 0, 1 texture { T } }\nobject { S }")) ==
@@ -215,7 +215,7 @@ TEST_CASE("POV-Ray: words that a scene can do without are accepted") {
     CHECK(words.scene.shape_count() == 2);
     CHECK(words.material_of().ambient == 0.25F);
     CHECK(color_of(words) == core::Color(0, 1, 0));
-    CHECK(words.remarks_on("patterns on a surface's own axes, drawn in space"));
+    CHECK(words.remarks_on("uv_mapping is ignored: patterns are in space"));
 }
 
 TEST_CASE("POV-Ray: a light on a surface moves off the surface") {
@@ -223,7 +223,7 @@ TEST_CASE("POV-Ray: a light on a surface moves off the surface") {
     const auto position = [&](const std::string& light, const std::string& object,
                               const std::string& before) {
         const Read of = read("light_source { " + light + ", rgb 1 } " + object, before);
-        CHECK(of.remarks_on("has lights on a surface, which shine from beside it here"));
+        CHECK(of.remarks_on("lights on a surface are moved off it"));
         return of.scene.lights().at(0).position;
     };
     const auto is_just_above = [](float value, float edge) {

@@ -88,7 +88,7 @@ TEST_CASE("POV-Ray: checkers may be of colours or pigments or textures") {
         with_pigment("checker pigment { gradient x color_map { [0 rgb 0] [1 rgb 1] } } rgb x");
     CHECK(pattern_of(nested).colors[0] == grey);
     CHECK(pattern_of(nested).colors[1] == red);
-    CHECK(nested.remarks_on("patterns in a pattern"));
+    CHECK(nested.remarks_on("patterns in a pattern are not supported"));
 }
 
 TEST_CASE("POV-Ray: a pattern of textures has the mean of their finishes") {
@@ -96,7 +96,8 @@ TEST_CASE("POV-Ray: a pattern of textures has the mean of their finishes") {
         with_texture("checker texture { pigment { rgb 1 } finish { reflection 0.5 } } "
                      "texture { pigment { rgb 1 } finish { reflection 0 } }");
     CHECK(mirror.material_of().reflectivity == 0.25F);
-    CHECK(mirror.remarks_on("a pattern of several finishes, drawn with their mean"));
+    CHECK(
+        mirror.remarks_on("different finishes in a pattern are not supported: their mean is used"));
     const Read dull =
         with_texture("checker texture { pigment { rgb 1 } finish { ambient 0 diffuse 0.5 } } "
                      "texture { pigment { rgb 1 } finish { ambient 0 diffuse 0.25 } }");
@@ -135,7 +136,7 @@ TEST_CASE("POV-Ray: gradients may have maps of colours or pigments or textures")
 TEST_CASE("POV-Ray: an unsupported pattern has the mean of its colours") {
     const auto color = [](const std::string& text) {
         const Read of = with_pigment(text, "#declare N = 3;\n");
-        CHECK(of.remarks_on("drawn as one"));
+        CHECK(of.remarks_on("is not supported: its mean"));
         CHECK(pattern_of(of).kind == core::PatternKind::solid);
         return pattern_of(of).colors[0];
     };
@@ -162,17 +163,17 @@ TEST_CASE("POV-Ray: an unsupported pattern has the mean of its colours") {
                                        "rgb 1 } finish { phong 1 }] } scale 3");
     CHECK(pattern_of(textures).colors[0] == grey);
     CHECK(textures.material_of().specular == 0.5F);
-    CHECK(textures.remarks_on("has the pattern \"granite\", drawn as one colour"));
+    CHECK(textures.remarks_on("pattern \"granite\" is not supported: its mean colour is used"));
 }
 
 TEST_CASE("POV-Ray: words that distort a pattern are ignored with a remark") {
     const Read turbulent = with_pigment("checker rgb 0, rgb 1 turbulence 0.5 frequency 2");
     CHECK(pattern_of(turbulent).kind == core::PatternKind::checker);
-    CHECK(turbulent.remarks_on("has \"turbulence\" of a pattern, which is not drawn"));
-    CHECK(turbulent.remarks_on("has \"frequency\" of a pattern, which is not drawn"));
+    CHECK(turbulent.remarks_on("\"turbulence\" of a pattern is ignored"));
+    CHECK(turbulent.remarks_on("\"frequency\" of a pattern is ignored"));
     const Read on_surface = with_texture("uv_mapping pigment { checker rgb 0, rgb 1 }");
     CHECK(pattern_of(on_surface).kind == core::PatternKind::checker);
-    CHECK(on_surface.remarks_on("patterns on a surface's own axes, drawn in space"));
+    CHECK(on_surface.remarks_on("uv_mapping is ignored: patterns are in space"));
 }
 
 TEST_CASE("POV-Ray: an image_map has the mean colour of its image") {
@@ -187,7 +188,7 @@ TEST_CASE("POV-Ray: an image_map has the mean colour of its image") {
         const std::string text = "#version " + version + ";\n" + tests::camera +
                                  "sphere { 0, 1 pigment { image_map { " + image + " } } }";
         core::Scene scene = scenes::load_scene(directory.write("a.pov", text), options);
-        CHECK(remarks.find("has the pattern \"image_map\", drawn as one colour") !=
+        CHECK(remarks.find("pattern \"image_map\" is not supported: its mean colour is used") !=
               std::string::npos);
         return scene.material_of(0);
     };

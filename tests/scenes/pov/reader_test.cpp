@@ -346,7 +346,7 @@ TEST_CASE("the angle of a camera has the bounds of its projection") {
 TEST_CASE("fog by height and a scene without objects get a remark") {
     const Read ground = read("fog { fog_type 2 distance 5 fog_alt 0.3 rgb 1 } sphere { 0, 1 }");
     CHECK(ground.scene.fog().kind == core::FogKind::none);
-    CHECK(ground.remarks_on("fog by height, which is left out"));
+    CHECK(ground.remarks_on("ground fog is omitted"));
     CHECK_FALSE(ground.remarks_on("background alone"));
     CHECK(read("").remarks_on("has no object, so the background alone is seen"));
 }
@@ -392,22 +392,24 @@ TEST_CASE("each feature that is drawn in another way gets one remark") {
     const Read one = read("sphere { 0, 1 no_shadow } sphere { 3*x, 1 no_shadow }\n"
                           "light_source { <9, 9, 9> rgb 1 spotlight radius 3 }");
     REQUIRE(one.remarks.size() == 2);
-    CHECK(one.remarks[0] == "a.pov:2:15: has objects without shadows, which have them here");
-    CHECK(one.remarks_on("a.pov:3:32: has a light that is a spotlight"));
+    CHECK(one.remarks[0] == "a.pov:2:15: no_shadow is ignored: the objects cast shadows");
+    CHECK(one.remarks_on("a.pov:3:32: spotlight is ignored"));
 }
 
 TEST_CASE("a mistake gives an error of one line with its position") {
     CHECK(complaint("sphere { 0, 1 }\n torus { 1, 2 }") ==
-          "a.pov:2:2: must be made of quadrics, and \"torus\" is not: it is not read");
+          "a.pov:2:2: must be made of quadrics, got \"torus\", which is not supported");
     CHECK(complaint("sphere { 0, }") == "a.pov:1:13: must be a number, got \"}\"");
-    CHECK(complaint("sphere { 0, R }") == "a.pov:1:13: must be a number, and \"R\" is not known");
+    CHECK(complaint("sphere { 0, R }") ==
+          "a.pov:1:13: must be a number, got the unknown name \"R\"");
     CHECK(complaint("sphere { 0, 1 frobnicate }") ==
           "a.pov:1:15: must be of an object, got \"frobnicate\"");
     CHECK(complaint("/* comment") == "a.pov:1:1: must have an end, got a comment without \"*/\"");
-    CHECK(complaint("#if (1)\nsphere { 0, 1 }") == "a.pov:1:1: must have an #end, and a.pov ends");
-    CHECK(complaint("#error \"too old\"") == "a.pov:1:1: is refused by the file itself: too old");
+    CHECK(complaint("#if (1)\nsphere { 0, 1 }") ==
+          "a.pov:1:1: must have an #end before the end of a.pov");
+    CHECK(complaint("#error \"too old\"") == "a.pov:1:1: #error: too old");
     CHECK(complaint("#include \"none.inc\"")
-              .starts_with("a.pov:1:10: must be a file beside this one"));
+              .starts_with("a.pov:1:10: must be a file in the folder of this file"));
     CHECK(complaint("#declare A = 1/0;") == "a.pov:1:15: must not be divided by 0");
     CHECK(complaint("intersection { sphere { 0, 1 } triangle { 0, x, y } }")
               .starts_with("a.pov:1:32: must have an inside"));
@@ -474,7 +476,7 @@ TEST_CASE("scenes by other programs are read") {
     CHECK(from_program("pymol.pov").scene.shape_count() > 20);
     const Read surface = from_program("pymol_surface.pov");
     CHECK(surface.scene.shape_count() == 3);
-    CHECK(surface.remarks_on("triangles that change colour"));
+    CHECK(surface.remarks_on("different colours at the corners of a triangle are not supported"));
     const Read vmd = from_program("vmd.pov");
     CHECK(vmd.scene.settings().width == 512);
     CHECK(shapes_of(vmd.scene).starts_with(

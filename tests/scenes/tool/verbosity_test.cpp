@@ -14,7 +14,7 @@ namespace {
 const std::string with_remark = "camera { location <0, 0, -5> look_at 0 }\n"
                                 "light_source { <1, 2, -3> color rgb 1 shadowless }\n"
                                 "sphere { 0, 1 pigment { color rgb 1 } }\n";
-const std::string remark = "scene.pov:2:39: has lights without shadows, which have them here\n";
+const std::string remark = "scene.pov:2:39: shadowless is ignored: the lights cast shadows\n";
 
 Setup with_threads(const char* count) {
     Setup setup;
