@@ -213,10 +213,8 @@ Format format_of(InputFile& file) {
     if (looks_like_lammps_data(lines)) return Format::lammps_data;
     throw BadInput(
         file.name(), "",
-        "must be a scene in JSON (.json), NFF (.nff), POV-Ray's language (.pov), Tachyon's format "
-        "(.dat) or what \"raylane build\" writes (.rl), or atoms in PDB (.pdb), mmCIF or CIF "
-        "(.cif), XYZ (.xyz), GRO (.gro), or "
-        "LAMMPS' dump (.dump) or data (.data), and what it holds is none of these");
+        "must be a scene (.json, .nff, .pov, Tachyon .dat, or .rl from \"raylane build\") or atoms "
+        "(.pdb, mmCIF or CIF .cif, .xyz, .gro, LAMMPS .dump or .data), got another format");
 }
 
 } // namespace raylane::scenes

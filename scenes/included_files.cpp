@@ -15,7 +15,7 @@ std::string refused(const std::string& path, std::filesystem::file_status status
                     std::error_code error) {
     switch (status.type()) {
     case std::filesystem::file_type::not_found:
-        return "there is no file " + path;
+        return path + " does not exist";
     case std::filesystem::file_type::none:
         return path + " cannot be found: " + error.message();
     case std::filesystem::file_type::directory:
@@ -23,7 +23,7 @@ std::string refused(const std::string& path, std::filesystem::file_status status
     case std::filesystem::file_type::fifo:
         return path + " is a pipe";
     default:
-        return path + " is no regular file";
+        return path + " is not a regular file";
     }
 }
 
@@ -37,7 +37,7 @@ std::unique_ptr<InputFile> IncludedFiles::open(const std::filesystem::path& path
     std::error_code unknown;
     const std::filesystem::file_status status = std::filesystem::status(path, unknown);
     require(!name.empty() && std::filesystem::is_regular_file(status),
-            "must be the name of a file, got \"" + printable(name) + "\", and " +
+            "must be the name of a file, got \"" + printable(name) + "\", but " +
                 refused(printable(path.string(), 4096), status, unknown));
     require(depth < deepest, "must not be included more than " + std::to_string(deepest) + " deep");
     require(opened_++ < most, "must be one of at most " + std::to_string(most) + " included files");

@@ -68,7 +68,7 @@ std::size_t Inflater::read(std::span<char> buffer) {
     while (stream.avail_out == room && room > 0) {
         if (stream.avail_in == 0 && !state_->refill()) {
             if (state_->is_between) return 0;
-            throw BadInput(state_->name, "", "must be whole: what is compressed ends too early");
+            throw BadInput(state_->name, "", "must be complete, got truncated gzip data");
         }
         if (state_->is_between) state_->begin_member();
         state_->is_between = false;
@@ -79,13 +79,13 @@ std::size_t Inflater::read(std::span<char> buffer) {
             throw std::bad_alloc();
         } else if (result != Z_OK && result != Z_BUF_ERROR) {
             throw BadInput(state_->name, "",
-                           std::string("must be what gzip makes: ") +
-                               (stream.msg != nullptr ? stream.msg : "it is damaged"));
+                           std::string("must be valid gzip data: ") +
+                               (stream.msg != nullptr ? stream.msg : "damaged"));
         }
     }
     if (state_->is_too_large())
         throw BadInput(state_->name, "",
-                       "must not be more than 200 times as large as it is compressed");
+                       "must not expand to more than 200 times its compressed size");
     return room - stream.avail_out;
 }
 

@@ -7,7 +7,7 @@ struct Inflater::State {};
 
 Inflater::Inflater(std::string name, std::string begin, Source source) {
     static_cast<void>(begin), static_cast<void>(source);
-    throw BadInput(name, "", "must not be compressed: this raylane is built without zlib");
+    throw BadInput(name, "", "must not be compressed: raylane was built without zlib");
 }
 Inflater::~Inflater() = default;
 

@@ -18,8 +18,8 @@ core::Scene read_format(InputFile& file, const LoadOptions& options) {
     const Format format = format_of(file);
     if (!options.parameters.empty() && format != Format::json)
         throw BadInput(file.name(), "",
-                       "has no number \"$" + printable(options.parameters.begin()->first) +
-                           "\" that could be set: only JSON may");
+                       "has no parameter \"$" + printable(options.parameters.begin()->first) +
+                           "\": only JSON scenes have parameters");
     if (is_structure(format))
         return read_structure(file, format, {options.atom_style, options.on_remark},
                               options.drawing, options.workers, options.legend);
@@ -39,7 +39,7 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
     core::Scene scene = read_format(file, options);
     if (scene.shape_count() == 0 && options.on_remark)
         options.on_remark(
-            text_of({file.name(), {}, "", "has no object, so the background alone is seen"}));
+            text_of({file.name(), {}, "", "has no objects: the image shows only the background"}));
     return scene;
 }
 

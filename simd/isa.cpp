@@ -24,9 +24,9 @@ Isa narrowest_isa() {
     std::string built;
     for (const Isa isa : built_isas)
         built += (built.empty() ? "" : ", ") + std::string(name_of(isa));
-    throw std::runtime_error("this processor runs none of the instruction sets that raylane was "
-                             "built for: " +
-                             built);
+    throw std::runtime_error(
+        "the processor must support one of the instruction sets that raylane was built for: " +
+        built);
 }
 
 Isa best_isa() {

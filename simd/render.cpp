@@ -274,7 +274,7 @@ Rendering render_spectrum(const core::Scene& scene, const core::Settings& settin
 void require_part(const core::Settings& settings, const std::optional<core::Region>& crop) {
     const bool is_part = !crop || (crop->x0 < crop->x1 && crop->y0 < crop->y1 &&
                                    crop->within(whole_of(settings)) == *crop);
-    if (!is_part) throw core::InvalidValue("crop", "must be a part of the picture");
+    if (!is_part) throw core::InvalidValue("crop", "must lie within the image");
 }
 
 } // namespace

@@ -65,18 +65,18 @@ class Checker {
         for_each_table(shapes_.tables, [&](const auto& table) {
             if (table.block_count() > std::size_t{Child::max_index} + 1) refuse("too many blocks");
             if (table.has_doubles() && table.doubles().size() != table.block_count())
-                refuse("doubles of other blocks");
+                refuse("doubles that do not match the blocks");
             slots += table.block_count() * block_size;
             shapes += table.size();
         });
         if (shape_count() > no_shape || slots >= no_shape || shapes != shape_count())
-            refuse("the numbers of shapes do not fit each other");
+            refuse("inconsistent numbers of shapes");
     }
 
     void check_materials() {
         const MaterialIndices& of = shapes_.material_of;
         if (shape_count() > 0 && materials_ == 0) refuse("shapes without a material");
-        require_all(of.width() == 0 ? 0 : of.size(), "a material that is not there",
+        require_all(of.width() == 0 ? 0 : of.size(), "an invalid index of a material",
                     [&](std::size_t id) { return of[id] < materials_; });
     }
 
@@ -108,31 +108,31 @@ class Checker {
                     is_over = true;
                     continue;
                 }
-                if (is_over) refuse("a child behind the last");
+                if (is_over) refuse("a child after an empty one");
                 if (child.is_block()) {
                     const auto kind = static_cast<std::size_t>(child.kind());
                     if (kind >= kind_count || child.index() >= seen[kind].size() ||
                         seen[kind][child.index()])
-                        refuse("a block that is not there, or twice");
+                        refuse("a missing or repeated block");
                     seen[kind][child.index()] = true;
                 } else {
                     if (child.index() <= i || child.index() >= nodes().size() ||
                         level[child.index()] != 0 || level[i] >= most_levels)
-                        refuse("nodes that are no tree");
+                        refuse("nodes that do not form a tree");
                     level[child.index()] = static_cast<std::uint16_t>(level[i] + 1);
                 }
             }
         }
         for (const std::vector<bool>& of_kind : seen)
             if (!std::all_of(of_kind.begin(), of_kind.end(), [](bool is_seen) { return is_seen; }))
-                refuse("a block in no node");
+                refuse("a block without a node");
     }
 
     template <class Shape>
     void check_table(const Table<Shape>& table) {
         if (const PackedSpheres* packed = table.packed()) check_packed(*packed);
         std::atomic<std::size_t> shapes = 0;
-        require_all(table.block_count(), "a shape that is none", [&](std::size_t index) {
+        require_all(table.block_count(), "an invalid shape", [&](std::size_t index) {
             const Block<Shape>& block = table.blocks()[index];
             const auto end = std::find(std::begin(block.ids), std::end(block.ids), no_shape);
             const auto count = static_cast<int>(end - std::begin(block.ids));
@@ -143,7 +143,7 @@ class Checker {
                     return false;
             return true;
         });
-        if (shapes > table.size()) refuse("more shapes than there are");
+        if (shapes > table.size()) refuse("more shapes than stated");
     }
 
     /// Filters look only at the ids of the shapes that they find, so an empty lane must contain
@@ -176,7 +176,7 @@ class Checker {
     /// Checks packed spheres. Call before reading any of them.
     void check_packed(const PackedSpheres& packed) {
         if (shape_count() > most_packed_ids) refuse("too many packed spheres");
-        require_all(packed.blocks.size(), "packed spheres that are none", [&](std::size_t index) {
+        require_all(packed.blocks.size(), "invalid packed spheres", [&](std::size_t index) {
             const PackedBlock& block = packed.blocks[index];
             const std::size_t first = block.whole >> PackedBlock::rows;
             if (first + static_cast<std::size_t>(block.whole_rows()) > packed.rows.size())

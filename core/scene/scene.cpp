@@ -216,7 +216,8 @@ void SceneBuilder::check_solid(const Solid& solid, bool has_material,
         }))
         throw InvalidValue(in("type"), "must be of a solid, a plane or a quadric, got " +
                                            std::string(name_of(kind)));
-    if (!has_material) throw InvalidValue(in("material"), "must be given, here or for the whole");
+    if (!has_material)
+        throw InvalidValue(in("material"), "must be given, here or for the whole solid");
 }
 
 ShapeId SceneBuilder::add_solid(const Solid& solid, MaterialIndex material) {
@@ -310,8 +311,7 @@ void SceneBuilder::finish(const NameOfShape& name_of_shape) {
 Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     check_as_a_whole();
     if (wants_light && !staging.lights && scene_.lights_.empty() && shape_count() > 0)
-        throw InvalidValue("lights",
-                           "must have at least one light where there are objects, got none");
+        throw InvalidValue("lights", "must have at least one light if there are objects, got none");
     build_shapes();
     finish(name_of_shape);
     if (!staging.any()) return std::move(scene_);
@@ -320,7 +320,7 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
 }
 
 Scene SceneBuilder::build(BuiltShapes shapes) && {
-    if (shape_count() > 0) throw InvalidValue("objects", "must be none besides those");
+    if (shape_count() > 0) throw InvalidValue("objects", "must be empty if built shapes are given");
     check_as_a_whole();
     Workers alone;
     check(shapes, scene_.materials_.size(), workers != nullptr ? *workers : alone);

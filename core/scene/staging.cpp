@@ -118,8 +118,7 @@ View staged(const Scene& scene, const Staging& staging, const Frame& frame) {
     View view{.camera = scene.camera(), .fog = own_fog_of(scene), .lights = {}};
     if (staging.framing) {
         if (frame.empty())
-            throw InvalidValue("camera", "must have something to find its place by, other than "
-                                         "planes and what else has no end");
+            throw InvalidValue("camera", "must have a bounded shape to frame, got none");
         view.camera = frame.camera();
     }
     if (staging.depth_cue > 0.0F && !frame.empty())

@@ -15,7 +15,7 @@ void validate(const ConeOf<Number, ends>& cone) {
     checks::require_not_negative("base_radius", cone.base_radius);
     checks::require_not_negative("top_radius", cone.top_radius);
     if (cone.base_radius == 0 && cone.top_radius == 0)
-        throw InvalidValue("base_radius", "must be positive where top_radius is 0, got 0");
+        throw InvalidValue("base_radius", "must be positive if top_radius is 0, got 0");
 }
 
 template <class Number, Ends ends>

@@ -24,7 +24,7 @@ void validate(const QuadricOf<Number>& q) {
                                        rows[row][column]);
     const bool constant = q.xx == 0 && q.yy == 0 && q.zz == 0 && q.xy == 0 && q.xz == 0 &&
                           q.yz == 0 && q.x == 0 && q.y == 0 && q.z == 0;
-    if (constant) throw InvalidValue("matrix", "must not be constant, got no entry but the last");
+    if (constant) throw InvalidValue("matrix", "must not be constant, got only the last entry");
     checks::require_point("lower", q.lower);
     checks::require_point("upper", q.upper);
     for (int axis = 0; axis < 3; ++axis)

@@ -13,7 +13,7 @@ void validate(const AnyTriangle auto& t) {
     for (const auto& [name, corner] : {std::pair("a", t.a), {"b", t.b}, {"c", t.c}})
         checks::require_point(name, corner);
     if (checks::are_collinear(t.a, t.b, t.c))
-        throw InvalidValue("", "must have three corners that are not in one line, got " +
+        throw InvalidValue("", "must have three corners that are not collinear, got " +
                                    checks::text_of(t.a) + ", " + checks::text_of(t.b) + ", " +
                                    checks::text_of(t.c));
     if constexpr (requires { t.normal_a; }) {

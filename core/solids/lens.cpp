@@ -110,14 +110,14 @@ Solid solid_of(const Lens& lens) {
         checks::require_coordinate(checks::Field("conics").at(side), lens.conics[side]);
         edges[side] = sag(lens.radii[side], lens.conics[side], lens.radius) + surfaces.vertex(side);
         if (!std::isfinite(edges[side]))
-            throw InvalidValue(field.text(), "must be of a surface that reaches the lens' radius, "
-                                             "got " +
-                                                 checks::text_of(lens.radii[side]));
+            throw InvalidValue(field.text(),
+                               "must make a surface that reaches the radius of the lens, got " +
+                                   checks::text_of(lens.radii[side]));
     }
     if (!(edges[0] <= edges[1]))
-        throw InvalidValue("thickness", "must be so much that the surfaces do not meet inside of "
-                                        "the lens' radius, got " +
-                                            checks::text_of(lens.thickness));
+        throw InvalidValue("thickness",
+                           "must keep the surfaces apart within the radius of the lens, got " +
+                               checks::text_of(lens.thickness));
 
     // The cylinder's ends are outside of the lens, and in front of a conic's other sheet.
     double beyond = 0.5 * lens.thickness;

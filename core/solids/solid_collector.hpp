@@ -75,8 +75,8 @@ void SolidCollector::add(const Solid& solid, MaterialIndex material, const AddPa
         solids_.nodes_.resize(root);
         shapes_.resize(root);
         hulls_.resize(root);
-        throw InvalidValue("", "must have bounds, for it is made of a quadric: intersect it with "
-                               "a box");
+        throw InvalidValue("",
+                           "must be bounded, got an unbounded quadric: intersect it with a box");
     }
     if (solid.material != no_material) material = solid.material;
     solids_.media_.resize(solids_.nodes_.size(), no_material);

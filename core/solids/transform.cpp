@@ -256,7 +256,7 @@ Solid Transform::moved(const PlaneOf<double>& s) const {
 
 Solid Transform::moved(const DiscOf<double>& s) const {
     if (!even_)
-        throw InvalidValue("scale", "must be one number for all axes where there is a disc");
+        throw InvalidValue("scale", "must be one number for all axes if the object has a disc");
     return of_shape(DiscOf<double>{rounded(point(s.center)), rounded(normal(exactly(s.normal))),
                                    rounded(Dyadic(s.radius) * *even_)});
 }

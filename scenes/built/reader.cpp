@@ -23,23 +23,23 @@ class Directory {
         : name_(std::move(name)), file_(std::move(file)) {
         layout::Header header{};
         if (file_.bytes.size() < sizeof header)
-            refuse("must be whole, got " + std::to_string(file_.bytes.size()) + " bytes");
+            refuse("must be complete, got " + std::to_string(file_.bytes.size()) + " bytes");
         std::memcpy(&header, file_.bytes.data(), sizeof header);
         if (!looks_built({header.begin, sizeof header.begin}))
-            refuse("must be a scene that \"raylane build\" wrote");
+            refuse("must be a scene written by \"raylane build\"");
         if (header.format != layout::format)
-            refuse("was built by another version of raylane: build it anew (format " +
-                   std::to_string(header.format) + ", and this is " +
-                   std::to_string(layout::format) + ")");
+            refuse("was built by another version of raylane: build it again (format " +
+                   std::to_string(header.format) + ", expected " + std::to_string(layout::format) +
+                   ")");
         if (header.bytes != file_.bytes.size())
-            refuse("must be whole: it should have " + std::to_string(header.bytes) +
-                   " bytes, and has " + std::to_string(file_.bytes.size()));
+            refuse("must be complete, with " + std::to_string(header.bytes) + " bytes, got " +
+                   std::to_string(file_.bytes.size()));
         if (!std::ranges::all_of(header.unused, [](std::uint64_t number) { return number == 0; }) ||
             header.checksum !=
                 checksum_of(header, checksum_of(file_.bytes.subspan(sizeof header), workers)))
-            refuse_damaged("its bytes have another checksum");
+            refuse_damaged("wrong checksum");
         if (header.section_count > file_.bytes.size() / sizeof(layout::Section) - 1)
-            refuse_damaged("its directory is too long");
+            refuse_damaged("too many sections");
         sections_ = {reinterpret_cast<const layout::Section*>(file_.bytes.data() + sizeof header),
                      header.section_count};
     }
@@ -52,14 +52,14 @@ class Directory {
         const std::size_t bytes = file_.bytes.size();
         if (section->element_bytes != sizeof(T) || section->place % layout::alignment != 0 ||
             section->place > bytes || section->count > (bytes - section->place) / sizeof(T))
-            refuse_damaged("its section \"" + name + "\" is not what it should be");
+            refuse_damaged("invalid section \"" + name + "\"");
         return {reinterpret_cast<const T*>(file_.bytes.data() + section->place),
                 static_cast<std::size_t>(section->count), file_.keeper};
     }
 
     [[noreturn]] void refuse(const std::string& what) const { throw BadInput(name_, "", what); }
     [[noreturn]] void refuse_damaged(const std::string& what) const {
-        refuse("has been damaged, or is not what \"raylane build\" wrote: " + what);
+        refuse("is damaged, or was not written by \"raylane build\": " + what);
     }
 
   private:
@@ -83,10 +83,10 @@ class Reader {
         core::BuiltShapes shapes;
         const core::BigArray<std::uint64_t> counts =
             directory_.array<std::uint64_t>(layout::counts);
-        if (counts.size() != core::kind_count) directory_.refuse_damaged("it has other shapes");
+        if (counts.size() != core::kind_count) directory_.refuse_damaged("other kinds of shapes");
         std::size_t all = 0;
         for (const std::uint64_t count : counts) {
-            if (count > core::no_shape - all) directory_.refuse_damaged("it has too many shapes");
+            if (count > core::no_shape - all) directory_.refuse_damaged("too many shapes");
             all += static_cast<std::size_t>(count);
         }
         core::for_each_table(shapes.tables, [&]<class Shape>(core::Table<Shape>& table) {
@@ -114,14 +114,13 @@ class Reader {
             packed.blocks = directory_.array<core::PackedBlock>(layout::packed);
             if (packed.empty()) return;
             if (table.block_count() != 0 || table.has_doubles() || id_count > core::most_packed_ids)
-                directory_.refuse_damaged("its spheres are there twice");
+                directory_.refuse_damaged("spheres stored twice");
             packed.rows = directory_.array<core::PackedSpheres::Row>(layout::rows);
             packed.palette = core::RadiusPalette(id_count);
             const auto radii = directory_.array<float>(layout::radii);
             for (const float radius : radii)
                 packed.palette.add(radius);
-            if (packed.palette.size() != radii.size())
-                directory_.refuse_damaged("it has other radii");
+            if (packed.palette.size() != radii.size()) directory_.refuse_damaged("invalid radii");
             table.replace_blocks(std::move(packed));
         }
     }
@@ -130,7 +129,7 @@ class Reader {
         auto stored = directory_.array<std::uint8_t>(layout::materials);
         const std::size_t width = count == 0 ? 0 : stored.size() / count;
         if (stored.size() != width * count || (width > 2 && width != 4))
-            directory_.refuse_damaged("it has other materials");
+            directory_.refuse_damaged("invalid indices of materials");
         return {std::move(stored), static_cast<int>(width), count};
     }
 
@@ -141,7 +140,7 @@ class Reader {
         if (numbers.size() != count || !std::ranges::all_of(numbers, [](double number) {
                 return number >= -1e30 && number <= 1e30;
             }))
-            directory_.refuse_damaged("its camera is none");
+            directory_.refuse_damaged("invalid camera");
         const auto number = [&] { return static_cast<float>(numbers[next++]); };
         const auto flag = [&] { return numbers[next++] != 0.0; };
         const auto vector = [&] {
@@ -162,7 +161,7 @@ class Reader {
         shapes.staging.lights = flag();
         shapes.staging.depth_cue = number();
         if (!(shapes.staging.depth_cue >= 0.0F && shapes.staging.depth_cue < 1.0F))
-            directory_.refuse_damaged("its fog is none");
+            directory_.refuse_damaged("invalid fog");
         shapes.staging.turning = flag();
     }
 

@@ -101,9 +101,7 @@ void seal(std::string& built_file) {
 
 void write_built(AtomicFile& file, const core::Scene& scene) {
     if (scene.solids().any())
-        throw BadInput(
-            file.name(), "",
-            "cannot have solids that are made of others, which are built anew each time");
+        throw BadInput(file.name(), "", "cannot store constructed solids: use .json or .pov");
     Writer writer;
     std::string json;
     TextFile text([&](std::string_view piece) { json += piece; });

@@ -162,9 +162,8 @@ void write_objects(JsonObject& root, TextFile& file, const core::Scene& scene,
         [&](const core::Solid& solid, core::ShapeId) {
             if (const std::size_t levels = levels_of(solid); levels > most_levels)
                 throw core::InvalidValue(
-                    "", "cannot have a solid of more than " + std::to_string(most_levels) +
-                            " levels of objects and lists, for none is read, got " +
-                            std::to_string(levels));
+                    "", "must not have a solid of more than " + std::to_string(most_levels) +
+                            " levels of objects and lists, got " + std::to_string(levels));
             file << std::exchange(separator, ",\n");
             write_solid(file, solid, names);
         });

@@ -24,7 +24,7 @@ class NffWriter {
         bool has_light = false;
         for (const core::Light& light : scene_.lights()) {
             if (light.kind != core::LightKind::point) {
-                differences_.insert(core::is_soft(light.kind) ? "lights with a size"
+                differences_.insert(core::is_soft(light.kind) ? "area and sky lights"
                                                               : "directional lights");
                 continue;
             }
@@ -34,7 +34,7 @@ class NffWriter {
             file_.list(light.color, " ") << "\n";
         }
         if (!has_light)
-            differences_.insert("that there is no light, without which raylane does not read it");
+            differences_.insert("a scene without lights (raylane does not read the file)");
         if (!scene_.polygons().empty()) differences_.insert(lost_polygons);
         core::MaterialIndex filled = ~core::MaterialIndex{0};
         for_each_by_id(
@@ -47,9 +47,7 @@ class NffWriter {
                 write_shape(shape);
             },
             [](const core::Solid&, core::ShapeId) {
-                throw core::InvalidValue("",
-                                         "has no word for a solid that is made of others: .pov and "
-                                         ".json have");
+                throw core::InvalidValue("", "cannot store constructed solids: use .pov or .json");
             });
     }
 
@@ -70,7 +68,7 @@ class NffWriter {
     void write_view() {
         const core::Camera& camera = scene_.camera();
         if (camera.projection != core::Projection::perspective)
-            throw core::InvalidValue("camera", "must be a perspective one, for NFF has no other");
+            throw core::InvalidValue("camera", "must be perspective in NFF, got orthographic");
         if (camera.lens_radius > 0.0F) differences_.insert("the camera's lens");
         const int rows = scene_.settings().height;
         double slope = core::slope_of_view(camera.field_of_view);
@@ -89,9 +87,9 @@ class NffWriter {
         if (m.absorption != Vec3f(0.0F)) differences_.insert("absorption");
         if (m.visible == core::Visible::outside)
             differences_.insert("surfaces seen from outside only");
-        if (m.specular != m.reflectivity) differences_.insert("highlights of their own");
+        if (m.specular != m.reflectivity) differences_.insert("specular coefficients");
         if (m.is_see_through()) differences_.insert("opacity");
-        differences_.insert("ambient light of their own");
+        differences_.insert("ambient coefficients");
         file_ << "f ";
         file_.list(m.pattern.colors[0], " ")
             << " " << m.diffuse << " " << m.reflectivity << " " << m.exponent << " "
@@ -152,7 +150,7 @@ class NffWriter {
     }
     /// Writes a square of half-width `reach_`, about as far as the camera sees.
     void write_shape(const core::PlaneOf<double>& s) {
-        differences_.insert("the far ends of planes");
+        differences_.insert("planes beyond a finite square");
         const Vec3d normal = core::normalized(s.normal);
         const Vec3d aside = std::abs(normal.x) < 0.7 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
         const Vec3d across = reach_ * core::normalized(core::cross(normal, aside));
@@ -163,8 +161,8 @@ class NffWriter {
     [[noreturn]] void write_shape(const Shape&) {
         const std::string name(core::name_of(core::kind_of<Shape>));
         const bool vowel = std::string_view("aeiou").find(name[0]) != std::string_view::npos;
-        throw core::InvalidValue("", (vowel ? "has no word for an " : "has no word for a ") + name +
-                                         ": .pov and .json have");
+        throw core::InvalidValue("", (vowel ? "cannot store an " : "cannot store a ") + name +
+                                         ": use .pov or .json");
     }
 
     TextFile& file_;

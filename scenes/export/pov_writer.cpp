@@ -78,10 +78,9 @@ class PovWriter {
               << settings.min_weight << " }\nbackground { color rgb ";
         vector(scene_.background()) << " }\n";
         if (!scene_.wavelengths().empty())
-            differences_.insert("the spectrum: glass has one index there");
-        if (scene_.settings().outline.any())
-            differences_.insert("the outline: there is none there");
-        if (scene_.settings().alpha) differences_.insert("the alpha, which +ua has drawn there");
+            differences_.insert("the spectrum (glass has one index)");
+        if (scene_.settings().outline.any()) differences_.insert("the outline");
+        if (scene_.settings().alpha) differences_.insert("alpha (use +ua)");
         if (!scene_.polygons().empty()) differences_.insert(lost_polygons);
         write_camera();
         write_fog();
@@ -91,9 +90,8 @@ class PovWriter {
             write_material(i, scene_.materials()[i]);
         const auto write_solid_of_others = [&](const core::Solid& solid, core::ShapeId id) {
             if (const int depth = core::depth_of(solid); depth > most_depth)
-                throw core::InvalidValue("", "cannot have solids that are nested more than " +
-                                                 std::to_string(most_depth) +
-                                                 " deep, for none is read, got " +
+                throw core::InvalidValue("", "must not have solids nested more than " +
+                                                 std::to_string(most_depth) + " deep, got " +
                                                  std::to_string(depth));
             const core::MaterialIndex medium = scene_.medium_index_of(id);
             write_solid(solid, lets_light_pass(solid, medium));
@@ -107,8 +105,7 @@ class PovWriter {
                 write_shape(shape);
                 if (is_open(shape) && scene_.material_of(id).transmits())
                     differences_.insert(
-                        "bodies that several transmissive surfaces enclose, of which each "
-                        "is a body of its own there");
+                        "bodies enclosed by several transmissive surfaces (each becomes a body)");
                 if (misleads(scene_.material_index_of(id)) &&
                     core::inside_of(shape, eye_) == core::Value::yes)
                     differences_.insert(misled);
@@ -127,8 +124,8 @@ class PovWriter {
 
     /// POV-Ray needs an index for Fresnel reflection even of an opaque body. A camera inside that
     /// body is then in a medium of that index.
-    static constexpr const char* misled = "opaque bodies with Fresnel reflection around the camera "
-                                          "(a sky), in whose index all is there";
+    static constexpr const char* misled =
+        "opaque bodies with Fresnel reflection around the camera (their index fills the scene)";
     bool misleads(core::MaterialIndex index) const {
         const core::Material& material = scene_.materials()[index];
         return material.reflection != core::Reflection::constant && !material.lets_light_pass();
@@ -173,8 +170,8 @@ class PovWriter {
         const auto [known, is_new] = surfaces_.try_emplace(
             std::visit([](const auto& shape) { return surface_of(shape); }, solid.shape), id);
         if (!is_new && known->second != id)
-            differences_.insert("surfaces that two transmissive bodies share (as lenses that are "
-                                "cemented)");
+            differences_.insert(
+                "surfaces shared by two transmissive bodies (such as cemented lenses)");
     }
     /// Identifies a surface by its kind and numbers, regardless of its orientation and its bounds.
     using Surface = std::vector<double>;
@@ -280,7 +277,7 @@ class PovWriter {
             return;
         case core::LightKind::disc:
         case core::LightKind::rectangle:
-            differences_.insert("lights that are discs and rectangles");
+            differences_.insert("disc and rectangle lights");
             return;
         }
     }
@@ -323,7 +320,7 @@ class PovWriter {
             color(pattern.colors[1]) << "] } scale " << 2.0F * pattern.size;
             break;
         case core::PatternKind::gradient:
-            differences_.insert("the ends of gradients, which repeat");
+            differences_.insert("the ends of gradients (they repeat)");
             vector("gradient", pattern.to - pattern.from) << " color_map { [0 ";
             color(pattern.colors[0]) << "] [1 ";
             color(pattern.colors[1]) << "] } scale " << core::length(pattern.to - pattern.from);
@@ -358,7 +355,7 @@ class PovWriter {
         const bool lit = material.ambient > 0.0F || material.diffuse > 0.0F;
         const float weight = opacity > 0.0F ? covered / opacity : 0.0F;
         if (lit && opacity <= 0.0F && material.transmits())
-            differences_.insert("ambient and diffuse light of what transmits all");
+            differences_.insert("ambient and diffuse light of fully transmissive materials");
         const bool is_fresnel = material.reflection != core::Reflection::constant;
         file_ << " finish { ambient " << weight * material.ambient << " diffuse "
               << weight * material.diffuse;
@@ -375,13 +372,14 @@ class PovWriter {
         if (bends) file_ << " interior { ior " << material.index << " }";
         file_ << " }\n";
         if (material.transmits() && material.is_see_through())
-            differences_.insert("opacity of what transmits");
-        if (is_fresnel && !bends) differences_.insert("Fresnel reflection of what is see-through");
+            differences_.insert("opacity of transmissive materials");
+        if (is_fresnel && !bends)
+            differences_.insert("Fresnel reflection of transparent materials");
         if (material.visible != core::Visible::both) differences_.insert("one-sided surfaces");
         if (material.transmits() && material.absorption != Vec3f(0.0F))
             differences_.insert("absorption");
         if (material.reflection == core::Reflection::schlick)
-            differences_.insert("Schlick's reflection, which is Fresnel's there");
+            differences_.insert("Schlick reflection (written as Fresnel)");
     }
 
     /// Makes the object at hand of a material, and fills it with the scene's fog if fog fills it

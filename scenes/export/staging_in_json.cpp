@@ -91,10 +91,9 @@ core::Staging staging_in_json(const core::Scene& scene) {
 
 Differences lost_staging(const core::Staging& staging, const core::Staging& said) {
     Differences lost;
-    if (staging.framing && !said.framing) lost.insert("a camera that finds its place by itself");
-    if (staging.lights && !said.lights) lost.insert("lights that go with the camera");
-    if (staging.depth_cue > 0.0F && !(said.depth_cue > 0.0F))
-        lost.insert("fog that goes with the camera");
+    if (staging.framing && !said.framing) lost.insert("automatic camera");
+    if (staging.lights && !said.lights) lost.insert("automatic lights");
+    if (staging.depth_cue > 0.0F && !(said.depth_cue > 0.0F)) lost.insert("automatic fog");
     return lost;
 }
 

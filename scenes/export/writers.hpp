@@ -12,7 +12,7 @@ namespace raylane::scenes {
 
 /// Phrases for features that another program, or a reader of the file, treats differently.
 using Differences = std::set<std::string>;
-inline constexpr const char* lost_polygons = "which triangles make a polygon";
+inline constexpr const char* lost_polygons = "polygons made of triangles";
 
 /// Writes the staging in place of the view that follows from it, as far as JSON can express the
 /// staging. Throws core::InvalidValue for a solid that is nested deeper than the reader accepts.

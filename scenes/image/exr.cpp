@@ -21,7 +21,7 @@ bool has_exr() {
 }
 
 std::string exr_of(const core::Film&, const core::Layers*, const PictureOptions&) {
-    throw BadInput("OpenEXR", "", "is not there: raylane was built without libopenexr-dev");
+    throw BadInput("OpenEXR", "", "is not supported: raylane was built without libopenexr-dev");
 }
 
 ExrPicture read_own_exr(InputFile& file) {
@@ -29,8 +29,8 @@ ExrPicture read_own_exr(InputFile& file) {
 }
 
 void read_exr(ByteSource&, Image&) {
-    throw MalformedPicture("must be a PNG, HDR or PFM picture, for raylane was built without "
-                           "libopenexr-dev, got an EXR");
+    throw MalformedPicture(
+        "must be a PNG, HDR or PFM image, got an EXR: raylane was built without libopenexr-dev");
 }
 
 } // namespace raylane::scenes
@@ -375,7 +375,7 @@ ExrPicture read_own_exr(InputFile& input) {
     } catch (const SystemRefused&) {
         throw;
     } catch (const std::exception&) {
-        throw BadInput(input.name(), "", "must be an EXR that raylane has drawn");
+        throw BadInput(input.name(), "", "must be an EXR rendered by raylane");
     }
 }
 

@@ -99,7 +99,7 @@ std::string pfm_word(ByteSource& source) {
 } // namespace
 
 MalformedPicture damaged(const std::string& format) {
-    return MalformedPicture("must be a PNG, EXR, HDR or PFM picture, got a damaged " + format);
+    return MalformedPicture("must be a PNG, EXR, HDR or PFM image, got a damaged " + format);
 }
 
 void check_size(std::int64_t width, std::int64_t height) {
@@ -107,9 +107,9 @@ void check_size(std::int64_t width, std::int64_t height) {
     const bool good = width >= 1 && height >= 1 && width <= Settings::max_size &&
                       height <= Settings::max_size && width * height <= Settings::max_pixels;
     if (!good)
-        throw MalformedPicture("must be a picture of 1 to " + std::to_string(Settings::max_size) +
+        throw MalformedPicture("must be an image of 1 to " + std::to_string(Settings::max_size) +
                                " pixels a side and at most " +
-                               std::to_string(Settings::max_pixels) + " in all, got " +
+                               std::to_string(Settings::max_pixels) + " in total, got " +
                                std::to_string(width) + " x " + std::to_string(height));
 }
 

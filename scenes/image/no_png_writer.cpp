@@ -6,12 +6,12 @@ namespace raylane::scenes {
 
 void write_png(AtomicFile& file, const core::Film& film, const PictureOptions& options) {
     static_cast<void>(film), static_cast<void>(options);
-    throw BadInput(file.name(), "", "must not be PNG: this raylane is built without libpng");
+    throw BadInput(file.name(), "", "must not be PNG: raylane was built without libpng");
 }
 
 void read_png(ByteSource& source, Image& image) {
     static_cast<void>(source), static_cast<void>(image);
-    throw MalformedPicture("must not be PNG: this raylane is built without libpng");
+    throw MalformedPicture("must not be PNG: raylane was built without libpng");
 }
 
 } // namespace raylane::scenes

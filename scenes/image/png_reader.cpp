@@ -57,7 +57,7 @@ class PngReading {
             const int passes = png_set_interlace_handling(png_);
             png_read_update_info(png_, info_);
             if (png_get_rowbytes(png_, info_) != channels() * width * sizeof(Code))
-                png_error(png_, "rows of another size");
+                png_error(png_, "rows of another length");
             for (int pass = 0; pass < passes; ++pass)
                 for (png_uint_32 y = 0; y < height; ++y)
                     png_read_row(png_, reinterpret_cast<png_bytep>(rows[y]), nullptr);

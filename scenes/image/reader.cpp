@@ -29,8 +29,7 @@ Image decoded(InputFile& file) {
         image.linear_float = true;
         read_exr(source, image);
     } else {
-        throw BadInput(file.name(), "",
-                       "must be a PNG, EXR, HDR or PFM picture, got something else");
+        throw BadInput(file.name(), "", "must be a PNG, EXR, HDR or PFM image, got another format");
     }
     return image;
 }

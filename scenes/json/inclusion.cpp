@@ -19,7 +19,7 @@ bool contains(const std::vector<std::filesystem::path>& files, const std::filesy
 void Inclusion::include(const JsonValue& value, const std::function<void(InputFile&)>& read) {
     const std::filesystem::path path = files_.back().parent_path() / value.string();
     if (contains(files_, path))
-        value.fail("must not include what it is included by, got " + value.quoted());
+        value.fail("must not include a file that includes it, got " + value.quoted());
     if (contains(read_, path)) return;
     const auto file = checked(value, [&] { return opener_.open(path, value.string(), depth()); });
     files_.push_back(path);

@@ -78,7 +78,7 @@ core::Sellmeier read_glass(const JsonValue& value) {
             for (std::size_t i = 0; i < 3; ++i)
                 (*numbers)[i] = values[i].real();
         }
-        if (!glass.any()) value.at("B").fail("must not be 0, all of them");
+        if (!glass.any()) value.at("B").fail("must not all be 0");
         return glass;
     }
     std::vector<std::pair<std::string_view, core::Sellmeier>> glasses;

@@ -188,7 +188,7 @@ class ObjectReader {
     }
     void refuse_unless_added() const {
         if (described_ != nullptr)
-            object_.at("type").fail("must not be of many shapes here, got \"" +
+            object_.at("type").fail("must be a single shape here, got \"" +
                                     std::string(object_.at("type").string()) + "\"");
     }
 
@@ -255,7 +255,7 @@ void ObjectReader::read(std::type_identity<core::Quadric>) {
             if (column < row && matrix[row][column] != matrix[column][row])
                 values[column].fail_expecting("equal to matrix/" + std::to_string(column) + "/" +
                                               std::to_string(row) +
-                                              ", for the matrix is symmetric");
+                                              ", because the matrix is symmetric");
         }
     }
     core::QuadricOf<double> quadric{};
@@ -276,8 +276,8 @@ void ObjectReader::read(std::type_identity<core::Quadric>) {
     } else {
         for (const std::string_view key : {"lower", "upper"})
             if (const auto end = object_.find(key))
-                end->fail("must not be given in a solid, where a quadric is the half-space of its "
-                          "inside: intersect it with a box");
+                end->fail("must not be given in a solid, where a quadric is unbounded: intersect "
+                          "it with a box");
     }
     add(quadric);
 }
@@ -421,7 +421,7 @@ std::vector<Solid> Describer::instance_of(const JsonValue& object, Use use) {
     const Definition& definition = context.definitions.named_by(name);
     parts_ += definition.parts;
     if (parts_ > most_parts)
-        name.fail("must not lead to more than " + std::to_string(most_parts) +
+        name.fail("must not expand to more than " + std::to_string(most_parts) +
                   " shapes in one object, or in all definitions");
     context.definitions.count(definition.parts, name);
     std::vector<Solid> solids = definition.solids;
@@ -472,7 +472,7 @@ const Definition& Definitions::named_by(const JsonValue& value) {
     const auto found = all_.find(name);
     if (found == all_.end()) {
         if (may_lack_some || !unknown_.emplace(name).second) throw consequence();
-        value.fail_expecting("the name of a definition that comes before");
+        value.fail_expecting("the name of an earlier definition");
     }
     if (!found->second) throw consequence();
     return *found->second;
@@ -481,7 +481,7 @@ const Definition& Definitions::named_by(const JsonValue& value) {
 void Definitions::count(std::size_t shapes, const JsonValue& value) {
     asked_for_ += shapes;
     if (asked_for_ > most_asked_for)
-        value.fail("must not lead to more than " + std::to_string(most_asked_for) +
+        value.fail("must not expand to more than " + std::to_string(most_asked_for) +
                    " shapes of instances, lattices and sphereflakes in one scene");
 }
 
@@ -501,8 +501,8 @@ Definition described_object(const JsonValue& object, const ObjectContext& contex
     for (const Solid& solid : definition.solids) {
         definition.parts += core::count_parts(solid);
         if (core::depth_of(solid) > most_depth)
-            object.fail("must not be of solids that are nested more than " +
-                        std::to_string(most_depth) + " deep");
+            object.fail("must not have solids nested more than " + std::to_string(most_depth) +
+                        " deep");
     }
     return definition;
 }

@@ -192,7 +192,7 @@ void SceneReader::miss(std::string_view key) {
 }
 
 void SceneReader::include(const JsonValue& value) {
-    if (!may_include_) value.fail("must not be included by what has been built");
+    if (!may_include_) value.fail("must not be included by a built scene");
     try {
         inclusion_.include(value, [&](InputFile& file) {
             objects_.enter(file.name(), builder_.shape_count());
@@ -367,15 +367,14 @@ core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
     if (has_objects_ && !has_lights_ && builder_.wants_light && !builder_.staging.lights &&
         !misses("lights") && !misses("camera"))
         errors.add({file_, outline.of("lights"), "/lights",
-                    "must have at least one light where there are objects, or be [] where none is "
-                    "meant to be, got none"});
+                    "must have at least one light if there are objects, or be [] for no lights, "
+                    "got none"});
     errors.report();
     if (const auto unused = parameters_.first_unused()) {
         std::vector<std::string_view> others = parameters_.names();
         std::erase(others, *unused);
         throw BadInput(file_, "",
-                       "has no number \"$" + *unused + "\" that could be set" +
-                           suggestion(*unused, others, "$"));
+                       "has no parameter \"$" + *unused + '"' + suggestion(*unused, others, "$"));
     }
 
     number_materials();
@@ -392,7 +391,7 @@ core::Scene SceneReader::finish_with(core::BuiltShapes shapes, InputErrors& erro
     try {
         return std::move(builder_).build(std::move(shapes));
     } catch (const core::InvalidValue& invalid) {
-        throw BadInput(file_, "", std::string("has been damaged: ") + invalid.what());
+        throw BadInput(file_, "", std::string("is damaged: ") + invalid.what());
     }
 }
 
@@ -431,7 +430,7 @@ core::Scene read_json(InputFile& file, core::Workers* workers,
     } catch (const LateParameter& late) {
         if (!file.rewind()) {
             InputError error = late.error.errors().front();
-            error.message += "; in a pipe it has to come before";
+            error.message += "; in a pipe, it must come before its use";
             throw BadInput({error});
         }
     }

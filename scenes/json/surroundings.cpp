@@ -15,7 +15,7 @@ void read_view(const JsonValue& value, core::Framing& framing) {
     if (value.type() == JsonType::array) {
         framing.direction = value.vector();
         if (framing.direction == core::Vec3f(0.0F))
-            value.fail("must be other than [0, 0, 0], for a direction");
+            value.fail("must be a direction other than [0, 0, 0]");
         framing.up = core::upright(framing.direction);
         return;
     }
@@ -42,7 +42,8 @@ core::Framing read_framing(const JsonValue& value) {
         framing.up = up->vector();
         const auto across = core::cross(core::convert<double>(framing.up),
                                         core::convert<double>(framing.direction));
-        if (across == core::Vec3d(0.0)) up->fail("must not be along the view, or 0");
+        if (across == core::Vec3d(0.0))
+            up->fail("must not be 0 or parallel to the direction of view");
     }
     if (const auto zoom = value.find("zoom"))
         framing.zoom = number_between(*zoom, 0.01F, 1000.0F, "from 0.01 to 1000");

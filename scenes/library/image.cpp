@@ -49,7 +49,7 @@ simd::RenderOptions inner_options(const core::Settings& settings, const RenderOp
         };
         if (!is_within(crop->x, crop->width, settings.width) ||
             !is_within(crop->y, crop->height, settings.height))
-            throw InvalidValue("crop", "must be a part of the picture");
+            throw InvalidValue("crop", "must lie within the image");
         inner.crop = {crop->x, crop->y, crop->x + crop->width, crop->y + crop->height};
     }
     return inner;

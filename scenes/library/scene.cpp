@@ -121,13 +121,13 @@ Camera Scene::camera_on_all(const Vec3& direction, float aspect) const {
                           static_cast<double>(aspect));
         core::include_shapes(*scene_, frame);
         if (frame.empty())
-            throw InvalidValue("scene", "must have shapes other than planes, to look at");
+            throw InvalidValue("scene", "must have a shape other than planes to frame");
         const core::Camera found = frame.camera();
         try {
             core::validate(found);
         } catch (const core::InvalidValue&) {
-            throw InvalidValue("scene", "reaches too far for a camera that sees all of it, whose "
-                                        "place would be beyond 1e30: give it a camera");
+            throw InvalidValue("scene", "is too large for an automatic camera, whose position "
+                                        "would exceed 1e30: set a camera");
         }
         return converted<Camera>(found);
     });
@@ -264,7 +264,7 @@ void save(const Scene& scene, const std::filesystem::path& path, const OnRemark&
     if (on_remark)
         for (const std::string& what : differences)
             on_remark(file.string() +
-                      ": not as in the scene, for want of a word in the format: " + what);
+                      ": differs from the scene, because the format cannot express: " + what);
 }
 
 } // namespace raylane

@@ -36,7 +36,7 @@ class Reader {
                 on_remark(text_of({file_.name(),
                                    {static_cast<std::size_t>(lights_[i].line), 0},
                                    "",
-                                   "l: is on a surface, and shines from beside it here"}));
+                                   "l: a light on a surface is moved off it"}));
         };
     }
     core::Scene read();

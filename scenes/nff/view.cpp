@@ -32,7 +32,7 @@ ViewPart next_part(NffFields& fields, const std::array<bool, names.size()>& seen
     std::string missing;
     for (std::size_t i = 0; i < names.size(); ++i)
         if (!seen[i]) missing.append(missing.empty() ? "" : ", ").append(names[i]);
-    fields.refuse("", "must go on with each of " + missing, quoted_word(word));
+    fields.refuse("", "must continue with each of " + missing, quoted_word(word));
 }
 
 } // namespace

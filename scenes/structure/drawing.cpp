@@ -178,7 +178,7 @@ class Artist {
         const std::array<int, 3>& repeat = drawing_.repeat;
         if (repeat != std::array{1, 1, 1} && !structure_.cell.any())
             throw BadInput("--repeat", "",
-                           "must have a cell to repeat, and " + file_ + " has none");
+                           "must have a cell to repeat, but " + file_ + " has none");
         for (const Vec3d& offset : offsets_of_images(structure_.cell, repeat)) {
             for (int axis = 0; axis < 3; ++axis)
                 if (!(std::abs(offset[axis]) <= static_cast<double>(core::coordinate_limit)))
@@ -306,8 +306,8 @@ class Artist {
         const std::vector<Bond> bonds = find_bonds(all, &crowded);
         if (crowded != 0 && on_remark_)
             on_remark_(printable(file_, 4096) + ": " + std::to_string(crowded) +
-                       " atoms lie on top of others, more than " + std::to_string(most_bonds) +
-                       " within a bond's length: they are drawn without bonds");
+                       " atoms have more than " + std::to_string(most_bonds) +
+                       " others within the length of a bond: they have no bonds");
         if (scale_.style != Style::licorice) find_neighbours(all, bonds);
         for (const Bond& bond : bonds) {
             if (!is_selected(original(bond.a)) || !is_selected(original(bond.b))) continue;
@@ -395,7 +395,7 @@ class Artist {
 
     void add_cell() {
         if (!structure_.cell.any())
-            throw BadInput("--cell", "", "must have a cell to show, and " + file_ + " has none");
+            throw BadInput("--cell", "", "must have a cell to show, but " + file_ + " has none");
         const MaterialIndex gray = Palette(builder_).of(0x808080);
         std::array<Vec3f, 3> edges;
         int flat = 0; // bits of edges without a length, as of a slab or a chain

@@ -312,9 +312,9 @@ void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure,
         gemmi::cif::Column operations = block.find_values(tag);
         if (std::all_of(operations.begin(), operations.end(), gemmi::cif::is_null)) continue;
         if (operations.length() > most_operations)
-            throw std::runtime_error("it has " + std::to_string(operations.length()) +
-                                     " operations of symmetry, and no space group has more than " +
-                                     std::to_string(most_operations) + " in its cell");
+            throw std::runtime_error("must have at most " + std::to_string(most_operations) +
+                                     " operations of symmetry, got " +
+                                     std::to_string(operations.length()));
         structure.cell.images.clear();
         for (const std::string& text : operations)
             add_operation(gemmi::parse_triplet(with_fractions(gemmi::cif::as_string(text))),
@@ -342,11 +342,11 @@ void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure,
             if (group != nullptr && !structure.spacegroup_hm.empty())
                 remarks.push_back("the space group \"" + structure.spacegroup_hm +
                                   "\" is unknown: number " + gemmi::cif::as_string(*number) +
-                                  " is taken in its standard setting, " + group->hm);
+                                  " is used in its standard setting, " + group->hm);
         }
     if (group == nullptr && !structure.spacegroup_hm.empty())
-        throw std::runtime_error("its space group \"" + structure.spacegroup_hm +
-                                 "\" is none that is known, and it has no operations of symmetry");
+        throw std::runtime_error("space group \"" + structure.spacegroup_hm +
+                                 "\" is unknown, and the file has no operations of symmetry");
     structure.cell.set_cell_images_from_spacegroup(group);
 }
 
@@ -391,7 +391,7 @@ void keep_one_of_each_site(Sites& sites, std::vector<std::string>& remarks) {
     sites = std::move(kept);
     if (!shared.empty())
         remarks.push_back("different elements share a site (" + shared +
-                          "): the one of the highest occupancy is shown");
+                          "): only the one of the highest occupancy is rendered");
 }
 
 /// Returns the structure of a block, without sites that lack coordinates and without alternative
@@ -402,7 +402,7 @@ gemmi::SmallStructure crystal_of(gemmi::cif::Block& block, std::vector<std::stri
     const gemmi::UnitCell& cell = structure.cell;
     if (!cell.is_crystal() || !(cell.volume > 0.0 && cell.volume < 1e30))
         throw std::runtime_error(
-            "must have a cell (_cell_length_a, ...), as its coordinates are parts of it");
+            "must have a cell (_cell_length_a, ...), because its coordinates are fractions of it");
     std::size_t site = 0;
     Sites placed;
     std::map<std::string, std::string>

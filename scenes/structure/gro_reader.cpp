@@ -28,7 +28,7 @@ class GroReader : public FrameReader {
             has_count = lines_.next();
         if (!has_count) {
             if (frames_ == 0 || !title.empty())
-                lines_.fail("must be the number of atoms, and the file ends");
+                lines_.fail("must be the number of atoms, got the end of the file");
             return false;
         }
         ++frames_;
@@ -41,10 +41,10 @@ class GroReader : public FrameReader {
         for (std::size_t atom = 0; atom < count; ++atom) {
             if (!lines_.next())
                 lines_.fail("must be atom " + std::to_string(atom + 1) + " of " +
-                            std::to_string(count) + ", and the file ends");
+                            std::to_string(count) + ", got the end of the file");
             read_atom(frame, kinds);
         }
-        if (!lines_.next()) lines_.fail("must be the box, and the file ends");
+        if (!lines_.next()) lines_.fail("must be the box, got the end of the file");
         read_box(frame);
         return true;
     }

@@ -82,7 +82,7 @@ class DataReader : public FrameReader {
         name_kinds(frame);
         for (const char* particles : {"lines", "triangles", "bodies"})
             if (const std::size_t count = header_.count(particles); count > 0)
-                tell(0, std::to_string(count) + " " + particles + " are drawn as balls");
+                tell(0, std::to_string(count) + " " + particles + " are rendered as balls");
         return true;
     }
 
@@ -125,7 +125,7 @@ class DataReader : public FrameReader {
         Cell general{.edges = {core::Vec3d(1, 0, 0), core::Vec3d(0, 1, 0), core::Vec3d(0, 0, 1)}};
         bool has_box = false, is_general = false;
         for (;;) {
-            if (!next_of_text()) lines_.fail("must have a section Atoms, and the file ends");
+            if (!next_of_text()) lines_.fail("must have a section Atoms, got the end of the file");
             const std::string line = words_of_line();
             if (is_letter(line[0])) break;
             const auto ends_with = [&](std::string_view words) { return line.ends_with(words); };
@@ -277,12 +277,11 @@ class DataReader : public FrameReader {
         const auto named = layouts_of(options_.atom_style.empty() ? remark : options_.atom_style);
         if (const auto layout = probable_layout(named, table, header_)) {
             if (layout->style == "hybrid")
-                tell(line, "the sub-styles of hybrid are not named: only positions and types are "
-                           "read");
+                tell(line, "hybrid without sub-styles: only positions and types are read");
             return *layout;
         }
-        const std::string must_name = "must name the atom style that it has, as in "
-                                      "\"Atoms # full\" or by --atom-style: ";
+        const std::string must_name =
+            "must name its atom style, as in \"Atoms # full\" or by --atom-style: ";
         if (!named.empty()) {
             const Misfit misfit = *misfit_of(table, named[0], header_);
             fail(misfit.place, (misfit.place.line == 0 ? must_name : "") + misfit.message);
@@ -296,11 +295,11 @@ class DataReader : public FrameReader {
             fail({},
                  must_name + (fitting.empty() ? "no style without sub-styles fits its " +
                                                     std::to_string(table.most_width()) + " columns"
-                                              : "it may be " + alternatives(styles)));
+                                              : "it can be " + alternatives(styles)));
         }
         if (!remark.empty())
-            tell(line, "\"" + printable(remark) + "\" is no atom style: the atoms are read as " +
-                           fitting[0].style);
+            tell(line, "\"" + printable(remark) +
+                           "\" is not an atom style: the atoms are read as " + fitting[0].style);
         return fitting[0];
     }
 
@@ -361,7 +360,7 @@ class DataReader : public FrameReader {
         const long long id = words.whole("an atom's number", 1, std::int64_t{1} << 53);
         const auto found = atom_of_.find(id);
         if (found == atom_of_.end())
-            words.fail("must be the number of an atom, and there is no " + std::to_string(id));
+            words.fail("must be the number of an atom, got unknown " + std::to_string(id));
         return found->second;
     }
 

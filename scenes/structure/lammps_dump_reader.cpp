@@ -46,7 +46,7 @@ class DumpReader : public FrameReader {
                 break;
             }
         }
-        if (frames_ == 0) lines_.fail("must have ITEM: ATOMS, and the file ends");
+        if (frames_ == 0) lines_.fail("must have ITEM: ATOMS, got the end of the file");
         return false;
     }
 
@@ -61,7 +61,8 @@ class DumpReader : public FrameReader {
     }
 
     void next_line(const char* what) {
-        if (!lines_.next()) lines_.fail(std::string("must be ") + what + ", and the file ends");
+        if (!lines_.next())
+            lines_.fail(std::string("must be ") + what + ", got the end of the file");
     }
 
     /// Reads the bounds of the box. A tilted box has those of its bounding box.
@@ -159,8 +160,8 @@ class DumpReader : public FrameReader {
             lines_.fail("must have x, y and z (or xs, xu, xsu), got \"" +
                         printable(lines_.text(), 200) + "\"");
         if (is_scaled_ && !frame.cell.any())
-            lines_.fail(
-                "must come after ITEM: BOX BOUNDS, as its coordinates are parts of the box");
+            lines_.fail("must come after ITEM: BOX BOUNDS, because its coordinates are fractions "
+                        "of the box");
     }
 
     void read_atoms(Structure& frame, std::string_view names, std::size_t count) {
@@ -177,7 +178,7 @@ class DumpReader : public FrameReader {
         for (std::size_t atom = 0; atom < count; ++atom) {
             if (!lines_.next())
                 lines_.fail("must be atom " + std::to_string(atom + 1) + " of " +
-                            std::to_string(count) + ", and the file ends");
+                            std::to_string(count) + ", got the end of the file");
             read_atom(frame, kinds);
         }
     }

@@ -100,7 +100,7 @@ std::string_view Words::next() {
 
 std::string_view Words::get(std::string_view what) {
     const std::string_view word = next();
-    if (word.empty()) fail("must have " + std::string(what) + " here, and the line ends");
+    if (word.empty()) fail("must have " + std::string(what) + ", got the end of the line");
     return word;
 }
 

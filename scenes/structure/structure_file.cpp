@@ -21,7 +21,8 @@ std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
                                             const ReaderOptions& options) {
     if (!options.atom_style.empty() && format != Format::lammps_data)
         throw BadInput("--atom-style", "",
-                       "goes with LAMMPS' data, and " + printable(file.name(), 4096) + " is none");
+                       "goes with a LAMMPS data file, but " + printable(file.name(), 4096) +
+                           " is not one");
     switch (format) {
     case Format::pdb:
         return open_pdb(file);
@@ -42,7 +43,7 @@ std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
     case Format::built:
         break;
     }
-    throw BadInput(file.name(), "", "is no file of atoms");
+    throw BadInput(file.name(), "", "must be a file of atoms");
 }
 
 core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
@@ -67,9 +68,9 @@ core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& 
             if (!open_structure(file, format, options)->next(structure))
                 throw BadInput(file.name(), "", "has no atoms");
             if (structure.size() == 0)
-                throw BadInput(file.name(), "",
-                               "has no atoms in its first frame; if there are others, \"--frames "
-                               "1\" draws the next");
+                throw BadInput(
+                    file.name(), "",
+                    "has no atoms in its first frame; \"--frames 1\" selects the next one, if any");
             std::vector<AtomPair> atoms;
             draw(structure, drawing, file.name(), builder, legend == nullptr ? nullptr : &atoms,
                  options.on_remark);

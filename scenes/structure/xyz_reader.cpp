@@ -95,7 +95,8 @@ class XyzReader : public FrameReader {
         frame = {};
         do {
             if (!lines_.next()) {
-                if (frames_ == 0) lines_.fail("must be the number of atoms, and the file ends");
+                if (frames_ == 0)
+                    lines_.fail("must be the number of atoms, got the end of the file");
                 return false;
             }
         } while (trimmed(lines_.text()).empty());
@@ -104,15 +105,15 @@ class XyzReader : public FrameReader {
         const auto count = static_cast<std::size_t>(
             words.whole("the number of atoms", 0, static_cast<long long>(Structure::most_atoms)));
         if (!trimmed(words.rest()).empty())
-            words.fail("must be the number of atoms alone, got more on its line");
-        if (!lines_.next()) lines_.fail("must be a remark, and the file ends");
+            words.fail("must be only the number of atoms, got more on the line");
+        if (!lines_.next()) lines_.fail("must be a comment, got the end of the file");
         read_remark(frame);
         reserve(frame, count);
         KindTable kinds(frame.of_kind);
         for (std::size_t atom = 0; atom < count; ++atom) {
             if (!lines_.next())
                 lines_.fail("must be atom " + std::to_string(atom + 1) + " of " +
-                            std::to_string(count) + ", and the file ends");
+                            std::to_string(count) + ", got the end of the file");
             read_atom(frame, kinds);
         }
         return true;
@@ -170,8 +171,9 @@ class XyzReader : public FrameReader {
             if (name.empty() || type.size() != 1 ||
                 std::string_view("SRIL").find(type[0]) == std::string_view::npos || count < 1 ||
                 count > 1000)
-                lines_.fail("Properties must be name:S, R, I or L:count and so on, got \"" +
-                            printable(lines_.text()) + "\"");
+                lines_.fail(
+                    "Properties must be a list of NAME:TYPE:COUNT with type S, R, I or L, got \"" +
+                    printable(lines_.text()) + "\"");
             Column column{Column::Is::other, count, type[0], std::string(name)};
             const std::string known = in_lower_case(name);
             if (count == 1 && (known == "species" || known == "element" || known == "z"))

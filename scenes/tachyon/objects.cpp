@@ -220,7 +220,8 @@ void TachyonObjects::read_colored_triangle() {
     words_.accept("TEXTURE");
     TachyonTexture texture = read_texture(words_);
     texture.color = mean_color(a, b, c);
-    if (a != b || b != c) words_.remark("a triangle has one colour, the mean of its corners'");
+    if (a != b || b != c)
+        words_.remark("colours at the corners of a triangle are not supported: their mean is used");
     add_triangle(triangle, materials_.index_of(texture));
 }
 
@@ -285,7 +286,7 @@ void TachyonObjects::skip_landscape() {
         words_.number("SCALE");
     words_.named_vector("CENTER");
     texture();
-    words_.remark("SCAPE: landscapes are not drawn");
+    words_.remark("SCAPE is omitted: landscapes are not supported");
 }
 
 void TachyonObjects::skip_volume() {
@@ -297,7 +298,7 @@ void TachyonObjects::skip_volume() {
     words_.expect("FILE");
     words_.take();
     texture();
-    words_.remark("SCALARVOL: volumes are not drawn");
+    words_.remark("SCALARVOL is omitted: volumes are not supported");
 }
 
 void TachyonObjects::skip_polygons() {
@@ -307,7 +308,7 @@ void TachyonObjects::skip_polygons() {
     words_.expect("FILE");
     words_.take();
     texture();
-    words_.remark("TPOLYFILE: files of polygons are not drawn");
+    words_.remark("TPOLYFILE is omitted: files of polygons are not supported");
 }
 
 void TachyonObjects::skip_image() {

@@ -53,7 +53,7 @@ class TachyonObjects {
     void add_finite_cylinder(const core::Vec3f& base, const core::Vec3f& apex, float radius,
                              core::MaterialIndex material);
     void add_triangle(const core::SmoothTriangle& triangle, core::MaterialIndex material);
-    void leave_out() { words_.remark("what has no extent is left out"); }
+    void leave_out() { words_.remark("objects without a size are omitted"); }
 
     core::SceneBuilder& builder_;
     TachyonWords& words_;

@@ -28,7 +28,7 @@ class Reader {
         builder_.workers = workers;
         builder_.wants_light = false;
         builder_.on_light_moved = [this](std::size_t) {
-            words_.remark("LIGHT: on a surface, a light shines from beside it");
+            words_.remark("LIGHT: a light on a surface is moved off it");
         };
     }
     core::Scene read();
@@ -58,7 +58,7 @@ core::Scene Reader::read() {
         words_.refuse_statement("must be BEGIN_SCENE at the start of a scene");
     for (;;) {
         if (!words_.next_statement())
-            throw BadInput(file_.name(), "", "must end with END_SCENE, and is cut short");
+            throw BadInput(file_.name(), "", "must end with END_SCENE, got a truncated file");
         if (is_keyword(words_.statement(), "END_SCENE")) break;
         try {
             read_statement();
@@ -100,7 +100,7 @@ void Reader::read_statement() {
     } else if (is("INCLUDE")) {
         words_.include(std::string(words_.take()));
     } else {
-        words_.refuse_statement("must be an object or another statement of Tachyon's");
+        words_.refuse_statement("must be an object or another statement of Tachyon");
     }
     if (!lights_.empty()) core::validate(lights_.back());
 }
@@ -141,7 +141,7 @@ void Reader::add_lights() {
         builder_.add_light(light);
     }
     if (quality == Quality::no_shadows && !lights_.empty())
-        words_.remark("SHADER_MODE MEDIUM: what is drawn has shadows, as FULL has");
+        words_.remark("SHADER_MODE MEDIUM is not supported: there are shadows, same as FULL");
     if (quality != Quality::full || !shading_.sky) return;
     core::Light sky{.kind = core::LightKind::sky, .color = *shading_.sky, .ground = *shading_.sky};
     builder_.add_light(sky);

@@ -77,7 +77,7 @@ void read_shader_mode(TachyonWords& words, TachyonShading& shading) {
         } else if (words.accept("FOG_NORMAL")) {
             shading.planar_fog = false;
         } else if (words.accept("SHADOW_FILTER_OFF")) {
-            words.remark("SHADOW_FILTER_OFF: what is transparent casts its share of a shadow");
+            words.remark("SHADOW_FILTER_OFF is ignored: transparent objects cast partial shadows");
         } else if (words.accept("SHADOW_FILTER_ON")) { // as in raylane
         } else {
             words.refuse_next("AMBIENT_OCCLUSION, TRANS_VMD, TRANS_RASTER3D, TRANS_MAX_SURFACES, "

@@ -20,7 +20,7 @@ void read_projection(TachyonWords& words, TachyonCamera& camera) {
         words.named_number("FOCALLENGTH");
         camera.aperture = words.named_number("APERTURE");
     } else if (words.accept("FISHEYE")) {
-        words.remark("FISHEYE: drawn in perspective");
+        words.remark("FISHEYE is not supported: the image is in perspective");
     } else if (!words.accept("PERSPECTIVE")) {
         words.refuse_next("PERSPECTIVE, PERSPECTIVE_DOF, ORTHOGRAPHIC or FISHEYE");
     }
@@ -32,7 +32,7 @@ void read_frustum(TachyonWords& words, TachyonCamera& camera) {
     camera.top = words.number("FRUSTUM");
     camera.has_frustum = true;
     if (left != -right || camera.bottom != -camera.top)
-        words.remark("FRUSTUM: drawn as if the picture were in its middle");
+        words.remark("an off-centre FRUSTUM is not supported: the image is centred");
 }
 
 void scale(core::Light& light, TachyonWords& words) {
@@ -41,7 +41,7 @@ void scale(core::Light& light, TachyonWords& words) {
     const float linear = words.named_number("LINEAR");
     const float quadratic = words.named_number("QUADRATIC");
     if (linear != 0.0F || quadratic != 0.0F)
-        words.remark("ATTENUATION: lights do not fade with the distance");
+        words.remark("ATTENUATION is ignored: lights do not fade with distance");
     if (constant > 0.0F) light.color = core::Color(1.0F / constant);
 }
 
@@ -58,7 +58,7 @@ TachyonCamera read_camera(TachyonWords& words) {
     if (!(camera.zoom > 0.0F))
         throw InvalidValue("zoom", "must be positive, got " + to_text(camera.zoom));
     if (words.named_number("ASPECTRATIO") != 1.0F)
-        words.remark("ASPECTRATIO: pixels are drawn as squares");
+        words.remark("ASPECTRATIO is ignored: pixels are square");
     words.expect("ANTIALIASING");
     camera.antialiasing = words.whole_number("ANTIALIASING", 0, max_int);
     words.expect("RAYDEPTH");
@@ -98,7 +98,8 @@ std::optional<TachyonFog> read_fog(TachyonWords& words) {
 core::Light read_point_light(TachyonWords& words) {
     core::Light light;
     light.position = words.named_vector("CENTER");
-    if (words.named_number("RAD") > 0.0F) words.remark("RAD: a light's ball is not seen");
+    if (words.named_number("RAD") > 0.0F)
+        words.remark("RAD is ignored: the sphere of a light is invisible");
     scale(light, words);
     light.color *= words.named_triple("COLOR");
     return light;
@@ -120,7 +121,7 @@ core::Light read_spotlight(TachyonWords& words) {
     words.named_number("FALLOFF_END");
     scale(light, words);
     light.color *= words.named_triple("COLOR");
-    words.remark("SPOTLIGHT: shines in all directions");
+    words.remark("SPOTLIGHT is not supported: the light shines in all directions");
     return light;
 }
 
@@ -133,7 +134,7 @@ core::Color read_background_gradient(TachyonWords& words) {
     const auto top = core::convert<double>(words.named_triple("TOPCOLOR"));
     const auto bottom = core::convert<double>(words.named_triple("BOTTOMCOLOR"));
     if (top != bottom)
-        words.remark("BACKGROUND_GRADIENT: the background has the colour of its middle");
+        words.remark("BACKGROUND_GRADIENT is not supported: the colour of its middle is used");
     return core::convert<float>(middle_of(top, bottom));
 }
 
@@ -176,11 +177,12 @@ void set_fog(core::SceneBuilder& builder, const TachyonFog& fog, const TachyonCa
     core::Fog& result = builder.fog;
     result.color = fog.color;
     if (planar && builder.background != fog.color)
-        words.remark("FOG_VMD: the background has the fog's colour");
+        words.remark("FOG_VMD: the background has the colour of the fog");
     const bool is_by_depth = camera.projection == core::Projection::orthographic;
     if (fog.falloff == Falloff::exponential) {
-        if (fog.start != 0.0F) words.remark("FOG: EXP begins at the camera, not at its START");
-        if (planar && !is_by_depth) words.remark("FOG_VMD: fog is by distance, not by depth");
+        if (fog.start != 0.0F) words.remark("START of EXP fog is ignored: it begins at the camera");
+        if (planar && !is_by_depth)
+            words.remark("FOG_VMD is ignored: fog depends on distance, not on depth");
         result.kind = core::FogKind::exponential;
         result.density = fog.density;
         core::validate(result);
@@ -189,7 +191,7 @@ void set_fog(core::SceneBuilder& builder, const TachyonFog& fog, const TachyonCa
     auto start = static_cast<double>(fog.start);
     auto end = static_cast<double>(fog.end);
     if (fog.falloff == Falloff::squared) {
-        words.remark("FOG: EXP2 is drawn as the linear fog that is nearest to it");
+        words.remark("EXP2 fog is not supported: the nearest linear fog is used");
         constexpr double at_quarter = 0.53636, at_three_quarters = 1.17741;
         constexpr double slope = 0.5 / (at_three_quarters - at_quarter);
         constexpr double none = at_quarter - 0.25 / slope, all = none + 1.0 / slope;
@@ -206,7 +208,8 @@ void set_fog(core::SceneBuilder& builder, const TachyonFog& fog, const TachyonCa
         result.start = static_cast<float>(z + way * start);
         result.end = static_cast<float>(z + way * end);
     } else {
-        if (planar && !is_by_depth) words.remark("FOG_VMD: fog is by distance, not by depth");
+        if (planar && !is_by_depth)
+            words.remark("FOG_VMD is ignored: fog depends on distance, not on depth");
         result.kind = core::FogKind::linear;
         result.start = static_cast<float>(std::max(start, 0.0));
         result.end = static_cast<float>(end);

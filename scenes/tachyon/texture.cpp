@@ -24,7 +24,7 @@ void skip_texture_map(TachyonWords& words, int function) {
 void read_highlight(TachyonWords& words, TachyonTexture& texture) {
     texture.is_metal = words.accept("METAL");
     if (texture.is_metal)
-        words.remark("highlights of metal have its brightness, but not its colour");
+        words.remark("METAL is ignored: highlights have its brightness, but not its colour");
     else
         words.expect("PLASTIC");
     texture.highlight = words.number("PHONG");
@@ -56,17 +56,17 @@ TachyonTexture read_texture(TachyonWords& words) {
             read_highlight(words, texture);
         } else if (words.accept("TRANSMODE")) {
             words.take();
-            words.remark("TRANSMODE: what is transparent is not more opaque aslant");
+            words.remark("TRANSMODE is ignored: opacity does not change with the angle");
         } else if (words.accept("OUTLINE")) {
             words.number("OUTLINE");
             words.named_number("OUTLINE_WIDTH");
-            words.remark("OUTLINE: outlines are not drawn");
+            words.remark("OUTLINE is ignored: there are no outlines");
         } else if (words.accept("COLOR")) {
             texture.color = words.triple("COLOR");
         } else if (words.accept("TEXFUNC")) {
             const int function = words.whole_number("TEXFUNC", 0, 1000);
             if (function == 0) return texture;
-            words.remark("TEXFUNC: images and patterns are not drawn, but their COLOR");
+            words.remark("TEXFUNC is ignored: COLOR replaces images and patterns");
             skip_texture_map(words, function);
             return texture;
         } else {
@@ -106,7 +106,7 @@ core::Material TachyonMaterials::material_of(const TachyonTexture& texture) {
     material.reflectivity = std::min(texture.specular, 1.0F);
     if (texture.opacity < 1.0F) {
         if (shading_.opaque_aslant.value_or(false))
-            words_.remark("TRANS_RASTER3D: what is transparent is not more opaque aslant");
+            words_.remark("TRANS_RASTER3D is ignored: opacity does not change with the angle");
         if (shading_.most_transparent_surfaces == 0)
             material.opacity = 0.0F;
         else

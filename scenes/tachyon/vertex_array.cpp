@@ -69,7 +69,8 @@ void TachyonVertexArray::use_triangle(const Use& use, int a, int b, int c) {
                           color_c = at(colors_, c);
         texture.color = mean_color(color_a, color_b, color_c);
         if (color_a != color_b || color_b != color_c)
-            words_.remark("a triangle has one colour, the mean of its corners'");
+            words_.remark(
+                "colours at the corners of a triangle are not supported: their mean is used");
         else
             texture.color = color_a;
     }

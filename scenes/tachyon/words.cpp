@@ -64,7 +64,7 @@ void TachyonWords::expect(std::string_view keyword) {
 
 void TachyonWords::refuse_next(std::string_view must) {
     const std::string got = quoted_word(peek());
-    refuse("", "must go on with " + std::string(must), got);
+    refuse("", "must continue with " + std::string(must), got);
 }
 
 void TachyonWords::refuse_statement(std::string_view must) const {

@@ -180,9 +180,9 @@ TEST_CASE("a lens may stand anywhere and cemented lenses share one surface") {
 
 TEST_CASE("invalid lenses are refused") {
     CHECK(complaint({{0, 0, 0}, {0, 0, 1}, {6, -6}, {0, 0}, 1.6, 3})
-              .starts_with("thickness: must be so much"));
+              .starts_with("thickness: must keep the surfaces apart"));
     CHECK(complaint({{0, 0, 0}, {0, 0, 1}, {2, -6}, {0, 0}, 9, 3}) ==
-          "radii/0: must be of a surface that reaches the lens' radius, got 2");
+          "radii/0: must make a surface that reaches the radius of the lens, got 2");
     CHECK(complaint({{0, 0, 0}, {0, 0, 0}, {6, -6}, {0, 0}, 2, 3}).starts_with("axis"));
     CHECK(complaint({{0, 0, 0}, {0, 0, 1}, {6, -6}, {0, 0}, 0, 3}).starts_with("thickness"));
     CHECK(complaint({{0, 0, 0}, {0, 0, 1}, {6, -6}, {0, 0}, 2, 0}).starts_with("radius"));

@@ -75,7 +75,7 @@ TEST_CASE("a camera that has nothing to find its place by is refused") {
         FAIL("it was taken");
     } catch (const InvalidValue& invalid) {
         CHECK(invalid.field == "camera");
-        CHECK(invalid.expectation.find("to find its place by") != std::string::npos);
+        CHECK(invalid.expectation.find("must have a bounded shape to frame") != std::string::npos);
     }
 }
 

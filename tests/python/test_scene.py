@@ -344,9 +344,9 @@ def test_scenes_too_large_for_a_camera():
         if radius < 2.5e29:
             assert not caught and scene.camera == scene.camera_on_all()
             continue
-        assert [str(each.message)[:26] for each in caught] == ["scene: reaches too far for"] and caught[0].filename == __file__
+        assert len(caught) == 1 and str(caught[0].message).startswith("scene: is too large") and caught[0].filename == __file__
         assert scene.camera == raylane.Camera()
-        with pytest.raises(InvalidValue, match="reaches too far for a camera that sees all of it") as error:
+        with pytest.raises(InvalidValue, match="is too large for an automatic camera") as error:
             scene.camera_on_all()
         assert error.value.field == "scene"
         # A given camera causes no warning.
@@ -441,7 +441,7 @@ def test_light_goes_with_the_camera(tmp_path):
     for other in again_seen:
         assert other.lights == seen.lights
         assert np.array_equal(other.render(**size).rgb, seen.render(**size).rgb)
-    with pytest.warns(UserWarning, match="fog that goes with the camera"):
+    with pytest.warns(UserWarning, match="automatic fog"):
         seen.save(path)
     other = raylane.load(path)
     assert other.lights == seen.lights and other.fog == seen.fog
@@ -453,7 +453,7 @@ def test_pickles_say_what_they_lose():
     builder = SceneBuilder()
     builder.add_polygon(corners, material=builder.add_material())
     builder.add_solid(Solid.sphere((5, 0, 0), 1) - Solid.sphere((5, 0, 1), 0.5), material=0)
-    with pytest.warns(UserWarning, match="which triangles make a polygon"):
+    with pytest.warns(UserWarning, match="polygons made of triangles"):
         assert pickle.loads(pickle.dumps(builder.build())).shape_count == 4
     solid = Solid.sphere((0, 0, 0), 1)
     for i in range(150):
@@ -479,7 +479,7 @@ def test_threads_in_the_environment(scenes, monkeypatch):
 
 
 def test_saved_for_others(scenes, tmp_path):
-    with pytest.warns(UserWarning, match="not as in the scene"):
+    with pytest.warns(UserWarning, match="differs from the scene"):
         raylane.load(scenes / "glass-block.json").save(tmp_path / "a.nff")
     with pytest.raises(raylane.BadInput, match="must end in"):
         raylane.load(scenes / "sphere.json").save(tmp_path / "a.obj")

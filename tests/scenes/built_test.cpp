@@ -194,7 +194,7 @@ TEST_CASE("a truncated built file or one of another version is refused") {
     std::string other = whole;
     other[16] = 99;
     directory.write("a.rl", other);
-    CHECK(complaint(built).find("a.rl: was built by another version of raylane: build it anew") !=
+    CHECK(complaint(built).find("a.rl: was built by another version of raylane: build it again") !=
           std::string::npos);
     directory.write("a.rl", "raylane is a text");
     CHECK(complaint(built).find("a.rl: must be ") != std::string::npos);
@@ -229,7 +229,7 @@ TEST_CASE("a built file includes no other file") {
     whole.replace(at, said.size(), other);
     seal(whole);
     directory.write("a.rl", whole);
-    CHECK(complaint(built).find("/include/0: must not be included by what has been built") !=
+    CHECK(complaint(built).find("/include/0: must not be included by a built scene") !=
           std::string::npos);
 }
 
@@ -357,17 +357,17 @@ TEST_CASE("the check of a built file's shapes refuses inconsistent ones") {
               for (auto& row : blocks.floats[0].values)
                   row[1] = row[0];
               planes = {std::move(blocks), planes.size()};
-          }) == "a shape that is none");
+          }) == "an invalid shape");
     CHECK(refused([&](auto& shapes) { nodes(shapes)[0].children[0] = core::Child::node(0); }) ==
-          "nodes that are no tree");
+          "nodes that do not form a tree");
     CHECK(refused([&](auto& shapes) { nodes(shapes)[0].children[0] = core::Child(); }) ==
-          "a child behind the last");
+          "a child after an empty one");
     CHECK(refused([&](auto& shapes) {
               nodes(shapes)[0].children[0] = core::Child::block(core::Kind::sphere, 1 << 20);
-          }) == "a block that is not there, or twice");
+          }) == "a missing or repeated block");
     CHECK(refused([](auto& shapes) { shapes.polygons[1].last = shapes.polygons[2].first; }) ==
           "polygons out of order");
     CHECK(refused([](auto& shapes) { shapes.material_of.truncate(10); }) ==
-          "the numbers of shapes do not fit each other");
+          "inconsistent numbers of shapes");
     CHECK(refused([](auto& shapes) { shapes.tables = core::Tables(); }) != "nothing");
 }

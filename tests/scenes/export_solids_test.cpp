@@ -44,16 +44,11 @@ TEST_CASE("export accepts solids exactly as deep as the readers do") {
     };
     for (const Row& row :
          {Row{ball, "a.json", 128,
-              "cannot have a solid of more than 256 levels of objects and lists, for none is read, "
-              "got 258"},
+              "must not have a solid of more than 256 levels of objects and lists, got 258"},
           Row{box, "a.json", 127,
-              "cannot have a solid of more than 256 levels of objects and lists, for none is read, "
-              "got 257"},
-          Row{ball, "a.pov", 125,
-              "cannot have solids that are nested more than 125 deep, for none is read, got 126"},
-          Row{box, "a.pov", 125,
-              "cannot have solids that are nested more than 125 deep, for none is read, got "
-              "126"}}) {
+              "must not have a solid of more than 256 levels of objects and lists, got 257"},
+          Row{ball, "a.pov", 125, "must not have solids nested more than 125 deep, got 126"},
+          Row{box, "a.pov", 125, "must not have solids nested more than 125 deep, got 126"}}) {
         const std::filesystem::path path = directory.path() / row.name;
         CAPTURE(path, row.deepest);
         const core::Scene scene = nested(row.innermost, row.deepest);
@@ -118,8 +113,7 @@ TEST_CASE("an exported solid reads back with the same nodes and image") {
         CHECK(text.find(word) != std::string::npos);
     }
     CHECK(complaint(directory.path() / "solids.nff", scene)
-              .find("has no word for a solid that is made of others: .pov and .json have") !=
-          std::string::npos);
+              .find("cannot store constructed solids: use .pov or .json") != std::string::npos);
 }
 
 namespace {
@@ -191,7 +185,7 @@ TEST_CASE(
         const std::string start =
             R"({"type": "lens", "axis": [1, 0, 0], "radius": 2, "material": "m", )";
         return for_povray(R"("m": )" + material, start + first + "}, " + start + second + "}")
-                   .first.find("surfaces that two transmissive bodies share") != std::string::npos;
+                   .first.find("surfaces shared by two transmissive bodies") != std::string::npos;
     };
     const std::string glass = R"({"transmission": 1})",
                       crown = R"("vertex": [9, 0, 0], "radii": [4, -3], "thickness": 1.5)",

@@ -139,9 +139,8 @@ TEST_CASE("JSON export reports lost camera features and keeps the image") {
         CHECK(picture_of(again) == picture_of(seen));
         return again;
     };
-    const std::string place = "a camera that finds its place by itself",
-                      fog = "fog that goes with the camera",
-                      lights = "lights that go with the camera";
+    const std::string place = "automatic camera", fog = "automatic fog",
+                      lights = "automatic lights";
     const core::Scene again = check(seen_by(scene, aside), {fog});
     CHECK(again.staging().lights);
     const core::Camera another{.from = {-6, 3, 8}, .at = {1, 0, 0}};

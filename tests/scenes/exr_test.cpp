@@ -152,7 +152,7 @@ TEST_CASE("An EXR with attributes or channels that raylane does not write is ref
     const auto insert = [](const char* name, const auto& attribute) {
         return [=](Header& header) { header.insert(name, attribute); };
     };
-    const std::string refused = path.string() + ": must be an EXR that raylane has drawn";
+    const std::string refused = path.string() + ": must be an EXR rendered by raylane";
     CHECK(complaint([](const Header&) {}) == "no error");
     CHECK(complaint(insert("author", Imf::StringAttribute("me"))) == "no error");
     CHECK(complaint(insert("colorInteropID", Imf::StringAttribute("lin_ap0"))) == refused);
@@ -221,7 +221,7 @@ TEST_CASE("a damaged EXR is bad input") {
         return tests::message_in<scenes::BadInput>(directory.path(),
                                                    [&] { scenes::read_image(path); });
     };
-    const std::string damaged = "a.exr: must be a PNG, EXR, HDR or PFM picture, got a damaged EXR";
+    const std::string damaged = "a.exr: must be a PNG, EXR, HDR or PFM image, got a damaged EXR";
     CHECK(read(whole) == "no error");
     for (std::size_t size = 4; size + 1 < whole.size(); size += 7)
         CHECK(read(whole.substr(0, size)) == damaged);

@@ -278,10 +278,9 @@ TEST_CASE("a file that is not an image is bad input") {
     const auto error_of = [&](const std::string& content) {
         return error_of_reading(directory.write("a.png", content));
     };
-    const std::string damaged = "a.png: must be a PNG, EXR, HDR or PFM picture, got a damaged ";
-    CHECK(error_of("") == "a.png: must be a PNG, EXR, HDR or PFM picture, got something else");
-    CHECK(error_of("GIF89a") ==
-          "a.png: must be a PNG, EXR, HDR or PFM picture, got something else");
+    const std::string damaged = "a.png: must be a PNG, EXR, HDR or PFM image, got a damaged ";
+    CHECK(error_of("") == "a.png: must be a PNG, EXR, HDR or PFM image, got another format");
+    CHECK(error_of("GIF89a") == "a.png: must be a PNG, EXR, HDR or PFM image, got another format");
     CHECK(error_of("\x89PNG\r\n\x1A\n") == damaged + "PNG");
     CHECK(error_of("PFM\n1 1\n-1\nabcdabcdabcd") == damaged + "PFM");
     CHECK(error_of("PF\n1 one\n-1\nabcdabcdabcd") == damaged + "PFM");
@@ -293,8 +292,8 @@ TEST_CASE("a file that is not an image is bad input") {
     CHECK(error_of(header + bytes("\x02\x02\x00\x08\x00\x00\x00\x00")) == damaged + "HDR");
     CHECK(error_of(header + bytes("\x02\x02\x00\x08\x89\x00")) == damaged + "HDR");
 
-    const std::string absurd = "a.png: must be a picture of 1 to 65535 pixels a side and at most "
-                               "268435456 in all, got ";
+    const std::string absurd =
+        "a.png: must be an image of 1 to 65535 pixels a side and at most 268435456 in total, got ";
     CHECK(error_of("PF\n0 5\n-1\n") == absurd + "0 x 5");
     CHECK(error_of("PF\n100000 1\n-1\n") == absurd + "100000 x 1");
     CHECK(error_of("PF\n60000 60000\n-1\n") == absurd + "60000 x 60000");
@@ -310,7 +309,7 @@ TEST_CASE("a PNG with bytes behind its image or too few rows is damaged") {
     const auto error_of = [&](const std::string& content) {
         return error_of_reading(directory.write("a.png", content));
     };
-    const std::string damaged = "a.png: must be a PNG, EXR, HDR or PFM picture, got a damaged PNG";
+    const std::string damaged = "a.png: must be a PNG, EXR, HDR or PFM image, got a damaged PNG";
     const std::string pixel = bytes("\x00\x10\x20\x30"); // a filter and three codes
     CHECK(error_of(png_of(1, 1, 8, pixel)) == "no error");
     CHECK(error_of(png_of(1, 1, 8, pixel) + "x") == damaged);

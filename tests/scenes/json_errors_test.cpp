@@ -123,7 +123,7 @@ TEST_CASE("errors in solids name the shape and instances have a limit") {
          "/objects/0/objects/0/objects/0/radius: must be positive, got -1"},
         {with_objects(
              R"({"type": "union", "material": "clay", "objects": [{"type": "quadric", "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -1]]}]})"),
-         "/objects/0: must have bounds, for it is made of a quadric: intersect it with a box"},
+         "/objects/0: must be bounded, got an unbounded quadric: intersect it with a box"},
     });
     std::string twice = R"("definitions": {"0": )" + ball;
     std::string deep = twice;
@@ -137,11 +137,9 @@ TEST_CASE("errors in solids name the shape and instances have a limit") {
                 R"(": {"type": "union", "objects": [{"type": "instance", "of": ")" +
                 std::to_string(i - 1) + "\"}]}";
     check({
-        {with(twice + "}"),
-         "/definitions/20/objects/0/of: must not lead to more than 1048576 shapes in one object, "
-         "or in all definitions"},
-        {with(deep + "}"),
-         "/definitions/256: must not be of solids that are nested more than 256 deep"},
+        {with(twice + "}"), "/definitions/20/objects/0/of: must not expand to more than 1048576 "
+                            "shapes in one object, or in all definitions"},
+        {with(deep + "}"), "/definitions/256: must not have solids nested more than 256 deep"},
     });
 }
 
@@ -152,7 +150,7 @@ TEST_CASE("shapes of instances and generators have a limit for the whole scene")
     scenes::Definitions definitions;
     definitions.count(scenes::Definitions::most_asked_for, document.root());
     CHECK(message_of<scenes::BadInput>([&] { definitions.count(1, document.root()); })
-              .ends_with("/objects/7: must not lead to more than 67108864 shapes of instances, "
+              .ends_with("/objects/7: must not expand to more than 67108864 shapes of instances, "
                          "lattices and sphereflakes in one scene"));
 }
 
@@ -291,11 +289,11 @@ TEST_CASE("degenerate geometry is reported") {
         {object("cylinder", R"("base": [0, 0, 0], "axis": [0, 0, 0], "radius": 1)"),
          "/objects/1/axis: must not be the zero vector, got [0, 0, 0]"},
         {object("cone", R"("base": [0, 0, 0], "axis": [0, 1, 0], "base_radius": 0)"),
-         "/objects/1/base_radius: must be positive where top_radius is 0, got 0"},
+         "/objects/1/base_radius: must be positive if top_radius is 0, got 0"},
         {object("plane", R"("point": [0, 0, 0], "normal": [0, 0, 0])"),
          "/objects/1/normal: must not be the zero vector, got [0, 0, 0]"},
         {object("triangle", R"("a": [0, 0, 0], "b": [1, 1, 1], "c": [2, 2, 2])"),
-         "/objects/1: must have three corners that are not in one line, got [0, 0, 0], [1, 1, 1], "
+         "/objects/1: must have three corners that are not collinear, got [0, 0, 0], [1, 1, 1], "
          "[2, 2, 2]"},
         {object(
              "triangle",
@@ -316,7 +314,8 @@ TEST_CASE("degenerate geometry is reported") {
         {object(
              "quadric",
              R"("matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 2, 0, -1]], "lower": [0, 0, 0], "upper": [1, 1, 1])"),
-         "/objects/1/matrix/3/1: must be equal to matrix/1/3, for the matrix is symmetric, got 2"},
+         "/objects/1/matrix/3/1: must be equal to matrix/1/3, because the matrix is symmetric, got "
+         "2"},
         {object(
              "quadric",
              R"("matrix": [[1, 0, 0, 0], [0, 1, 0], [0, 0, 1, 0], [0, 0, 0, -1]], "lower": [0, 0, 0], "upper": [1, 1, 1])"),
@@ -417,8 +416,8 @@ TEST_CASE("invalid cameras and fogs and lights are reported") {
          "/lights/0/position: must not be on a surface, got a point of /objects/0"},
         {"{" + camera +
              R"(, "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})",
-         "/lights: must have at least one light where there are objects, or be [] where none is "
-         "meant to be, got none"},
+         "/lights: must have at least one light if there are objects, or be [] for no lights, got "
+         "none"},
     });
 }
 

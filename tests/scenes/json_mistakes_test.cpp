@@ -61,9 +61,8 @@ TEST_CASE("a missing key's position is where the object begins") {
           "2:2: must have the key \"camera\"");
     CHECK(placed_complaint_about_text(start.substr(0, start.find("\"lights\"")) + "\"objects\": [" +
                                       sphere("1", "{}") + "]}") ==
-          "1:1: /lights: must have at least one light where there are objects, or be [] where none "
-          "is "
-          "meant to be, got none");
+          "1:1: /lights: must have at least one light if there are objects, or be [] for no "
+          "lights, got none");
 }
 
 TEST_CASE("an unexpected key's position is where the key begins") {
@@ -124,9 +123,8 @@ TEST_CASE("up to ten errors are reported in the order of the file") {
                                       sphere("4", "\"clay\"") +
                                       "],\n\"materials\": {\"clay\": 3}}") ==
           "1:1: must have the key \"camera\"\n"
-          "1:1: /lights: must have at least one light where there are objects, or be [] where none "
-          "is "
-          "meant to be, got none\n"
+          "1:1: /lights: must have at least one light if there are objects, or be [] for no "
+          "lights, got none\n"
           "1:64: /objects/0/radius: must be positive, got 0\n"
           "1:79: /objects/0/material: must be the name of a material, got \"b\"\n"
           "2:66: /objects/1/material: must be the name of a material, got \"a\"\n"
@@ -204,8 +202,8 @@ TEST_CASE("Errors that follow from a misspelt root key are not reported") {
           "/parameters/r: must be a number, got \"one\"");
     // Independent errors are reported.
     CHECK(complaint({camera, R"("material": {})", balls}) ==
-          "/lights: must have at least one light where there are objects, or be [] where none is "
-          "meant to be, got none\n" +
+          "/lights: must have at least one light if there are objects, or be [] for no lights, got "
+          "none\n" +
               with_suggestion("material", "materials"));
 }
 
@@ -225,7 +223,7 @@ TEST_CASE("A mistake is reported where it is and not where it is used") {
                     R"({"type": "instance", "of": "e"})") ==
           "/definitions/d/radius: must be positive, got -1");
     CHECK(complaint(R"("definitions": {})", use + ", " + use) ==
-          "/objects/0/of: must be the name of a definition that comes before, got \"d\"");
+          "/objects/0/of: must be the name of an earlier definition, got \"d\"");
     CHECK(complaint(R"("parameters": {"r": "x"})", sphere("\"$r\"") + ", " + sphere("\"-$r\"")) ==
           "/parameters/r: must be a number, got \"x\"");
     CHECK(

@@ -66,7 +66,7 @@ TEST_CASE("a parameter without a value or without a use is an error") {
     CHECK(complaint(ball_of_radius(R"("$radius")", R"("parameters": {"x": 1, "raduis": 1})"), {})
               .find("did you mean \"$raduis\"?") != std::string::npos);
     CHECK(complaint(ball_of_radius("1"), {{"x", 1.0}, {"y", 1.0}}) ==
-          "scene.json: has no number \"$y\" that could be set, did you mean \"$x\"?");
+          "scene.json: has no parameter \"$y\", did you mean \"$x\"?");
     CHECK(complaint(ball_of_radius(R"("$r")"), {{"x", 1.0}, {"r", -1.0}})
               .find("/objects/0/radius: must be positive, got -1") != std::string::npos);
     CHECK(complaint(ball_of_radius(R"("$1")"), {{"x", 1.0}})
@@ -110,7 +110,7 @@ TEST_CASE("an error behind a late parameter of an included file has its position
         directory.write("scene.json", ball_of_radius(R"("$r")", R"("include": ["numbers.json"])"));
     CHECK(message_of<scenes::BadInput>([&] { static_cast<void>(scenes::load_scene(path)); }) ==
           (directory.path() / "numbers.json").string() +
-              ":1:46: /include/0: must not include what it is included by, got \"scene.json\"");
+              ":1:46: /include/0: must not include a file that includes it, got \"scene.json\"");
 }
 
 TEST_CASE("a parameter behind its use is refused in a pipe") {
@@ -123,7 +123,7 @@ TEST_CASE("a parameter behind its use is refused in a pipe") {
     };
     const std::string numbers = R"("parameters": {"r": 2, "x": 5})";
     CHECK(complaint_about(ball_of_radius(R"("$r")", numbers))
-              .ends_with("got \"-$x\"; in a pipe it has to come before"));
+              .ends_with("got \"-$x\"; in a pipe, it must come before its use"));
     CHECK(complaint_about("{" + numbers + ", " + ball_of_radius(R"("$r")").substr(1)) ==
           "no error");
 }
@@ -133,7 +133,7 @@ TEST_CASE("parameters are for scenes in JSON") {
     options.parameters = {{"n", 1.0}};
     CHECK(message_of<scenes::BadInput>([&] {
               static_cast<void>(scenes::parse_scene("water.xyz", "1\n\nO 0 0 0\n", options));
-          }).find("only JSON may") != std::string::npos);
+          }).find("only JSON scenes have parameters") != std::string::npos);
 }
 
 TEST_CASE("included files are relative to the including file") {
@@ -166,7 +166,7 @@ TEST_CASE("included files are relative to the including file") {
               .starts_with(name + ":1:14: /include/0: must be the name of a file, got "
                                   "\"nowhere.json\""));
     CHECK(complaint_about(scene_with(R"("scene.json")")) ==
-          name + ":1:14: /include/0: must not include what it is included by, got \"scene.json\"");
+          name + ":1:14: /include/0: must not include a file that includes it, got \"scene.json\"");
     directory.write("parts/wrong.json", R"({"materials": {"red": {"colour": 1}}})");
     CHECK(complaint_about(scene_with(R"("parts/wrong.json")"))
               .starts_with((directory.path() / "parts/wrong.json").string() +
@@ -228,6 +228,5 @@ TEST_CASE("a camera of type auto brings lights if the scene has no list of them"
     CHECK(other.camera().from.x > 6.0F);
     CHECK(other.camera().height < 1.2F);
     CHECK(complaint_about_text(R"({"camera": "auto", "objects": []})") ==
-          "/camera: must have something to find its place by, other than planes and what else has "
-          "no end");
+          "/camera: must have a bounded shape to frame, got none");
 }

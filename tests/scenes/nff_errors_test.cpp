@@ -29,13 +29,13 @@ TEST_CASE("each mistake in an NFF file gives an error of one line") {
          "line 1: must have words shorter than 256 bytes, got \"" + std::string(40, 'x') + "...\""},
         {v + "k 1 2 3\n", "line 9: must be one of v, b, l, f, s, c, p and pp, got \"k\""},
         {"v near", // without a line feed: the word ends with the file
-         "line 1: v: must go on with each of from, at, up, angle, hither, resolution, got "
+         "line 1: v: must continue with each of from, at, up, angle, hither, resolution, got "
          "\"near\""},
         // The view
         {"v\nfrom 0 0 8\nat 0 0 0\nup 0 1 0\nl 1 1 1\n",
-         "line 5: v of line 1: must go on with each of angle, hither, resolution, got \"l\""},
+         "line 5: v of line 1: must continue with each of angle, hither, resolution, got \"l\""},
         {"v from 0 0 8 from 0 0 7",
-         "line 1: v: must go on with each of at, up, angle, hither, resolution, got \"from\""},
+         "line 1: v: must continue with each of at, up, angle, hither, resolution, got \"from\""},
         {"\nv from 0 0\n", "line 2: v: from: must be a finite number, got the end of the file"},
         {"v from 0 0 8 at 0 0 8 up 0 1 0 angle 45 hither 1 resolution 4 4",
          "line 1: v: at: must differ from \"from\", got [0, 0, 8]"},
@@ -146,7 +146,7 @@ TEST_CASE("each mistake in an NFF file gives an error of one line") {
         {v + "s 0 0 0 1\nl 1 2 3\n", "line 10: l: must come before the objects, got it after them"},
         // The whole scene
         {view + "s 0 0 0 1\n",
-         "lights: must have at least one light where there are objects, got none"},
+         "lights: must have at least one light if there are objects, got none"},
     };
     for (const auto& [text, message] : mistakes) {
         CAPTURE(text);

@@ -230,7 +230,7 @@ TEST_CASE("an NFF light on a surface moves off the surface") {
     std::string remarks;
     const core::Scene scene =
         scenes::read_nff(file, nullptr, [&](const std::string& remark) { remarks += remark; });
-    CHECK(remarks == "a.nff:9: l: is on a surface, and shines from beside it here");
+    CHECK(remarks == "a.nff:9: l: a light on a surface is moved off it");
     CHECK(scene.lights().at(0).position == core::Vec3f(5, 5, 5));
     CHECK(core::length(scene.lights().at(1).position) == Approx(1.0F).epsilon(0.01));
     CHECK(core::length(scene.lights().at(1).position) > 1.0F);

@@ -88,15 +88,13 @@ TEST_CASE("a file of another kind is distinguished from a scene with a mistake")
         return raylane::tests::message_of<BadInput>([&] { parse_scene("a" + ending, text); });
     };
     const std::string neither =
-        ": must be a scene in JSON (.json), NFF (.nff), POV-Ray's language (.pov), Tachyon's "
-        "format "
-        "(.dat) or what \"raylane build\" writes (.rl), or atoms in PDB (.pdb), mmCIF or CIF "
-        "(.cif), XYZ (.xyz), GRO (.gro), or "
-        "LAMMPS' dump (.dump) or data (.data), and what it holds is none of these";
+        ": must be a scene (.json, .nff, .pov, Tachyon .dat, or .rl from \"raylane build\") or "
+        "atoms (.pdb, mmCIF or CIF .cif, .xyz, .gro, LAMMPS .dump or .data), got another format";
     const std::string pdb = "HEADER    HYDROLASE\nATOM      1  N   PRO A   1      29.361  39.686\n";
     const std::string obj = "# a cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
     CHECK(error_of(obj, ".obj") == "a.obj" + neither);
-    CHECK(error_of("3\n\nC 0 0 0\n", ".txt") == "a.txt:4: must be atom 2 of 3, and the file ends");
+    CHECK(error_of("3\n\nC 0 0 0\n", ".txt") ==
+          "a.txt:4: must be atom 2 of 3, got the end of the file");
     CHECK(error_of("s one\n", "") == "a" + neither);
     // Here the intended format is clear.
     CHECK(error_of(pdb, ".nff").starts_with("a.nff:1: "));
@@ -112,7 +110,7 @@ TEST_CASE("A scene of any format without objects gives a remark") {
         options.on_remark = [&](const std::string& remark) { remarks.push_back(remark); };
         parse_scene(name, text, options);
         REQUIRE_FALSE(remarks.empty());
-        CHECK(remarks.back() == name + ": has no object, so the background alone is seen");
+        CHECK(remarks.back() == name + ": has no objects: the image shows only the background");
     }
 }
 
@@ -163,10 +161,10 @@ TEST_CASE("Scenes of each format include regular files alone and have a limit of
         CHECK(complaint({"pipe"}).find("\"pipe\"") != std::string::npos);
         if (std::string(name) != "a.pov") { // POV-Ray's includes are looked for in several folders
             const std::string folder = directory.path().string();
-            CHECK(complaint({"pipe"}).ends_with(", and " + folder + "/pipe is a pipe"));
-            CHECK(complaint({"."}).ends_with(", and " + folder + "/. is a directory"));
-            CHECK(complaint({"/dev/null"}).ends_with(", and /dev/null is no regular file"));
-            CHECK(complaint({"none"}).ends_with(", and there is no file " + folder + "/none"));
+            CHECK(complaint({"pipe"}).ends_with(", but " + folder + "/pipe is a pipe"));
+            CHECK(complaint({"."}).ends_with(", but " + folder + "/. is a directory"));
+            CHECK(complaint({"/dev/null"}).ends_with(", but /dev/null is not a regular file"));
+            CHECK(complaint({"none"}).ends_with(", but " + folder + "/none does not exist"));
         }
         directory.write("large", "");
         std::filesystem::resize_file(directory.path() / "large", (std::uint64_t{1} << 30) + 1);
@@ -195,5 +193,5 @@ TEST_CASE("The size that a small file decompresses to has a limit") {
     REQUIRE(std::filesystem::file_size(path) < (1 << 20));
     InputFile compressed(path);
     CHECK(tests::message_of<BadInput>([&] { compressed.read_all(); }) ==
-          path.string() + ": must not be more than 200 times as large as it is compressed");
+          path.string() + ": must not expand to more than 200 times its compressed size");
 }

@@ -271,7 +271,7 @@ TEST_CASE("a crop has the pixels and layers of the whole image") {
                                      {1, 1, most, most},
                                      {most, most, 1, 1}})
         CHECK(message_of<InvalidValue>([&] { render(scene, {.crop = outside}); }) ==
-              "crop: must be a part of the picture");
+              "crop: must lie within the image");
 }
 
 TEST_CASE("images that cannot be written leave no file") {

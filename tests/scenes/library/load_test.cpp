@@ -95,7 +95,7 @@ TEST_CASE("atoms are read with or without the edges of their cell") {
     CHECK(parse_atoms(atom, "a.xyz", false).shape_count() == 1);
     CHECK(parse_atoms(atom, "a.xyz", true).shape_count() == 1 + 8 + 12);
     CHECK(refusal_of([] { parse_atoms("1\n\nC 1 1 1\n", "a.xyz", true); }) ==
-          "--cell: must have a cell to show, and a.xyz has none");
+          "--cell: must have a cell to show, but a.xyz has none");
 }
 
 TEST_CASE("the pages contain the example program that is tested") {
@@ -145,9 +145,9 @@ TEST_CASE("a saved scene is the same when it is loaded again") {
         for (const char* name : {"a.json", "a.rl"}) {
             CAPTURE(objects, name);
             if (objects != balls && std::string(name) == "a.rl") {
-                CHECK(refusal_of([&] { save(scene, path(name)); })
-                          .ends_with("cannot have solids that are made of others, which are built "
-                                     "anew each time"));
+                CHECK(refusal_of([&] {
+                          save(scene, path(name));
+                      }).ends_with("cannot store constructed solids: use .json or .pov"));
                 continue;
             }
             save(scene, path(name), [](const std::string& remark) { FAIL(remark); });
@@ -256,7 +256,7 @@ TEST_CASE("a scene of atoms that is saved as JSON has light from every view") {
         std::vector<std::string> remarks;
         save(seen, path, [&](const std::string& remark) { remarks.push_back(remark); });
         REQUIRE(remarks.size() == 1);
-        CHECK(remarks[0].ends_with(": fog that goes with the camera"));
+        CHECK(remarks[0].ends_with(": automatic fog"));
         CHECK(drawn(load(path)) == drawn(seen));
     }
 }

@@ -271,7 +271,7 @@ TEST_CASE("the triangles of a polygon are numbered in order and known as coplana
     const std::array<Triangle, 2> thin = {halves[0], {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}};
     CHECK(message([&] {
               builder.add_polygon(thin, m);
-          }).starts_with("1: must have three corners that are not in one line"));
+          }).starts_with("1: must have three corners that are not collinear"));
     CHECK(builder.shape_count() == 0);
     CHECK(builder.add(Sphere{{0, 0, 0}, 1}, m) == 0);
     CHECK(builder.add_polygon(halves, m) == 1);

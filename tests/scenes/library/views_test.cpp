@@ -113,7 +113,7 @@ TEST_CASE("a camera on all sees the whole scene in nearly the largest size") {
     builder.add(Plane{{0, -1, 0}, {0, 1, 0}}, builder.add_material({}));
     const Scene plane = builder.build();
     CHECK(message_of([&] { plane.camera_on_all(); }) ==
-          "scene: must have shapes other than planes, to look at");
+          "scene: must have a shape other than planes to frame");
 }
 
 TEST_CASE("a camera on all is valid for the scene or refused") {
@@ -124,6 +124,6 @@ TEST_CASE("a camera on all is valid for the scene or refused") {
         if (radius < 2.5e29F)
             CHECK_NOTHROW(scene.seen_by(scene.camera_on_all()));
         else
-            CHECK(message_of([&] { scene.camera_on_all(); }).find("scene: reaches too far") == 0);
+            CHECK(message_of([&] { scene.camera_on_all(); }).find("scene: is too large") == 0);
     }
 }

@@ -339,16 +339,18 @@ TEST_CASE("the angle of a camera has the bounds of its projection") {
           "a.pov:1:23: must be an angle between 0 and 180 degrees");
     CHECK(read(angle("orthographic angle 0"), "").scene.camera().projection ==
           core::Projection::orthographic);
-    CHECK(read(angle("fisheye angle 225"), "").remarks_on("drawn in perspective"));
-    CHECK(read(angle("spherical angle 360 180"), "").remarks_on("drawn in perspective"));
+    CHECK(read(angle("fisheye angle 225"), "")
+              .remarks_on("is not supported: the image is in perspective"));
+    CHECK(read(angle("spherical angle 360 180"), "")
+              .remarks_on("is not supported: the image is in perspective"));
 }
 
 TEST_CASE("fog by height and a scene without objects get a remark") {
     const Read ground = read("fog { fog_type 2 distance 5 fog_alt 0.3 rgb 1 } sphere { 0, 1 }");
     CHECK(ground.scene.fog().kind == core::FogKind::none);
     CHECK(ground.remarks_on("ground fog is omitted"));
-    CHECK_FALSE(ground.remarks_on("background alone"));
-    CHECK(read("").remarks_on("has no object, so the background alone is seen"));
+    CHECK_FALSE(ground.remarks_on("only the background"));
+    CHECK(read("").remarks_on("has no objects: the image shows only the background"));
 }
 
 TEST_CASE("camera and lights and fog and settings are read as in POV-Ray") {

@@ -105,9 +105,8 @@ TEST_CASE("of elements that share a site the one of the highest occupancy is sho
     };
     CHECK(elements("Mg1 0.3 0 0 0\nFe1 0.7 0 0 0\nO1 1 .5 0 0\nMg2 .5 .5 .5 0\nFe2 .5 .5 .5 0\n") ==
           "Fe O Mg ");
-    CHECK(remarks == std::vector<std::string>{
-                         "a: different elements share a site (Mg1 and Fe1): the one of the "
-                         "highest occupancy is shown"});
+    CHECK(remarks == std::vector<std::string>{"a: different elements share a site (Mg1 and Fe1): "
+                                              "only the one of the highest occupancy is rendered"});
     CHECK(elements("C1A 0.4 0 0 0\nC1B 0.6 0 0 0\n") == "C ");
     CHECK(remarks.empty());
 }
@@ -190,15 +189,14 @@ TEST_CASE("a crystal has the operations of symmetry of its file or of its space 
     const auto error = [](const std::string& symmetry) {
         return complaint(open_cif, cube + symmetry + sites("O1 O 0.1 0.2 0.3\n"));
     };
-    CHECK(
-        error("_symmetry_space_group_name_H-M 'P foo'\n") ==
-        "a: its space group \"P foo\" is none that is known, and it has no operations of symmetry");
+    CHECK(error("_symmetry_space_group_name_H-M 'P foo'\n") ==
+          "a: space group \"P foo\" is unknown, and the file has no operations of symmetry");
     CHECK(error("loop_\n_space_group_symop_operation_xyz\nx,y,z\n-x,-y,-q\n").starts_with("a: "));
     std::string many = "loop_\n_symmetry_equiv_pos_as_xyz\n";
     for (int i = 0; i < 193; ++i)
         many += "'x+" + std::to_string(i % 24) + "/24,y+" + std::to_string(i / 24) + "/24,z'\n";
     CHECK(complaint(open_cif, cube + many + sites("C1 C 0.1 0.2 0.3\n")) ==
-          "a: it has 193 operations of symmetry, and no space group has more than 192 in its cell");
+          "a: must have at most 192 operations of symmetry, got 193");
 }
 
 TEST_CASE("a remark names a space group that is taken by its number alone") {
@@ -212,7 +210,7 @@ TEST_CASE("a remark names a space group that is taken by its number alone") {
         return all;
     };
     CHECK(remarks("'P foo'") ==
-          std::vector<std::string>{"a: the space group \"P foo\" is unknown: number 15 is taken in "
+          std::vector<std::string>{"a: the space group \"P foo\" is unknown: number 15 is used in "
                                    "its standard setting, C 1 2/c 1"});
     CHECK(remarks("'I 1 2/a 1'").empty());
     CHECK(remarks("?").empty());
@@ -231,7 +229,7 @@ TEST_CASE("molecules of a crystal stay together with their middles in the cell")
 TEST_CASE("a crystal without a cell or with invalid coordinates is refused") {
     if (!has_gemmi()) return;
     CHECK(complaint(open_cif, "data_a\n" + sites("O1 O 0.1 0.2 0.3\n")) ==
-          "a: must have a cell (_cell_length_a, ...), as its coordinates are parts of it");
+          "a: must have a cell (_cell_length_a, ...), because its coordinates are fractions of it");
     std::string damaged = cube + sites("O1 O 0.1 0.2 0.3\n");
     damaged.replace(damaged.find("_b 10"), 5, "_b 1z");
     CHECK(complaint(open_cif, damaged).starts_with("a: must have a cell"));

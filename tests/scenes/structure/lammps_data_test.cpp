@@ -121,7 +121,7 @@ TEST_CASE("LAMMPS' data has sections and bonds by numbers of atoms") {
     CHECK(elements_of(read(with("15.9994", "0.3")).frame) == "X X X ");
     CHECK(refusal(with("3 atoms", "4 atoms")) == "a:32: must have 4 atoms, got 3");
     CHECK(refusal(with("1 1 10 20", "1 1 10 21")) ==
-          "a:29:8: must be the number of an atom, and there is no 21");
+          "a:29:8: must be the number of an atom, got unknown 21");
     CHECK(refusal(with("30 1 2", "10 1 2")) ==
           "a:20: must be an atom with a new number, got 10 again");
     CHECK(refusal(with("Velocities\n\n10 0", "Atoms # charge\n\n40 0")) ==
@@ -238,25 +238,23 @@ TEST_CASE("an atom style without a name follows from the columns") {
 TEST_CASE("an atom style that may be one of two must be named") {
     const std::string text =
         data("2 atom types", "Atoms", "1 1 2 1.5 1.5 1.5\n2 2 1 5.5 1.5 1.5\n");
-    CHECK(refusal(text) ==
-          "a:9: must name the atom style that it has, as in \"Atoms # full\" or by "
-          "--atom-style: it may be charge or molecular");
+    CHECK(refusal(text) == "a:9: must name its atom style, as in \"Atoms # full\" or by "
+                           "--atom-style: it can be charge or molecular");
     CHECK(types_of(read(text, "charge").frame) == "1 2 ");
     CHECK(types_of(read(text, "bond").frame) == "2 1 ");
     // Both styles give the same drawing here.
     CHECK_NOTHROW(read(data("2 atom types", "Atoms", "1 1 1 1.5 1.5 1.5\n2 2 2 5.5 1.5 1.5\n")));
-    CHECK(
-        refusal(
-            data("1 atom types", "Atoms", "1 1 2.5 3.5 4.5 1.5 0.5\n2 1 6.5 3.25 5.5 1.5 0.5\n")) ==
-        "a:9: must name the atom style that it has, as in \"Atoms # full\" or by --atom-style: no "
-        "style without sub-styles fits its 7 columns");
+    CHECK(refusal(data("1 atom types", "Atoms",
+                       "1 1 2.5 3.5 4.5 1.5 0.5\n2 1 6.5 3.25 5.5 1.5 0.5\n")) ==
+          "a:9: must name its atom style, as in \"Atoms # full\" or by --atom-style: no style "
+          "without sub-styles fits its 7 columns");
 }
 
 TEST_CASE("the columns of a named atom style are checked") {
     const std::string atoms = "1 1 0.5 1 2 3\n";
     CHECK(refusal(data("1 atom types", "Atoms # full", atoms)) ==
-          "a:9: must name the atom style that it has, as in \"Atoms # full\" or by --atom-style: "
-          "atom style full has 7 columns, or 10 with image flags, got 6");
+          "a:9: must name its atom style, as in \"Atoms # full\" or by --atom-style: atom style "
+          "full has 7 columns, or 10 with image flags, got 6");
     CHECK(refusal(data("1 atom types", "Atoms", atoms), "molecular") ==
           "a:11:5: an atom type must be a label or a whole number from 1 to 1, got \"0.5\"");
     CHECK(refusal(data("1 atom types", "Atoms # charge", "1 2 0.5 1 2 3\n")) ==
@@ -281,7 +279,7 @@ TEST_CASE("a section's remark that is not an atom style is reported and ignored"
     CHECK(reading.frame.positions[0] == Vec3f(1, 2, 3));
     CHECK(reading.remarks ==
           std::vector<std::string>{
-              "a:9: \"id type x y z\" is no atom style: the atoms are read as atomic"});
+              "a:9: \"id type x y z\" is not an atom style: the atoms are read as atomic"});
     CHECK(read(data("1 atom types", "Atoms", "1 1 1 2 3\n")).remarks.empty());
     // LAMMPS skips the line behind a section's name.
     std::string text = data("1 atom types", "Atoms", "1 1 1 2 3 # salt\n");
@@ -401,14 +399,14 @@ TEST_CASE("ellipsoids have their diameters along axes that a quaternion turns") 
               .ends_with("must be a quaternion of a length above zero"));
     CHECK(refusal(with("2 4 6", "-2 4 6")).ends_with("a diameter must not be negative"));
     CHECK(refusal(with("\n1 2 4 6", "\n7 2 4 6"))
-              .ends_with("must be the number of an atom, and there is no 7"));
+              .ends_with("must be the number of an atom, got unknown 7"));
 }
 
 TEST_CASE("an atom style is refused for other files than LAMMPS' data") {
     LoadOptions options;
     options.atom_style = "full";
     CHECK(message_of<BadInput>([&] { parse_scene("a.xyz", "1\n\nC 0 0 0\n", options); }) ==
-          "--atom-style: goes with LAMMPS' data, and a.xyz is none");
+          "--atom-style: goes with a LAMMPS data file, but a.xyz is not one");
     CHECK(parse_scene("a.data", data("1 atom types", "Atoms", "1 1 1 0.5 1 2 3\n"), options)
               .shape_count() == 1);
 }

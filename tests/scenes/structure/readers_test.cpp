@@ -59,11 +59,11 @@ TEST_CASE("an error in XYZ has its line") {
     CHECK(complaint(open_xyz, "x\n") ==
           "a:1:1: the number of atoms must be a whole number from 0 to 2147483647, got \"x\"");
     CHECK(complaint(open_xyz, "3\n\nC 0 0 0\nC 0 0 1\n") ==
-          "a:5: must be atom 3 of 3, and the file ends");
+          "a:5: must be atom 3 of 3, got the end of the file");
     CHECK(complaint(open_xyz, "1\n\nC 0 zero 0\n") ==
           "a:3:5: a coordinate must be a number, got \"zero\"");
     CHECK(complaint(open_xyz, "1\n\nC 0 0\n") ==
-          "a:3:6: must have a coordinate here, and the line ends");
+          "a:3:6: must have a coordinate, got the end of the line");
     CHECK(
         complaint(open_xyz, "1\nLattice=\"1 2\"\nC 0 0 0\n").starts_with("a:2: Lattice must have"));
     CHECK(
@@ -71,7 +71,7 @@ TEST_CASE("an error in XYZ has its line") {
     CHECK(complaint(open_xyz, "1\n\nC 0 0 2e30\n") ==
           "a:3:7: a coordinate must be from -1e30 to 1e30");
     CHECK(complaint(open_xyz, "1\n\nC nan 0 0\n").find("must be a number") != std::string::npos);
-    CHECK(complaint(open_xyz, "") == "a:1: must be the number of atoms, and the file ends");
+    CHECK(complaint(open_xyz, "") == "a:1: must be the number of atoms, got the end of the file");
 }
 
 TEST_CASE("GRO is read in columns of any width") {
@@ -128,9 +128,9 @@ TEST_CASE("LAMMPS' dumps have columns in any order and scaled coordinates") {
     CHECK(complaint(open_lammps_dump, head + "ITEM: ATOMS id x y\n") ==
           "a:5: must have x, y and z (or xs, xu, xsu), got \"ITEM: ATOMS id x y\"");
     CHECK(complaint(open_lammps_dump, head + "ITEM: ATOMS x y z\n1 2 3\n") ==
-          "a:7: must be atom 2 of 2, and the file ends");
+          "a:7: must be atom 2 of 2, got the end of the file");
     CHECK(complaint(open_lammps_dump, "ITEM: TIMESTEP\n1\n") ==
-          "a:3: must have ITEM: ATOMS, and the file ends");
+          "a:3: must have ITEM: ATOMS, got the end of the file");
     CHECK(complaint(open_lammps_dump, "3\n").starts_with("a:1: must begin with \"ITEM: \""));
 }
 

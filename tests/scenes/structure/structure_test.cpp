@@ -405,15 +405,14 @@ TEST_CASE("options that cannot be drawn give an error of one line") {
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.color = "elment"; }) ==
           "--color: must be element, got \"elment\", did you mean \"element\"?");
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.show_cell = true; }) ==
-          "--cell: must have a cell to show, and a.xyz has none");
+          "--cell: must have a cell to show, but a.xyz has none");
     CHECK(error("a.xyz", one, [](LoadOptions& o) {
               o.drawing.repeat = {1, 2, 1};
-          }) == "--repeat: must have a cell to repeat, and a.xyz has none");
+          }) == "--repeat: must have a cell to repeat, but a.xyz has none");
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.ellipsoids = true; }) ==
           "--ellipsoids: a.xyz has no anisotropic displacements");
     CHECK(error("a.xyz", "0\n\n", [](LoadOptions&) {}) ==
-          "a.xyz: has no atoms in its first frame; if there are others, \"--frames 1\" draws the "
-          "next");
+          "a.xyz: has no atoms in its first frame; \"--frames 1\" selects the next one, if any");
     CHECK(error("a.dump",
                 "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n0 1e40\n0 1\n0 1\n"
                 "ITEM: ATOMS xs ys zs\n0.5 0 0\n",
@@ -445,7 +444,7 @@ TEST_CASE("files that gzip has compressed are read") {
     CHECK(load_scene(path).shape_count() == 20'000);
     std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1000);
     CHECK(raylane::tests::message_of<BadInput>([&] { load_scene(path); }) ==
-          path.string() + ": must be whole: what is compressed ends too early");
+          path.string() + ": must be complete, got truncated gzip data");
 }
 
 TEST_CASE("Atoms on top of each other are drawn without bonds and quickly") {
@@ -467,9 +466,8 @@ TEST_CASE("Atoms on top of each other are drawn without bonds and quickly") {
         draw_structure(structure, drawing, "a.xyz", nullptr, nullptr,
                        [&](const std::string& remark) { remarks.push_back(remark); });
     CHECK(scene.shape_count() >= crowd + 2);
-    CHECK(remarks == std::vector<std::string>{
-                         "a.xyz: 300000 atoms lie on top of others, more than 24 within a "
-                         "bond's length: they are drawn without bonds"});
+    CHECK(remarks == std::vector<std::string>{"a.xyz: 300000 atoms have more than 24 others within "
+                                              "the length of a bond: they have no bonds"});
 }
 
 TEST_CASE("An atom with 24 neighbours has bonds and one with 25 has none") {

@@ -30,7 +30,7 @@ Reading read(const std::string& body, const TachyonShading& over = {}) {
     LoadOptions options;
     std::vector<std::string> remarks;
     options.on_remark = [&](const std::string& remark) {
-        if (!remark.ends_with("the background alone is seen")) remarks.push_back(remark);
+        if (!remark.ends_with("the image shows only the background")) remarks.push_back(remark);
     };
     options.tachyon = over;
     core::Scene scene = parse_scene("a.dat", begin + body + "\nEND_SCENE\n", options);
@@ -157,7 +157,7 @@ TEST_CASE("a Tachyon surface is as transparent as its mode says") {
                "1 TEXTURE AMBIENT 0 DIFFUSE 0 SPECULAR 0 OPACITY 0.5")
               .remarks ==
           std::vector<std::string>{
-              "a.dat:3: TRANS_RASTER3D: what is transparent is not more opaque aslant"});
+              "a.dat:3: TRANS_RASTER3D is ignored: opacity does not change with the angle"});
     CHECK(read("SHADER_MODE FULL SHADOW_FILTER_OFF END_SHADER_MODE").remarks.size() == 1);
     CHECK(read("SHADER_MODE FULL SHADOW_FILTER_ON END_SHADER_MODE").remarks.empty());
 }
@@ -190,7 +190,8 @@ TEST_CASE("objects without an extent in a Tachyon scene are left out with one re
         read("SPHERE CENTER 0 0 0 RAD 0" + plain + "TRI V0 0 0 0 V1 1 1 1 V2 2 2 2" + plain +
              "FCYLINDER BASE 1 1 1 APEX 1 1 1 RAD 1" + plain + ball);
     CHECK(reading.scene.shape_count() == 1);
-    CHECK(reading.remarks == std::vector<std::string>{"a.dat:3: what has no extent is left out"});
+    CHECK(reading.remarks ==
+          std::vector<std::string>{"a.dat:3: objects without a size are omitted"});
 }
 
 TEST_CASE("a Tachyon clip group cuts each of its objects") {
@@ -226,8 +227,9 @@ TEST_CASE("Tachyon's lights and ambient occlusion become lights") {
     CHECK(full.settings().light_samples == 16);
     const Reading medium = read("SHADER_MODE MEDIUM" + sky + light);
     CHECK(medium.scene.lights().size() == 1);
-    CHECK(medium.remarks == std::vector<std::string>{"a.dat: SHADER_MODE MEDIUM: what is drawn "
-                                                     "has shadows, as FULL has"});
+    CHECK(medium.remarks ==
+          std::vector<std::string>{
+              "a.dat: SHADER_MODE MEDIUM is not supported: there are shadows, same as FULL"});
     TachyonShading over;
     over.sky = Color(0.75F);
     over.direct = 0.5F;
@@ -239,7 +241,7 @@ TEST_CASE("Tachyon's lights and ambient occlusion become lights") {
 TEST_CASE("a Tachyon light on a surface moves off the surface") {
     const Reading reading = read(ball + "LIGHT CENTER 1 2 3.5 RAD 0 COLOR 1 1 1\n");
     CHECK(reading.remarks ==
-          std::vector<std::string>{"a.dat: LIGHT: on a surface, a light shines from beside it"});
+          std::vector<std::string>{"a.dat: LIGHT: a light on a surface is moved off it"});
     CHECK(reading.scene.lights().at(0).position.z != -3.5F);
     CHECK(reading.scene.lights().at(0).position.z == Approx(-3.5F).epsilon(0.01));
 }
@@ -266,8 +268,9 @@ TEST_CASE("Tachyon's background and fog are read or approximated with a remark")
               .fog()
               .kind == core::FogKind::exponential);
     CHECK(read(planar + camera("") + "END_CAMERA FOG EXP DENSITY 0.5 COLOR 1 1 0").remarks ==
-          std::vector<std::string>{"a.dat: FOG_VMD: the background has the fog's colour",
-                                   "a.dat: FOG_VMD: fog is by distance, not by depth"});
+          std::vector<std::string>{
+              "a.dat: FOG_VMD: the background has the colour of the fog",
+              "a.dat: FOG_VMD is ignored: fog depends on distance, not on depth"});
     const Reading squared =
         read(planar + camera("") + "END_CAMERA FOG EXP2 START 0 END 9 DENSITY 0.5 COLOR 1 1 1");
     CHECK(squared.scene.fog().kind == core::FogKind::linear_z);
@@ -291,10 +294,10 @@ TEST_CASE("each unsupported feature of a Tachyon scene gives one remark") {
     CHECK(reading.scene.shape_count() == 3);
     CHECK(reading.remarks ==
           std::vector<std::string>{
-              "a.dat:3: highlights of metal have its brightness, but not its colour",
-              "a.dat:3: TEXFUNC: images and patterns are not drawn, but their COLOR",
+              "a.dat:3: METAL is ignored: highlights have its brightness, but not its colour",
+              "a.dat:3: TEXFUNC is ignored: COLOR replaces images and patterns",
               "a.dat:5: the texture \"nothing\" is not defined",
-              "a.dat:6: SCAPE: landscapes are not drawn"});
+              "a.dat:6: SCAPE is omitted: landscapes are not supported"});
 }
 
 TEST_CASE("a Tachyon scene is recognised by its first word") {
@@ -303,7 +306,7 @@ TEST_CASE("a Tachyon scene is recognised by its first word") {
     CHECK(parse_scene("standard input", scene).shape_count() == 1);
     CHECK(tests::message_of<BadInput>([&] {
               parse_scene("a", "begin_scenery");
-          }).find("Tachyon's format (.dat)") != std::string::npos);
+          }).find("Tachyon .dat") != std::string::npos);
 }
 
 TEST_CASE("a Tachyon scene can include files in its folder") {
@@ -340,12 +343,12 @@ TEST_CASE("each mistake in a Tachyon scene gives an error with its line") {
     const std::vector<std::pair<std::string, std::string>> mistakes = {
         {"SPHERE CENTER 1 2\n3 RAD big",
          "a.dat:4: SPHERE of line 3: rad: must be a finite number, got \"big\""},
-        {"SPHERE RAD 1", "a.dat:3: SPHERE: must go on with CENTER, got \"RAD\""},
+        {"SPHERE RAD 1", "a.dat:3: SPHERE: must continue with CENTER, got \"RAD\""},
         {"Sphere center 1e40 0 0",
          "a.dat:3: Sphere: center: must be a number from -1e30 to 1e30, got \"1e40\""},
-        {"BALL", "a.dat:3: must be an object or another statement of Tachyon's, got \"BALL\""},
+        {"BALL", "a.dat:3: must be an object or another statement of Tachyon, got \"BALL\""},
         {ball + "INCLUDE -",
-         "a.dat:4: INCLUDE: must be the name of a file, got \"-\", and there is no file -"},
+         "a.dat:4: INCLUDE: must be the name of a file, got \"-\", but - does not exist"},
         {"PLANE CENTER 0 0 0 NORMAL 0 0 0" + plain,
          "a.dat:3: PLANE: normal: must not be the zero vector, got [0, 0, 0]"},
         {"TEXDEF t AMBIENT -1 DIFFUSE 0 SPECULAR 0 OPACITY 1\nSPHERE CENTER 0 0 0 RAD 1 t",
@@ -356,16 +359,16 @@ TEST_CASE("each mistake in a Tachyon scene gives an error with its line") {
         {"VERTEXARRAY NUMVERTS 3 COORDS 0 0 0 1 0 0 0 1 0" + plain + "TRIMESH 1 0 1 3",
          "a.dat:4: VERTEXARRAY of line 3: corner: must be a whole number from 0 to 2, got \"3\""},
         {"VERTEXARRAY NUMVERTS 3 TRISTRIP 3 0 1 2",
-         "a.dat:3: VERTEXARRAY: must go on with COORDS of more than 0 corners before triangles, "
+         "a.dat:3: VERTEXARRAY: must continue with COORDS of more than 0 corners before triangles, "
          "got \"0\""},
         {"SHADER_MODE HIGH",
-         "a.dat:3: SHADER_MODE: must go on with FULL, MEDIUM, LOW or LOWEST, got \"HIGH\""},
+         "a.dat:3: SHADER_MODE: must continue with FULL, MEDIUM, LOW or LOWEST, got \"HIGH\""},
         {"SHADER_MODE FULL AMBIENT_OCCLUSION AMBIENT_COLOR 1 1 1 RESCALE_DIRECT -1",
          "a.dat:3: SHADER_MODE: rescale_direct: must not be negative, got -1"},
         {"LIGHT CENTER 0 0 0 RAD 0 COLOR -1 0 0",
          "a.dat:3: LIGHT: color/0: must not be negative, got -1"},
-        {"FOG CUBIC", "a.dat:3: FOG: must go on with LINEAR, EXP, EXP2 or OFF, got \"CUBIC\""},
-        {camera("") + "UPDIR", "a.dat:3: CAMERA: must go on with END_CAMERA, got \"UPDIR\""},
+        {"FOG CUBIC", "a.dat:3: FOG: must continue with LINEAR, EXP, EXP2 or OFF, got \"CUBIC\""},
+        {camera("") + "UPDIR", "a.dat:3: CAMERA: must continue with END_CAMERA, got \"UPDIR\""},
         {"CAMERA ZOOM 1 ASPECTRATIO 1 ANTIALIASING 0 RAYDEPTH 1 CENTER 0 0 0 VIEWDIR 0 1 0 UPDIR "
          "0 1 0 END_CAMERA",
          "a.dat: up: must not be along the line of sight, got [0, 1, 0]"},
@@ -381,7 +384,7 @@ TEST_CASE("each mistake in a Tachyon scene gives an error with its line") {
               read_tachyon(file);
           }) == "a.dat:1: must be BEGIN_SCENE at the start of a scene, got \"v\"");
     CHECK(tests::message_of<BadInput>([] { parse_scene("a.dat", begin + ball); }) ==
-          "a.dat: must end with END_SCENE, and is cut short");
+          "a.dat: must end with END_SCENE, got a truncated file");
 }
 
 TEST_CASE("a Tachyon scene that is truncated or damaged anywhere gives at most one line of error") {
@@ -416,8 +419,9 @@ TEST_CASE("Tachyon scenes in the form of VMD and others are read") {
     CHECK(vmd.lights().size() == 3);
     CHECK(remarks ==
           std::vector<std::string>{
-              data("vmd.dat") + ":78: a triangle has one colour, the mean of its corners'",
-              data("vmd.dat") + ": FOG: EXP2 is drawn as the linear fog that is nearest to it"});
+              data("vmd.dat") +
+                  ":78: colours at the corners of a triangle are not supported: their mean is used",
+              data("vmd.dat") + ": EXP2 fog is not supported: the nearest linear fog is used"});
     const core::Scene named = load_scene(data("named.dat"));
     CHECK(named.shape_count() == 5);
     CHECK(named.materials().size() == 2);

@@ -81,10 +81,8 @@ TEST_CASE("a path without a scene file gives an error of one line") {
         {"JSON of nothing", "a.json", " // nothing\n", "must be a scene, got an empty file"},
         {"NFF of nothing", "a.nff", "# nothing\n", "must have a v entity, got none"},
         {"no scene at all", "a", "Dear Sir,\n",
-         "must be a scene in JSON (.json), NFF (.nff), POV-Ray's language (.pov), Tachyon's format "
-         "(.dat) or what \"raylane build\" writes (.rl), or atoms in PDB (.pdb), mmCIF or CIF "
-         "(.cif), XYZ (.xyz), GRO (.gro), or "
-         "LAMMPS' dump (.dump) or data (.data), and what it holds is none of these"},
+         "must be a scene (.json, .nff, .pov, Tachyon .dat, or .rl from \"raylane build\") or "
+         "atoms (.pdb, mmCIF or CIF .cif, .xyz, .gro, LAMMPS .dump or .data), got another format"},
         {"no NFF at all", "a.nff", "Dear Sir,\n",
          R"(line 1: must be one of v, b, l, f, s, c, p and pp, got "Dear")"},
         {"a binary JSON file", "a.json",
@@ -157,11 +155,11 @@ TEST_CASE("an invalid shape gives an error of one line") {
         in_object("no width",
                   R"("type": "cone", "base": [0, 0, 0], "axis": [0, 1, 0], )"
                   R"("base_radius": 0, "top_radius": 0)",
-                  "/base_radius: must be positive where top_radius is 0, got 0"),
+                  "/base_radius: must be positive if top_radius is 0, got 0"),
         in_object("degenerate triangle",
                   R"("type": "triangle", "a": [0, 0, 0], "b": [1, 1, 1], "c": [2, 2, 2])",
-                  ": must have three corners that are not in one line, got [0, 0, 0], [1, 1, 1], "
-                  "[2, 2, 2]"),
+                  ": must have three corners that are not collinear, got [0, 0, 0], [1, 1, 1], [2, "
+                  "2, 2]"),
         in_object("flat box",
                   R"("type": "box", "corner": [0, 0, 0], )"
                   R"("edges": [[1, 0, 0], [0, 1, 0], [1, 1, 0]])",
@@ -207,8 +205,8 @@ TEST_CASE("an invalid camera or fog or light or setting gives an error of one li
         {"no light", "a.json",
          R"({"camera": {"from": [0, 0, 9], "at": [0, 0, 0]}, "objects": [
             {"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})",
-         "/lights: must have at least one light where there are objects, or be [] where none is "
-         "meant to be, got none"},
+         "/lights: must have at least one light if there are objects, or be [] for no lights, got "
+         "none"},
     });
 }
 
@@ -239,7 +237,7 @@ TEST_CASE("a mistake in an NFF file gives an error of one line") {
         in_nff("axis 0", "c 0 0 0 1\n 0 0 0 1\n",
                "line 9: c: apex: must differ from the base, got the same point"),
         {"no light", "a.nff", view + "s 0 0 0 1\n",
-         "lights: must have at least one light where there are objects, got none"},
+         "lights: must have at least one light if there are objects, got none"},
     });
 }
 
@@ -256,7 +254,7 @@ TEST_CASE("an NFF scene from a pipe is read once") {
     };
     const Outcome outcome = workshop.run({"info", "/dev/stdin"}, from_pipe);
     CHECK(outcome.code == 0);
-    CHECK(outcome.err.find("/dev/stdin:8: l: is on a surface, and shines from beside it here") !=
+    CHECK(outcome.err.find("/dev/stdin:8: l: a light on a surface is moved off it") !=
           std::string::npos);
 }
 
@@ -303,7 +301,8 @@ TEST_CASE("a scene without objects renders the background") {
         "camera": {"from": [0, 0, 9], "at": [0, 0, 0]}, "background": [0.25, 0.5, 1], "objects": []})");
     const Outcome outcome = workshop.render("out/picture.pfm");
     CHECK(outcome.code == 0);
-    CHECK(outcome.err.find("has no object, so the background alone is seen") != std::string::npos);
+    CHECK(outcome.err.find("has no objects: the image shows only the background") !=
+          std::string::npos);
     const scenes::Image picture = scenes::read_image(workshop.output() / "picture.pfm");
     REQUIRE(picture.width == 3);
     REQUIRE(picture.height == 2);

@@ -81,12 +81,12 @@ TEST_CASE("scenes that cannot be built and invalid built scenes give an error of
     };
     says({"build", "scene.json", "-o", "out/a.json"}, "--output: must end in .rl");
     says({"build", "scene.json", "-o", "scene.json"}, "--output: ");
-    says({"build", "solid.json", "-o", "out/a.rl"},
-         "out/a.rl: cannot have solids that are made of others");
+    says({"build", "solid.json", "-o", "out/a.rl"}, "out/a.rl: cannot store constructed solids");
     says({"render", "bad.rl", "-o", "out/a.png"}, "bad.rl: must be ");
     workshop.run({"build", "scene.json", "-q"});
     says({"render", "scene.rl", "-o", "out/a.png", "--style", "spheres"},
          "goes with a file of atoms");
-    says({"render", "scene.rl", "-o", "out/a.png", "--set", "a=1"}, "only JSON may");
+    says({"render", "scene.rl", "-o", "out/a.png", "--set", "a=1"},
+         "only JSON scenes have parameters");
     CHECK(workshop.is_output_empty());
 }

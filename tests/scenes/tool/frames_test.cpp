@@ -234,9 +234,10 @@ TEST_CASE("a film that was interrupted goes on where it was") {
     CHECK(process.wait().code == 128 + SIGINT);
     CHECK(std::filesystem::exists(workshop.output() / "f1.pfm.part"));
     CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 2);
-    CHECK(workshop.run(film).err == "raylane: out/f1.pfm.part: belongs to other options or another "
-                                    "version; not resumed, kept until this image is complete\n1 of "
-                                    "3 images exist already; --overwrite renders them again\n");
+    CHECK(workshop.run(film).err ==
+          "raylane: out/f1.pfm.part: belongs to other options or another version; not resumed, "
+          "kept until this image is complete\n"
+          "1 of 3 images exist already; --overwrite renders them again\n");
     CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 3);
     CHECK(picture(workshop, "out/f0.pfm") == "drawn");
     CHECK(std::filesystem::exists(workshop.output() / "f2.pfm"));
@@ -275,7 +276,7 @@ TEST_CASE("the option --view works for any scene and moves the lights that follo
         "objects": [{"type": "plane", "material": {}, "point": [0, 0, 0], "normal": [0, 1, 0]}]})");
     CHECK(workshop.run({"render", "floor.json"}).code == 0);
     CHECK(complaint(workshop, {"floor.json", "--view", "top"})
-              .find("--view: must have something to find its place by") != std::string::npos);
+              .find("--view: must have a bounded shape to frame") != std::string::npos);
 }
 
 TEST_CASE("scenes of other programs accept --view and --turn but not --frames") {
@@ -319,8 +320,8 @@ END_SCENE
         CHECK(picture(workshop, name + "0.pfm") != picture(workshop, name + "1.pfm"));
         CHECK(complaint(workshop, {name, "--frames", "0:2"}) ==
               "raylane: --frames: goes with a file of atoms, but " + name + " is a scene\n");
-        CHECK(complaint(workshop, {name, "--set", "n=1:2:2"}).find("only JSON may") !=
-              std::string::npos);
+        CHECK(complaint(workshop, {name, "--set", "n=1:2:2"})
+                  .find("only JSON scenes have parameters") != std::string::npos);
     }
 }
 
@@ -345,9 +346,9 @@ TEST_CASE("mistakes about several images give an error of one line") {
     says({"scene.json", "--set", "r=1", "--set", "r=2"}, "--set: must set \"r\" only once");
     says({"scene.json", "--set", "r=1:2:2", "--set", "x=1:2:3"},
          "the same number of values in all sweeps, got 2 and 3");
-    says({"scene.json", "--set", "q=1"}, "scene.json: has no number \"$q\"");
+    says({"scene.json", "--set", "q=1"}, "scene.json: has no parameter \"$q\"");
     says({"scene.json", "--frames", "0:2"}, "--frames: goes with a file of atoms");
-    says({"move.xyz", "--set", "r=1"}, "only JSON may");
+    says({"move.xyz", "--set", "r=1"}, "only JSON scenes have parameters");
     says({"move.xyz", "--frames", "0:2:0"}, "--frames: must be");
     says({"move.xyz", "--frames", "a"}, "--frames: must be");
     says({"move.xyz", "--frames", ""}, "--frames: must be");

@@ -65,7 +65,7 @@ TEST_CASE("info gives the memory of doubles") {
     };
     const auto needs = [](const Json& info) {
         const auto needed = info["needed"].get<std::vector<std::string>>();
-        return std::find(needed.begin(), needed.end(), "shapes in double") != needed.end();
+        return std::find(needed.begin(), needed.end(), "double-precision shapes") != needed.end();
     };
     const Json in_floats = info_with("0.5"), in_doubles = info_with("0.1");
     CHECK(!needs(in_floats));
@@ -136,9 +136,9 @@ TEST_CASE("images that cannot be compared give an error of one line") {
         {"c.pfm", "must have integer codes as a.png has, got linear floats"},
         {"none.png", "no such file"},
         {"out", "must be a file, got a directory"},
-        {"cut.png", "must be a PNG, EXR, HDR or PFM picture, got a damaged PNG"},
-        {"empty.png", "must be a PNG, EXR, HDR or PFM picture, got something else"},
-        {"scene.json", "must be a PNG, EXR, HDR or PFM picture, got something else"},
+        {"cut.png", "must be a PNG, EXR, HDR or PFM image, got a damaged PNG"},
+        {"empty.png", "must be a PNG, EXR, HDR or PFM image, got another format"},
+        {"scene.json", "must be a PNG, EXR, HDR or PFM image, got another format"},
     };
     for (const auto& [file, message] : rows) {
         const Outcome outcome =

@@ -128,7 +128,7 @@ TEST_CASE("parts that do not make a whole give an error of one line") {
     }
     workshop.write("part-2.exr", "mine");
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
-          "raylane: part-2.exr: must be an EXR that raylane has drawn\n");
+          "raylane: part-2.exr: must be an EXR rendered by raylane\n");
     CHECK(refusal(merged({1, 4}, "out/a.png")) == "raylane: part-4.exr: no such file\n");
     CHECK(refusal(merged({1, 3}, "part-1.exr")).starts_with("raylane: --output: "));
     CHECK(refusal({"verify", "part-1.exr", "scene.json", "--quiet"}) ==
@@ -316,7 +316,7 @@ TEST_CASE("a part with a missing or malformed Rays attribute is refused") {
         return outcome.err;
     };
     CHECK(refusal("many") == "raylane: part-2.exr: has a malformed \"Rays\" attribute\n");
-    CHECK(refusal("").ends_with("it has no Rays\n"));
+    CHECK(refusal("").ends_with("got one without Rays\n"));
     CHECK(workshop.is_output_empty());
 }
 

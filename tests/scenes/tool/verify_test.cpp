@@ -459,8 +459,8 @@ TEST_CASE("settings that no Comment has belong to the options of an image") {
         // For any pixel that is chosen.
         const Outcome outcome = verify(workshop, "a.png", {"--pixels", "1"});
         CHECK(outcome.code == 1);
-        CHECK(outcome.out.starts_with("scene      same as the image names\noptions    differ from "
-                                      "those that the image names\n"));
+        CHECK(outcome.out.starts_with("scene      same as the image names\n"
+                                      "options    differ from those that the image names\n"));
         workshop.write("scene.json", outlined);
         CHECK(verify(workshop, "a.png").out == right);
     }
@@ -480,7 +480,8 @@ TEST_CASE("settings that no Comment has belong to the options of an image") {
     write_again(workshop.path() / "a.png", workshop.path() / "a.png", without);
     const Outcome older = verify(workshop, "a.png");
     CHECK(older.code == 0);
-    CHECK(older.out.starts_with("scene      same as the image names\npixels     192 "));
+    CHECK(older.out.starts_with("scene      same as the image names\n"
+                                "pixels     192 "));
 }
 
 /// Light passes the box along its diagonal plane, and meets its edges to the last bit.
