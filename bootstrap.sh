@@ -82,7 +82,7 @@ say_costs() {
 
 install_missing() {
     if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
-        echo "raylane needs these packages, and there is no apt here to install them:" >&2
+        echo "raylane needs these packages, but apt is missing:" >&2
         echo "$packages" | sed '/^$/d; s/^/  /' >&2
         fail 3 "install them by this system's package manager, then build: see CONTRIBUTING.md"
     fi

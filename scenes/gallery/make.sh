@@ -82,7 +82,7 @@ row() { # name, arguments of raylane, the other's name and command
     for kind in raylane other; do
         from=$name.$kind.png
         [ -e "$from" ] || from=$name.$kind.tga
-        [ -e "$from" ] || fail "$name: there is no picture by $kind"
+        [ -e "$from" ] || fail "$name: no image by $kind"
         convert "$from" -auto-orient -resize 400x300 -background white -gravity center -extent 400x300 -strip \
             -colors 256 "$pages/$name.$kind.png"
     done

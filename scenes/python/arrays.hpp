@@ -29,8 +29,8 @@ inline void refuse_masked(const py::handle& values, const std::string& field) {
         if (!py::hasattr(array, "_mask")) return;
         const py::object is_masked = py::module_::import("numpy").attr("ma").attr("is_masked");
         if (is_masked(array).cast<bool>())
-            throw InvalidValue(field, "must have no masked values: leave them out, or fill them by "
-                                      "numpy.ma.filled()");
+            throw InvalidValue(
+                field, "must have no masked values: omit them, or fill them by numpy.ma.filled()");
     };
     if (!py::isinstance<py::list>(values) && !py::isinstance<py::tuple>(values))
         return refuse(values);

@@ -174,8 +174,7 @@ std::span<Value> out(const py::object& array, std::size_t count, const char* fie
     refuse_masked(array, field);
     using Array = py::array_t<Value, py::array::c_style>;
     if (!py::isinstance<Array>(array))
-        throw InvalidValue(field,
-                           "must be an array of its type, whose values lie one after the other");
+        throw InvalidValue(field, "must be a contiguous array of its type");
     auto values = py::reinterpret_borrow<Array>(array);
     if (values.ndim() != 1 || static_cast<std::size_t>(values.size()) != count)
         throw InvalidValue(field, "must have the shape (" + std::to_string(count) + ",), got " +

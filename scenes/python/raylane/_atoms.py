@@ -21,7 +21,7 @@ def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[n
     """Returns coordinates as an array of float64. Raises InvalidValue for another shape or invalid numbers."""
     if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         raise InvalidValue(
-            field, "must have no masked values: leave them out, or fill them by numpy.ma.filled()"
+            field, "must have no masked values: omit them, or fill them by numpy.ma.filled()"
         )
     try:
         array = np.asarray(values)
@@ -63,10 +63,10 @@ def from_atoms(
     ``"cell/0/2"``, ...
     """
     if isinstance(symbols, (str, bytes)):  # the characters of "H2O" would count as elements, 2 as helium
-        raise InvalidValue("symbols", f"must be a list of them, got {symbols[:40]!r}")
+        raise InvalidValue("symbols", f"must be a list of symbols or numbers, got {symbols[:40]!r}")
     words = [_symbol(symbol, index) for index, symbol in enumerate(symbols)]
     if not words:
-        raise InvalidValue("symbols", "must be those of one atom or more, got none")
+        raise InvalidValue("symbols", "must have at least one atom, got none")
     places = _numbers(positions, (len(words), 3), "positions")
     comment = "Properties=species:S:1:pos:R:3"
     show_cell = False

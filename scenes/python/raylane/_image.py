@@ -120,7 +120,7 @@ class Image(Fields):
                 return
         opener = shutil.which("open" if sys.platform == "darwin" else "xdg-open")
         if opener is None:
-            raise RuntimeError("there is no notebook here, and no desktop: save() the picture")
+            raise RuntimeError("no notebook and no desktop: use save()")
         folder = tempfile.mkdtemp(prefix="raylane-")
         atexit.register(shutil.rmtree, folder, ignore_errors=True)
         path = Path(folder) / "picture.png"
@@ -201,6 +201,6 @@ def imshow(picture: Union[Scene, Image], ax: Any = None, **options: Any) -> Any:
     if isinstance(picture, Scene):
         picture = render(picture, **options)
     elif options:
-        raise TypeError("a picture that is there takes no options of render")
+        raise TypeError("an existing image takes no options of render")
     ax.set_axis_off()
     return ax.imshow(picture.to_bytes(), interpolation="nearest")

@@ -411,7 +411,7 @@ class SceneBuilder(Fields):
         try:
             return scene.seen_by(scene.camera_on_all(aspect=aspect))
         except InvalidValue as error:
-            warnings.warn(f"{error}; as yet it has Camera()", stacklevel=2)
+            warnings.warn(f"{error}; Camera() is used", stacklevel=2)
             return scene
 
 

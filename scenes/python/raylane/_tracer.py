@@ -228,7 +228,7 @@ class Tracer:
         if out is None:
             out = np.empty(_count(origins, directions), np.bool_)
         elif not isinstance(out, np.ndarray) or out.dtype != np.bool_ or not out.flags.c_contiguous:
-            raise InvalidValue("out", "must be an array of bool, whose values lie one after the other")
+            raise InvalidValue("out", "must be a contiguous array of bool")
         rest = self._rest(t_min, t_max, leaving)
         self._tracer.occluded(origins, directions, rest, out.view(np.uint8))
         return out

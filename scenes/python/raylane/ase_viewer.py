@@ -40,7 +40,7 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(name)
     from ase.utils.plugins import ExternalViewer
 
-    return ExternalViewer(desc="Pictures by raylane", module="raylane.ase_viewer")
+    return ExternalViewer(desc="Images by raylane", module="raylane.ase_viewer")
 
 
 _register()
