@@ -280,7 +280,7 @@ Solid Assembly::made_of(const Object& object, const Look& look, const Shared<Mot
         is_first = false;
     }
     if (all.parts.empty())
-        fail(object.place, "must have an object that is neither inverse nor subtracted");
+        fail(object.place, "must have an object that is not inverse and not subtracted");
     if (less.parts.empty()) return all;
     less.parts.insert(less.parts.begin(),
                       all.parts.size() == 1 ? std::move(all.parts[0]) : std::move(all));

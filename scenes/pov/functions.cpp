@@ -241,7 +241,7 @@ double Tokens::begin_random(std::uint32_t seed) {
 /// Uses POV-Ray's generator, so that the scene is the same.
 double Tokens::next_random(double stream, const Place& place) {
     if (!(stream >= 0.0 && stream < static_cast<double>(random_.size())))
-        fail(place, "must be what seed() has made");
+        fail(place, "must be a result of seed()");
     std::uint32_t& state = random_[static_cast<std::size_t>(stream)];
     state = state * 1812433253U + 12345U;
     return static_cast<double>(state) / 4294967295.0;

@@ -201,7 +201,7 @@ class Parser {
 
     Selected words() {
         const std::string_view given = word_;
-        const std::string word = in_lower_case(taken("what to select"));
+        const std::string word = in_lower_case(taken("a selection"));
         if (word == "all") return Selected(structure_.size(), 1);
         if (word == "none") return Selected(structure_.size(), 0);
         if (word == "protein") return where_residue(is_amino_acid);

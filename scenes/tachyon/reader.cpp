@@ -141,7 +141,7 @@ void Reader::add_lights() {
         builder_.add_light(light);
     }
     if (quality == Quality::no_shadows && !lights_.empty())
-        words_.remark("SHADER_MODE MEDIUM is not supported: there are shadows, same as FULL");
+        words_.remark("SHADER_MODE MEDIUM is not supported: objects cast shadows, same as FULL");
     if (quality != Quality::full || !shading_.sky) return;
     core::Light sky{.kind = core::LightKind::sky, .color = *shading_.sky, .ground = *shading_.sky};
     builder_.add_light(sky);

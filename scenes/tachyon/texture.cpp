@@ -60,7 +60,7 @@ TachyonTexture read_texture(TachyonWords& words) {
         } else if (words.accept("OUTLINE")) {
             words.number("OUTLINE");
             words.named_number("OUTLINE_WIDTH");
-            words.remark("OUTLINE is ignored: there are no outlines");
+            words.remark("OUTLINE is ignored: the image has no outlines");
         } else if (words.accept("COLOR")) {
             texture.color = words.triple("COLOR");
         } else if (words.accept("TEXFUNC")) {

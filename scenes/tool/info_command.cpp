@@ -118,10 +118,10 @@ void print(const Json& info) {
     line("lights", number("lights"));
     line("fog", info["fog"]);
     line("camera", info["camera"]);
-    line("picture", number("width") + " x " + number("height") + " pixels, " +
-                        (info["quality"] == 0 ? number("samples_per_pixel") + " samples each, "
-                                              : number("quality") + " dB, ") +
-                        info["transfer"].get<std::string>() + " transfer");
+    line("image", number("width") + " x " + number("height") + " pixels, " +
+                      (info["quality"] == 0 ? number("samples_per_pixel") + " samples each, "
+                                            : number("quality") + " dB, ") +
+                      info["transfer"].get<std::string>() + " transfer");
     const bool has_limit = info["max_see_through"] < core::Settings::see_through_limit;
     line("limits",
          "depth " + number("max_depth") + ", weight " + number("min_weight") +
@@ -132,7 +132,7 @@ void print(const Json& info) {
         info["double_bytes"] == 0 ? "" : " and " + bytes_text(info["double_bytes"]) + " of doubles";
     line("memory", bytes_text(info["scene_bytes"]) + " scene with " + number("hierarchy_nodes") +
                        " hierarchy nodes" + doubles + ", " + bytes_text(info["film_bytes"]) +
-                       " film");
+                       " framebuffer");
 }
 
 int info(const InfoArguments& arguments) {

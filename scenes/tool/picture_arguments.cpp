@@ -126,8 +126,8 @@ void PictureArguments::add_to(CLI::App& command) {
     add("--outline-color", outline_color,
         "Colour of the outlines. Default: as in the scene, otherwise #000000.", "#RRGGBB");
     add("--outline-creases", outline_creases,
-        "Draw outlines between materials as well, and where surfaces meet and bend by more than "
-        "DEGREES; 180 for none of these. Default: as in the scene, otherwise 180.",
+        "Draw outlines also between materials and where surfaces bend by more than DEGREES; 180 "
+        "for none of these. Default: as in the scene, otherwise 180.",
         "DEGREES");
 }
 

@@ -349,8 +349,8 @@ int verify(const VerifyArguments& arguments) {
             verifier.is_exact() ? verifier.as_they_were(verdict.others).same : 0;
         are_only_ties = ties == verdict.others.size() && !verdict.has_many(ties);
         if (ties > 0)
-            std::printf("ties       %zu different pixels equal those of its own engine: paths meet "
-                        "edges exactly, where the last bit decides%s\n",
+            std::printf("ties       %zu different pixels are equal if rendered by the engine of "
+                        "the image: paths meet edges exactly%s\n",
                         ties, verdict.has_many(ties) ? "; too many for ties" : "");
     }
     if (verdict.has_many_within_a_step())

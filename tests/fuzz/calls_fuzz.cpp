@@ -120,7 +120,7 @@ void check_by_oracle(const std::vector<tests::AnyShape>& shapes, const Asked& as
         hold(truth == nullptr ? hits.is_none(i)
                               : hits.shape[i] == truth->shape && hits.t[i] == truth->t &&
                                     hits.entering[i] == (truth->hit.entering ? 1 : 0),
-             "not what the oracle says", i);
+             "differs from the oracle", i);
     }
 }
 
@@ -152,10 +152,10 @@ void ask_spans(Bytes& bytes) {
     if (precision != Precision::exact) return;
     for (std::size_t i = 0; i < count; ++i) {
         const bool any = hits.shape[i] != no_shape;
-        hold(any || (hits.is_none(i) && face[i] == 0), "a hit of nothing", i);
-        hold(blocked[i] == (any ? 1 : 0), "occluded is not intersect", i);
+        hold(any || (hits.is_none(i) && face[i] == 0), "a hit without a shape", i);
+        hold(blocked[i] == (any ? 1 : 0), "occluded differs from intersect", i);
         const std::uint64_t row = rows.first[i];
-        hold((rows.first[i + 1] != row) == any, "crossings are not intersect", i);
+        hold((rows.first[i + 1] != row) == any, "crossings differ from intersect", i);
         hold(first.first[i + 1] - first.first[i] == (any ? 1 : 0), "most", i);
         if (!any) continue;
         hold(rows.shape[row] == hits.shape[i] && rows.t[row] == t_double[i] &&
@@ -175,7 +175,7 @@ void ask_spans(Bytes& bytes) {
         hold(alone.t[0] == hits.t[i] && alone.nx[0] == hits.nx[i] && alone.ny[0] == hits.ny[i] &&
                  alone.nz[0] == hits.nz[i] && alone.shape[0] == hits.shape[i] &&
                  alone.entering[0] == hits.entering[i] && is_blocked == blocked[i],
-             "alone it is another", i);
+             "the ray alone gives another answer", i);
     }
     if (asked.shape.empty() && sides == tests::Sides::both) check_by_oracle(shapes, asked, hits);
 }

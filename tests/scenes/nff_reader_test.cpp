@@ -239,7 +239,7 @@ TEST_CASE("an NFF light on a surface moves off the surface") {
 TEST_CASE("the Standard Procedural Databases' scenes are read whole") {
     const std::filesystem::path scenes = RAYLANE_SHARED_SCENES;
     if (!std::filesystem::exists(scenes)) {
-        WARN("skipped: there are no shared scenes here");
+        WARN("skipped: shared scenes are missing");
         return;
     }
     const auto read = [&](const char* name) {

@@ -139,7 +139,6 @@ TEMPLATE_TEST_CASE("no search finds a ray that breaks the filters' bounds", "",
     CHECK(without.part < 1.0);
     CHECK(with.part < 1.0);
     if (std::getenv("RAYLANE_TEST_REPORT") != nullptr)
-        WARN(name_of(kind_of<TestType>)
-             << ": the worst ray needs " << without.part
-             << " of what is allowed for rounding, with slack " << with.part);
+        WARN(name_of(kind_of<TestType>) << ": share of the rounding bound that the worst ray uses: "
+                                        << without.part << ", with slack: " << with.part);
 }

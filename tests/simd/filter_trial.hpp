@@ -125,13 +125,13 @@ ShapeBlock view_of(const Block<Shape>& block) {
 
 /// Returns the fault of an answer, or null if it is right.
 inline const char* lie(const Answer& answer, const First& truth) {
-    if (answer.contradicts) return "what is in the way was not what the bounds say";
+    if (answer.contradicts) return "the blocking state contradicts the bounds";
     if (!truth.known) return nullptr;
-    if (truth.exists() && !answer.possible) return "a crossing was said to be impossible";
-    if (truth.exists() && !answer.may_meet) return "a crossing was said not to be worth a look";
+    if (truth.exists() && !answer.possible) return "an existing crossing was called impossible";
+    if (truth.exists() && !answer.may_meet) return "an existing crossing was skipped";
     if (truth.exists() && !(answer.lower <= truth.t + truth.error)) return "lower is too high";
     if (answer.possible && !(answer.lower >= 0.0)) return "lower is negative";
-    if (answer.certain && !truth.exists()) return "a crossing was said to be certain";
+    if (answer.certain && !truth.exists()) return "a missing crossing was called certain";
     if (answer.certain && !answer.possible) return "certain, but not possible";
     if (answer.certain && !(answer.upper >= truth.t - truth.error)) return "upper is too low";
     return nullptr;

@@ -78,7 +78,7 @@ void check_round(const FilterChecks& checks, const Round<Shape>& round) {
             check_answer(stream.answer(i), round, lane, i);
         for (std::size_t i = round.rays.size(); i < stream.padded(); ++i)
             if (stream.answer(i).possible || stream.answer(i).certain)
-                FAIL("something is said of an inert ray");
+                FAIL("an inert ray has a crossing");
     }
     for (std::size_t i = 0; i < round.rays.size(); i += 10) {
         checks.bound_block(kind, view_of(round.block), view, i);
@@ -86,7 +86,7 @@ void check_round(const FilterChecks& checks, const Round<Shape>& round) {
             check_answer(stream.answer(lane), round, lane, i);
         for (int lane = round.count; lane < block_size; ++lane)
             if (stream.answer(lane).possible || stream.answer(lane).certain)
-                FAIL("something is said of an empty lane");
+                FAIL("an empty lane has a crossing");
     }
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("bounds and obstacles agree for rays that leave a sphere along its nor
             checks_of(isa).bound_rays(Kind::sphere, view_of(block), 0, stream.view());
             for (std::size_t i = 0; i < 16; ++i) {
                 possible += stream.answer(i).possible ? 1 : 0;
-                if (stream.answer(i).contradicts) FAIL("what is in the way is not what bounds say");
+                if (stream.answer(i).contradicts) FAIL("the blocking state contradicts the bounds");
             }
         }
     }

@@ -211,10 +211,10 @@ void check(const Rays& rays, std::size_t i, bool adverse, Share& share) {
     CAPTURE(i, rays.slot[i], rays.origins[i], rays.first[i] != no_shape, rays.t[i], rays.error[i],
             hit);
     if (hit == hit_none) {
-        if (truth.crossing) FAIL("certain of a miss where there is a hit");
+        if (truth.crossing) FAIL("certain of a miss, but the ray hits");
         return;
     }
-    if (!truth.crossing) FAIL("certain of a hit where there is none");
+    if (!truth.crossing) FAIL("certain of a hit, but the ray misses");
     CAPTURE(truth.crossing->t, truth.crossing->error, int{truth.crossing->face},
             truth.crossing->entering);
     if ((hit & hit_face) != truth.crossing->face) FAIL("another face");

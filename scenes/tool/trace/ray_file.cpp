@@ -83,7 +83,7 @@ std::string type_of(Literal& text) {
 
 bool order_of(Literal& text) {
     if (text.takes("True"sv)) return true;
-    if (!text.takes("False"sv)) text.refuse("has a fortran_order that is neither True nor False");
+    if (!text.takes("False"sv)) text.refuse("must have a fortran_order of True or False");
     return false;
 }
 

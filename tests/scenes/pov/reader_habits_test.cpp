@@ -173,7 +173,7 @@ TEST_CASE("POV-Ray: functions have the values of POV-Ray's") {
     CHECK(number("asc(\"A\") + strcmp(\"a\", \"b\")") == "64");
     CHECK(number("rand(S)", "#declare S = seed(7);") == "0.9539329");
     CHECK(number("rand(S)", "#declare S = seed(7); #declare A = rand(S);") == "0.6104663");
-    CHECK(complaint("#declare A = rand(0);") == "a.pov:1:19: must be what seed() has made");
+    CHECK(complaint("#declare A = rand(0);") == "a.pov:1:19: must be a result of seed()");
 }
 
 TEST_CASE("POV-Ray: maps of colours and layers and skies and functions can be declared") {

@@ -222,7 +222,7 @@ TEST_CASE("atoms can be selected by words") {
 
 TEST_CASE("an invalid selection is refused with its column") {
     const Structure all = peptide();
-    CHECK(complaint(all, "") == "--select: column 1: must be what to select, got nothing");
+    CHECK(complaint(all, "") == "--select: column 1: must be a selection, got nothing");
     CHECK(complaint(all, "foo").starts_with("--select: column 1: must be one of "));
     CHECK(complaint(all, "within 5 of foo").starts_with("--select: column 13: must be one of "));
     CHECK(complaint(all, "within -5 of all").starts_with("--select: column 8: a distance "));
@@ -233,7 +233,7 @@ TEST_CASE("an invalid selection is refused with its column") {
     CHECK(complaint(all, "index 1 x 2").starts_with("--select: column 9: must be a number or"));
     CHECK(complaint(all, "chane A").find("did you mean \"chain\"?") != std::string::npos);
     CHECK(complaint(all, "element C and") ==
-          "--select: column 14: must be what to select, got nothing");
+          "--select: column 14: must be a selection, got nothing");
     CHECK(complaint(all, "(all") == "--select: column 5: must be \")\", got nothing");
     CHECK(complaint(all, "all all") ==
           "--select: column 5: must be \"and\", \"or\" or the end, got \"all\"");

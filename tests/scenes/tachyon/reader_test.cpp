@@ -229,7 +229,7 @@ TEST_CASE("Tachyon's lights and ambient occlusion become lights") {
     CHECK(medium.scene.lights().size() == 1);
     CHECK(medium.remarks ==
           std::vector<std::string>{
-              "a.dat: SHADER_MODE MEDIUM is not supported: there are shadows, same as FULL"});
+              "a.dat: SHADER_MODE MEDIUM is not supported: objects cast shadows, same as FULL"});
     TachyonShading over;
     over.sky = Color(0.75F);
     over.direct = 0.5F;

@@ -30,7 +30,7 @@ TEST_CASE("info lists the content and the needs of a scene") {
     CHECK(text.code == 0);
     CHECK(text.err.empty());
     for (const char* line : {"shapes     1: 1 sphere\n", "lights     1\n", "fog        none\n",
-                             "picture    16 x 12 pixels, ", "limits     depth 8, weight 0.001\n"})
+                             "image      16 x 12 pixels, ", "limits     depth 8, weight 0.001\n"})
         CHECK(contains(text.out, line));
 
     const Outcome outcome = workshop.run({"info", "--json", "scene.json"});

@@ -73,7 +73,7 @@ TEST_CASE("invalid headers of ray files are refused") {
     };
     for (const char* order : {"1", "0", "TrueX", "FalseX", "True_", "true", "'True'", "None", ""})
         refused("{'descr': '<f4', 'fortran_order': " + std::string(order) + ", 'shape': (2, 6)}",
-                "has a fortran_order that is neither True nor False");
+                "must have a fortran_order of True or False");
     for (const char* shape : {"2, 6", "[2, 6]", "(2 6)", "(2,, 6)", "(, 2, 6)", "(2, 6", "(2, -6)",
                               "(2)", "(02, 6)", "(2.0, 6)", "(2, 6x)", "(0x2, 6)", "()x"})
         refused("{'descr': '<f4', 'fortran_order': False, 'shape': " + std::string(shape) + "}",

@@ -109,7 +109,7 @@ TEST_CASE("a window shows the image of render and follows changes of the scene")
     std::filesystem::create_directory(workshop.path() / "screen");
     const Display display(workshop.path() / "screen");
     if (display.name().empty()) {
-        WARN("skipped: there is no Xvfb");
+        WARN("skipped: Xvfb is missing");
         return;
     }
     Process viewer({"view", "scene.json", "--size", "640x480"}, [&] {
