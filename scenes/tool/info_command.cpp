@@ -152,8 +152,9 @@ int info(const InfoArguments& arguments) {
 } // namespace
 
 Command add_info_command(CLI::App& app) {
-    CLI::App& command = add_command(app, "info", "Print the contents of a scene",
-                                    "raylane info scenes/birthday.json");
+    CLI::App& command =
+        add_command(app, "info", "Print the contents and needed features of a scene",
+                    "raylane info scenes/birthday.json");
     auto arguments = std::make_shared<InfoArguments>();
     add_positional(command, "SCENE", arguments->scene,
                    "Scene or atoms, in any format that render reads.");
