@@ -1,5 +1,6 @@
-/** @file The library's interface for C and for languages that call C. Handles are opaque. No
- * exception leaves a call. The caller owns all arrays.
+/** @file
+ * The library's interface for C and for languages that call C. Handles are opaque. No exception
+ * leaves a call. The caller owns all arrays.
  *
  * Each call that can fail returns a raylane_status: RAYLANE_OK or an error. raylane_error_text()
  * describes the error in one line, or in one line per mistake for a file with several. The C++
