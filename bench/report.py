@@ -8,7 +8,7 @@ pictures/SET/*.pfm or *.png, of one size in each SET. The page shows charts of t
 of a set. The Python module of BUILD (default: build/release) adds the numerical failures of bench/failures and some of
 the shipped scenes. FILE defaults to FOLDER/report.html.
 
-Needs NumPy, node, npm, and Pillow for PNG. npm fetches the libraries of bench/report/package-lock.json into
+Needs NumPy, Pillow, node and npm. npm fetches the libraries of bench/report/package-lock.json into
 build/report.
 """
 
@@ -61,7 +61,10 @@ def licences(modules):
     """Returns the licences of the libraries in the page."""
     files = ["tslib/LICENSE.txt", "zrender/LICENSE", "echarts/LICENSE", "echarts/NOTICE"]
     files += sorted(str(each.relative_to(modules)) for each in modules.glob("echarts/licenses/*"))
-    return "\n\n".join(f"{name}\n\n{(modules / name).read_text()}" for name in files)
+    texts = [f"{name}\n\n{(modules / name).read_text()}" for name in files]
+    # The package of img-comparison-slider omits its licence.
+    slider = HERE / "report/img-comparison-slider.LICENSE"
+    return "\n\n".join([*texts, f"{slider.name}\n\n{slider.read_text()}"])
 
 
 def page_of(data, script, style, licence):
@@ -103,10 +106,8 @@ def main():
         sys.path.insert(0, str(build / "python"))
         import drawings
 
-        failures, drawn = drawings.draw_failures(build)
-        sets = drawings.draw_scenes(build) + drawn + sets
-        if not drawings.has_tiers(build):
-            print(f"report.py: no raylane-tiers in {build}/bin, so the page has no maps of stages (RAYLANE_BENCHMARKS)", file=sys.stderr)
+        failures, drawn = drawings.draw_failures()
+        sets = drawings.draw_scenes() + drawn + sets
     else:
         print(f"report.py: no Python module in {build}, so the page has no failures and no scenes", file=sys.stderr)
     if not sets and not any(charts.values()):

@@ -41,7 +41,7 @@ Tests check the exact images. `tests/report` compares hits of these spheres with
 `tests/simd/field_failures_test.cpp` and `tests/simd/field_epsilons_test.cpp` compare similar scenes of all shapes with
 an oracle.
 
-`bench/report.py` makes a page on which any two of these images can be compared to the pixel. `gallery.py` generates
+`bench/report.py` makes a page that compares any two of these images by a slider. `gallery.py` generates
 this page.
 """
 SUMMARY = """For readers who choose a precision, and for authors of ray tracers: reported failures, rendered again by five
@@ -67,7 +67,7 @@ def wrapped(paragraph):
 
 def head_of(failures, sets):
     numbers = [{picture.name: picture.numbers for picture in each.pictures} for each in sets]
-    height, width = sets[0].pictures[0].rgb.shape[:2]
+    height, width = sets[0].pictures[0].srgb.shape[:2]
     robust = [each["robust"] for failure, each in zip(failures, numbers) if is_reported(failure)]
     double = [each["double"] for failure, each in zip(failures, numbers) if not is_reported(failure)]
     pixels = height * width
@@ -112,7 +112,7 @@ def text_of(failures, sets):
     return "\n".join(parts)
 
 
-def montage(pictures, encoded):
+def montage(pictures):
     """Returns the pictures side by side, each under its name."""
     from PIL import Image, ImageDraw, ImageFont
 
@@ -122,7 +122,7 @@ def montage(pictures, encoded):
     for number, picture in enumerate(pictures):
         left = number * (TILE + GAP)
         pen.text((left + 1, 1), picture.name, "black", ImageFont.load_default())
-        tile = Image.fromarray(encoded(picture.rgb)).resize((TILE, TILE), Image.Resampling.BOX)
+        tile = Image.fromarray(picture.srgb).resize((TILE, TILE), Image.Resampling.BOX)
         result.paste(tile, (left, CAPTION))
     return result.quantize(96, dither=Image.Dither.NONE)
 
@@ -130,11 +130,10 @@ def montage(pictures, encoded):
 def main(build):
     sys.path[:0] = [str(build / "python"), str(HERE.parent / "report"), str(HERE)]
     import drawings
-    import pictures
 
-    failures, sets = drawings.draw_failures(build)
+    failures, sets = drawings.draw_failures()
     for drawn in sets:
-        montage(drawn.pictures, pictures.encoded).save(HERE / f"{drawn.name}.png", optimize=True)
+        montage(drawn.pictures).save(HERE / f"{drawn.name}.png", optimize=True)
     (HERE / "README.md").write_text(text_of(failures, sets))
 
 

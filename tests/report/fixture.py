@@ -1,4 +1,4 @@
-"""Fills a folder for bench/report.py: synthetic measurements, and pairs of images with known differences.
+"""Fills a folder for bench/report.py: synthetic measurements, and two images of known shades.
 
     fixture.py FOLDER
 """
@@ -8,7 +8,7 @@ import json
 import pathlib
 import sys
 
-import numpy as np
+from PIL import Image
 
 folder = pathlib.Path(sys.argv[1])
 count = itertools.count(1)
@@ -51,22 +51,6 @@ rows = [
 ]
 (folder / "errors.json").write_text(json.dumps({"size": 512, "rows": rows}))
 
-
-
-def write(name, rgb):
-    path = folder / "pictures" / name
-    path.parent.mkdir(parents=True, exist_ok=True)
-    height, width = rgb.shape[:2]
-    path.write_bytes(b"PF\n%d %d\n-1\n" % (width, height) + rgb[::-1].astype("<f4").tobytes())
-
-
-rgb = np.full((3, 4, 3), 0.5, np.float32)
-write("known/a.pfm", rgb)
-rgb[0, 1, :] = 1.0
-rgb[2, 3, 2] = np.nextafter(np.float32(0.5), np.float32(1))
-write("known/b.pfm", rgb)
-
-# Equal NaN; neighbours at 0; infinity against a number; NaN against a number.
-rgb = np.array([[[np.nan] * 3, [1e-45, 0, 0], [np.inf, 0, 0], [0.5, np.nan, 0]]], np.float32)
-write("numberless/a.pfm", rgb)
-write("numberless/b.pfm", np.array([[[np.nan] * 3, [0, 0, 0], [1, 0, 0], [0.5, 0.5, 0]]], np.float32))
+(folder / "pictures/known").mkdir(parents=True)
+for name, shade in (("a", 188), ("b", 255)):
+    Image.new("L", (4, 3), shade).save(folder / f"pictures/known/{name}.png")

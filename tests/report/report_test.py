@@ -41,14 +41,14 @@ def test_textbook_in_double_with_a_tiny_epsilon_renders_the_exact_image(failure,
     scale = max(np.abs(description["camera"][which]).max() for which in ("from", "at"))
     rgb, _, shape = textbook.draw(description, {"epsilon": 1e-9 * scale})
     exact = raylane.render(raylane.load(path)).rgb
-    off = drawings.steps(rgb, exact)
+    off = drawings.steps(pictures.encoded(rgb), pictures.encoded(exact))
     assert off > 10000 if fails_in_double(failure) else off <= 0.001 * shape.size
 
 
 @pytest.fixture(scope="module")
 def drawn():
     """The failures' texts and their images."""
-    return drawings.draw_failures(pathlib.Path("nowhere"))
+    return drawings.draw_failures()
 
 
 def test_textbook_fails_everywhere_and_double_in_its_two_scenes(drawn):
@@ -108,7 +108,7 @@ def test_pfm_reader_returns_the_pixels_that_raylane_writes(tmp_path):
     scene = raylane.load(ROOT / "scenes/sphere.json")
     picture = raylane.render(scene, width=13, height=7, grid=1)
     picture.save(tmp_path / "a.pfm")
-    np.testing.assert_array_equal(pictures.read_pfm(tmp_path / "a.pfm"), picture.rgb)
+    np.testing.assert_array_equal(pictures.read_pfm(tmp_path / "a.pfm"), pictures.encoded(picture.rgb))
 
 
 def test_images_of_several_sizes_are_refused(tmp_path):
@@ -163,23 +163,3 @@ def test_errors_are_one_line(tmp_path, files, words):
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
     assert not (tmp_path / "report.html").exists()
-
-
-def test_stages_show_where_surfaces_meet(tmp_path):
-    build = pathlib.Path(raylane.__file__).resolve().parents[2]
-    scene = tmp_path / "scene.json"
-    disc = {"type": "disc", "center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}
-    scene.write_text(
-        json.dumps(
-            {
-                "camera": {"type": "orthographic", "from": [0, 0, 5], "at": [0, 0, 0], "height": 4},
-                "lights": [{"type": "directional", "direction": [0, 0, -1]}],
-                "materials": {"a": {"color": [1, 0, 0]}, "b": {"color": [0, 0, 1]}},
-                "objects": [{**disc, "material": "a"}, {**disc, "material": "b", "radius": 0.9}],
-            }
-        )
-    )
-    [tiers] = drawings.tiers_of(build, scene, 16, 12)
-    assert tiers.values.shape == (12, 16) and len(tiers.labels) == 5
-    assert tiers.values[6, 8] == 4  # two materials at one point: the reference traces the path
-    assert tiers.values[0, 0] == 0

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Tests bench/report.py: its data, and its page in headless Chromium.
 #
-#   tests/report/run.sh [BUILD]    a Release build with Python's module and raylane-tiers; default build/release.
-#                                  Screenshots go to build/report.
+#   tests/report/run.sh [BUILD]    a Release build with Python's module; default build/release. Screenshots go
+#                                  to build/report.
 #
 # Needs python3-numpy, python3-pil, python3-pytest, node, npm and chromium.
 set -eu

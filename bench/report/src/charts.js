@@ -1,5 +1,4 @@
-import { chart, forget } from "./chart.js";
-import { color } from "./colors.js";
+import { chart, color, forget } from "./chart.js";
 import { element, escaped, many } from "./html.js";
 
 // Colour and mark of each method, program and setting.

@@ -1,6 +1,6 @@
 import { redraw } from "./chart.js";
 import { showCharts } from "./charts.js";
-import { Viewer } from "./compare.js";
+import { showComparison } from "./compare.js";
 import { showGallery } from "./gallery.js";
 
 // Follows the system's light or dark theme until the user chooses one.
@@ -20,13 +20,15 @@ const reveal = (id, condition) => (document.getElementById(id).hidden = !conditi
 document.getElementById("made").textContent = data.made;
 const charts = data.charts;
 reveal("failures", data.failures.length);
+reveal("compare", data.sets.length);
 reveal("speed", Object.values(charts).some((rows) => rows.length));
 
-const viewer = new Viewer(data.sets);
-if (data.sets.length) viewer.open(data.sets[0].name);
-showGallery(document.getElementById("gallery"), data.failures, data.sets, async (set, picture) => {
-    await viewer.open(set, picture, "exact");
-    document.getElementById("compare").scrollIntoView();
-});
+if (data.sets.length) {
+    const open = showComparison(data.sets);
+    showGallery(document.getElementById("gallery"), data.failures, data.sets, (set, picture) => {
+        open(set, picture, "exact");
+        document.getElementById("compare").scrollIntoView();
+    });
+}
 for (const link of document.querySelectorAll("header a")) link.hidden = document.querySelector(link.hash).hidden;
 showCharts(document.getElementById("charts"), charts, data.machines);
