@@ -4,12 +4,11 @@
     bench/report.py FOLDER [-o FILE] [--build BUILD]
 
 FOLDER has any of these: chart.json (from bench/chart.sh), peers.json and errors.json (from bench/peers/run.sh), and
-pictures/SET/*.pfm or *.png, of one size in each SET. The page shows charts of the measurements and compares the images
-of a set. The Python module of BUILD (default: build/release) adds the numerical failures of bench/failures and some of
-the shipped scenes. FILE defaults to FOLDER/report.html.
+pictures/SET/*.png, of one size in each SET. The page shows charts of the measurements and compares the images of a set.
+The Python module of BUILD (default: build/release) adds the numerical failures of bench/failures and some of the shipped
+scenes. FILE defaults to FOLDER/report.html.
 
-Needs NumPy, Pillow, node and npm. npm fetches the libraries of bench/report/package-lock.json into
-build/report.
+Needs NumPy, Pillow, node and npm. npm fetches the libraries of bench/report/package-lock.json into build/report.
 """
 
 import argparse

@@ -104,18 +104,11 @@ def test_hits_are_compared_by_shape_and_ulps():
     assert drawings.compare_hits(t[2:3], shape[2:3], exact[2:3], exact_shape[2:3])["ulps"] == [0.0, 0.0, 0.0]
 
 
-def test_pfm_reader_returns_the_pixels_that_raylane_writes(tmp_path):
-    scene = raylane.load(ROOT / "scenes/sphere.json")
-    picture = raylane.render(scene, width=13, height=7, grid=1)
-    picture.save(tmp_path / "a.pfm")
-    np.testing.assert_array_equal(pictures.read_pfm(tmp_path / "a.pfm"), pictures.encoded(picture.rgb))
-
-
 def test_images_of_several_sizes_are_refused(tmp_path):
     scene = raylane.load(ROOT / "scenes/sphere.json")
     (tmp_path / "some").mkdir()
     for width in (4, 5):
-        raylane.render(scene, width=width, height=4, grid=1).save(tmp_path / f"some/{width}.pfm")
+        raylane.render(scene, width=width, height=4, grid=1).save(tmp_path / f"some/{width}.png")
     with pytest.raises(ValueError, match="several sizes"):
         pictures.of_folder(tmp_path)
 
@@ -147,10 +140,6 @@ def test_embree_has_the_speed_of_its_faster_call_and_speeds_are_medians(tmp_path
     [
         ({}, "nothing to show"),
         ({"chart.json": "{"}, "chart.json"),
-        ({"pictures/a/b.pfm": "P6"}, "b.pfm: expected a PFM file"),
-        ({"pictures/a/b.pfm": "PF\n2 2\n-1\n"}, "the number of pixels differs"),
-        ({"pictures/a/b.pfm": "PF\n0 0\n-1\n"}, "the number of pixels differs"),
-        ({"pictures/a/b.PFM": "PF\nab 2\n-1\n"}, "b.PFM: expected a PFM file"),
         ({"pictures/a/b.png": "no picture"}, "b.png"),
         ({"errors.json": '{"rows": [{"psnr": 30}]}'}, "errors.json"),
     ],
