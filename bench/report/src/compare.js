@@ -2,7 +2,7 @@ import "img-comparison-slider";
 
 const $ = (id) => document.getElementById(id);
 
-/** Offers all pairs of images of one set. Returns open(set, left, right), which shows a pair by its names. */
+/** Compares two images of a set. Returns open(set, left), which shows an image beside the set's reference. */
 export function showComparison(sets) {
     const sides = ["left", "right"];
     const pictures = () => sets[$("set").selectedIndex].pictures;
@@ -12,11 +12,11 @@ export function showComparison(sets) {
             Object.assign($(`${side}-image`), { src: png, alt: title });
         }
     };
-    const open = (name, left, right) => {
+    const open = (name, left) => {
         $("set").value = name;
         for (const side of sides) $(side).replaceChildren(...pictures().map((each) => new Option(each.title, each.name)));
         $("left").value = left ?? pictures()[0].name;
-        $("right").value = right ?? sets[$("set").selectedIndex].reference;
+        $("right").value = sets[$("set").selectedIndex].reference;
         show();
     };
     $("set").append(...sets.map((each) => new Option(each.title, each.name)));

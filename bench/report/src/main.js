@@ -26,7 +26,7 @@ reveal("speed", Object.values(charts).some((rows) => rows.length));
 if (data.sets.length) {
     const open = showComparison(data.sets);
     showGallery(document.getElementById("gallery"), data.failures, data.sets, (set, picture) => {
-        open(set, picture, "exact");
+        open(set, picture);
         document.getElementById("compare").scrollIntoView();
     });
 }
