@@ -142,8 +142,10 @@ void TachyonOptions::add_output_options() {
                                                             {"PPM", PictureFormat::ppm}});
     };
     options_["-res"] = [this] {
-        const std::string width = value();
-        arguments_.size = size_argument(option_, width + "x" + value());
+        const int width = whole_argument(option_, value(), 1, core::Settings::max_size);
+        const int height = whole_argument(option_, value(), 1, core::Settings::max_size);
+        arguments_.size =
+            size_argument(option_, std::to_string(width) + "x" + std::to_string(height));
     };
     options_["-aasamples"] = [this] { arguments_.samples = whole(0); };
     options_["-numthreads"] = [this] {
