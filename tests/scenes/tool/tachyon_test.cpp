@@ -137,9 +137,7 @@ TEST_CASE("an invalid call of raylane tachyon gives an error of one line") {
         {{"a.dat", "b.dat"}, "tachyon: must be given one scene, got \"b.dat\" as well"},
         {{"a.dat", "-o"}, "-o: must have a value"},
         {{"a.dat", "-res", "4"}, "-res: must have a value"},
-        {{"a.dat", "-res", "4", "x"},
-         "-res: must be WIDTHxHEIGHT in pixels, each from 1 to 65535, such as 640x480, got "
-         "\"4xx\""},
+        {{"a.dat", "-res", "4", "x"}, "-res: must be a whole number from 1 to 65535, got \"x\""},
         {{"a.dat", "-aasamples", "-1"},
          "-aasamples: must be a whole number from 0 to 2147483647, got \"-1\""},
         {{"a.dat", "-format", "PSD48"}, "-format: must be TARGA, PNG, BMP or PPM, got \"PSD48\""},
