@@ -40,6 +40,8 @@ constexpr double scattered = 1.7;
 
 /// Decibels above the quality of the settings: a margin because the estimate scatters.
 constexpr double margin = 1.0;
+/// Decibels beyond these that a policy may have, as the result should have at most 2 in all.
+constexpr double excess = 0.6;
 
 std::size_t pixels_of(const Settings& settings) {
     return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
@@ -248,11 +250,14 @@ double Survey::weighted_samples(int samples, const Policy& policy) {
 }
 
 /// Finds the largest limit of each policy that reaches the quality, by bisection, as the error
-/// grows with the limit. Chooses the cheapest policy.
+/// grows with the limit. Chooses the cheapest policy of those that do not exceed the quality by
+/// much, if there are any.
 void Survey::choose_policy() {
     fit_errors();
     const double asked = core::pow(10.0, -(static_cast<double>(settings_.quality) + margin) / 10.0);
+    const double too_good = asked * core::pow(10.0, -excess / 10.0);
     double least = infinity<double>;
+    bool is_too_good = true;
     for (const bool spares_alike : {true, false})
         for (std::size_t stage = 0; stage < stages; ++stage) {
             Policy policy{samples_at(stage), spares_alike};
@@ -268,8 +273,10 @@ void Survey::choose_policy() {
                 outcome.squared_error <= asked
                     ? outcome.cost
                     : RegionSamples::most_samples * mean_cost() * outcome.squared_error / asked;
-            if (cost < least) {
+            const bool exceeds = outcome.squared_error < too_good;
+            if (exceeds == is_too_good ? cost < least : is_too_good) {
                 least = cost;
+                is_too_good = exceeds;
                 policy_ = policy;
             }
         }
