@@ -18,11 +18,14 @@ struct DiscNumbers {
     SphereAround<Arch> enclosing() const { return rounded_up<Arch>(center, radius); }
 };
 
-/// Filter of a disc. The ray meets the plane within spread + 6 u |t| of t, so the point at t is off
-/// by as much. It is also off by slack + u |f| for f = origin - center, by u |t| for the direction
-/// and by u (|t| + distance) for its own rounding, where |f| <= |t| + distance. Squaring and
-/// comparing add 4 u of the radius, as they matter only near the radius. In total these are 9 u |t|
-/// and 6 u radius.
+/// Filter of a disc, with u as in filter.hpp. The ray meets the plane within spread + 6 * u * |t|
+/// of t, so the point at t is off by as much. With f = origin - center, where |f| <= |t| +
+/// distance, that point is also off by
+///   slack + u * |f|         for the origin relative to the centre,
+///   u * |t|                 for the direction,
+///   u * (|t| + distance)    for the rounding of the point itself.
+/// Squaring and comparing matter only near the radius and add 4 * u * radius. Without slack and
+/// spread, the sum is 9 * u * |t| + 6 * u * radius.
 template <class Arch>
 struct DiscFilter : DiscNumbers<Arch> {
     using Numbers = DiscNumbers<Arch>;
@@ -61,9 +64,12 @@ struct DiscSolver : DiscNumbers<Arch> {
     }
 };
 
-/// Finisher of a disc. With N >= |normal|, normal . at(s) is off by N times the error of the
-/// position and 6 u (|start| + |s|) for the products. So s errs by this error divided by
-/// |approach|, if approach itself, which errs by 5 u N, is certain within a fifth.
+/// Finisher of a disc, with u as in finisher.hpp. Let approach be normal . direction, and N a bound
+/// on |normal|. The product normal . at(s) is off by N times local.error_at(s, 8), which is the
+/// error of the position, plus 6 * u * (|start| + |s|) for the roundings of the product. approach
+/// is off by 5 * u * N, which is less than a fifth of |approach| where `clear`. So the true divisor
+/// is at least 4/5 * |approach|, and s is off by at most
+///   5/4 * N * error_at(s, 8) / |approach|.
 template <class Arch>
 struct DiscFinisher {
     DiscNumbers<Arch> disc;
@@ -84,8 +90,8 @@ struct DiscFinisher {
         const F position_error = local.error_at(s, 8.0);
         const F error_s = F(1.25) * N * position_error * abs(inverse);
 
-        // Where |p| <= radius, p is off by `off`. So |p|^2 is off by 2 radius off + off^2 and 6 u
-        // radius^2.
+        // p = at(s) is off by `off`. So where |p| <= radius, |p|^2 is off by 2 * radius * off +
+        // off^2 and, by rounding, 6 * u * radius^2.
         const F off = position_error + error_s, reach = radius + off;
         const F squared = squared_length(local.at(s));
         const Mask<Arch> clear = abs(approach) > F(0x1p-44) * N;

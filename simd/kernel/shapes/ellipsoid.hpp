@@ -18,7 +18,7 @@ struct EllipsoidNumbers {
         : center(next_vector<Arch>(reader)), axis_u(next_vector<Arch>(reader)),
           axis_v(next_vector<Arch>(reader)), axis_w(next_vector<Arch>(reader)) {}
 
-    /// |a u + b v + c w| <= sqrt(|u|^2 + |v|^2 + |w|^2) for (a, b, c) of length 1.
+    /// |a * u + b * v + c * w| <= sqrt(|u|^2 + |v|^2 + |w|^2) for (a, b, c) of length 1.
     SphereAround<Arch> enclosing() const {
         const Floats<Arch> u = length<Arch>(axis_u), v = length<Arch>(axis_v),
                            w = length<Arch>(axis_w);
@@ -26,24 +26,35 @@ struct EllipsoidNumbers {
     }
 };
 
-/// Filter of an ellipsoid. Let n_i be the rows that map it to the unit ball (core::ToBall). A ray's
-/// position at tau + s maps to b + s a in the ball, for a = n d and b = n p, p = origin + tau
-/// d - center, where tau is near the minimum of |n p|. The ray crosses where |b + s a| = 1.
+/// Filter of an ellipsoid, with u as in filter.hpp. core::ToBall is a linear map n with rows n_i.
+/// It takes the ellipsoid about its centre to the unit ball. Let d be the ray's direction, and p =
+/// origin + tau * d - center, with tau near the t at which |n(p)| is least. The ray's position at
+/// tau + s maps to b + s * a in the ball, for a = n(d) and b = n(p). The ray crosses the ellipsoid
+/// where |b + s * a| = 1.
 ///
-/// All but t is in units of a power of two, in which the axes' components add up to less than 2,
-/// and to 1 or more. L is the length of all axes together: as p = b_u u + b_v v + b_w w, it is |p|
-/// <= L |b|, and 1 <= L |a|. A row errs by 3 u of its part of absolute_cross() / |volume|, sigma
-/// being the length of all these parts. All rows err as the volume does, by
-/// r = u (8 S / |volume| + 8), where S is the sum of the absolute products. This makes the ball
-/// larger or smaller by the same share.
+/// All numbers but the resulting t are in units of a power of two. In this unit, the components of
+/// the axes add up to less than 2, and to 1 or more. Let L be the length of all axes together, that
+/// is, of the vector of all their components. p is the sum of b_i * axis_i, so |p| <= L * |b|.
+/// Likewise, 1 <= L * |a|.
 ///
-/// p errs by eta = slack + 4 u |tau| and 2 u |p|, so b by sigma (8 u |p| + eta), and a by 7 u
-/// sigma. Where |b + s a| is X, |p| <= L X and |s| <= 2 X L, as b is next to the centre. So the
-/// true position is within sigma (22 u X L + eta) of it. Hence two such X, one of which is 1,
-/// differ by at most
-///   e = 32 u L sigma + r + 1.5 sigma eta,
-/// as long as the first terms are below 1/4. The roots of |b + s a| = 1 +- e bound s, apart from
-/// the rounding of their operands: 8 u of 1 +- e, and 16 u (|tau| + L (1 + e)) of t.
+///   A row errs by 3 * u of its part of absolute_cross() / |volume|.
+///   sigma is the length of all these parts together.
+///   All rows err as the volume does, by their share r = u * (8 * S / |volume| + 8).
+///
+/// S is the sum of the absolute products in the volume. The error r makes the ball larger or
+/// smaller by that share.
+///
+///   p errs by eta = slack + 4 * u * |tau| and by 2 * u * |p|,
+///   b errs by sigma * (8 * u * |p| + eta), and a by 7 * u * sigma.
+///
+/// Let X = |b + s * a|. Then |p| <= L * X and |s| <= 2 * X * L, as b is close to the point of the
+/// line nearest to the centre. So the true position is within
+///   sigma * (22 * u * X * L + eta)
+/// of b + s * a. If its distance from the centre is 1, or if X = 1, this distance and X differ by
+/// at most
+///   e = 32 * u * L * sigma + r + 1.5 * sigma * eta,
+/// as long as the first two terms are below 1/4. The roots of |b + s * a| = 1 +- e bound s. The
+/// rounding of their operands adds 8 * u of 1 +- e, and 16 * u * (|tau| + L * (1 + e)) of t.
 template <class Arch>
 struct EllipsoidFilter {
     using F = Floats<Arch>;
@@ -52,7 +63,7 @@ struct EllipsoidFilter {
 
     V center, rows[3];
     F unit, per_unit;
-    F error, sigma, size; ///< 32 u L sigma + r, sigma, L
+    F error, sigma, size; ///< 32 * u * L * sigma + r, sigma, L
     Mask<Arch> ordinary;  ///< the error is small, and no number has underflowed to 0
 
     template <class Reader>
@@ -198,19 +209,23 @@ struct EllipsoidSolver {
     }
 };
 
-/// Finisher of an ellipsoid. F(s) = |b(s)|^2 - volume^2 for b(s) = rows . p, p = start + s
-/// direction relative to the centre.
+/// Finisher of an ellipsoid. With p = start + s * direction, relative to the centre, let b(s) =
+/// rows . p and a = rows . direction, so b(s) changes by a per unit of s. The ray crosses where
+///   F(s) = |b(s)|^2 - volume^2 = 0.
+/// Let u = 2^-53, and let U, V and W be |axis_u|_1, |axis_v|_1 and |axis_w|_1, where |x|_1 is the
+/// sum of the sizes of the components of x.
 ///
-/// Let K_i = |v|_1 |w|_1 and so on, which is more than row i's length, and let
-/// P = local.error_at(s, 10) be the error of the position and of the roundings of its products. b_i
-/// errs by K_i P, a_i = row i . direction by 8 u K_i, and the volume by 12 u |u|_1 |v|_1 |w|_1. Let
-/// T be the sum of all K_i P and K that of all K_i, and let b and a stand for their sums of sizes.
-/// The errors are:
-///   F          2 T b + T^2 + 2 |volume| volume_error + volume_error^2 + 8 u (b^2 + volume^2)
-///   half F'    T a + b 8 u K + T 8 u K + 4 u a b
-///   A = |a|^2  2 a 8 u K + (8 u K)^2 + 4 u a^2
-/// The normal is half the gradient of F. Each component errs by the rows' sizes times the errors of
-/// b_i, and by 8 u of its terms.
+/// Let (K_1, K_2, K_3) = (V * W, W * U, U * V). K_i is at least the length of row i. Let P be
+/// local.error_at(s, 10), the error of the position and 8 more roundings, those of its product with
+/// a row. Then b_i is off by K_i * P, a_i by 8 * u * K_i, and the volume by 12 * u * U * V * W. Let
+/// K be the sum of all K_i, and T = K * P. The errors are:
+///   F          2 * T * |b|_1 + T^2 + 2 * |volume| * volume_error + volume_error^2
+///              + 8 * u * (|b|^2 + volume^2)
+///   half F'    T * |a|_1 + |b|_1 * 8 * u * K + T * 8 * u * K + 4 * u * |a|_1 * |b|_1
+///   A = |a|^2  2 * |a|_1 * 8 * u * K + (8 * u * K)^2 + 4 * u * |a|^2
+/// The normal is half the gradient of F, the sum of b_i * row i. Each of its components is off by
+/// the sizes of the rows' components times the errors of b_i, by the errors of the rows times b_i,
+/// and by 8 * u of its terms.
 template <class Arch>
 struct EllipsoidFinisher {
     EllipsoidNumbers<Arch> ellipsoid;
@@ -325,7 +340,7 @@ struct EllipsoidFinisher {
                        abs(z) * (row_sizes.z * off + roundings * abs(b.z));
             };
             const auto& rows = to_ball.rows;
-            // The rows err by 2 u of their sizes.
+            // The rows are off by 2 * u of their sizes. 4 * u leaves a margin.
             const F of_rows = F(0x1p-51) * (row_sizes.x * abs(b.x) + row_sizes.y * abs(b.y) +
                                             row_sizes.z * abs(b.z));
             const F grow(1.0625);

@@ -44,7 +44,8 @@ template <class Arch>
 Mask<Arch> round_alike(const Floats<Arch>& value, const Floats<Arch>& error) {
     return Lanes<Arch>::round_alike(value - error, value + error);
 }
-/// True where each component of the normal rounds to the same float anywhere within its error.
+/// True where, for each component of the normal, all numbers within the error of that component
+/// round to the same float.
 template <class Arch>
 Mask<Arch> is_rounded(const Finished<Arch>& finished) {
     return round_alike<Arch>(finished.normal.x, finished.normal_error.x) &
@@ -55,7 +56,7 @@ Mask<Arch> is_rounded(const Finished<Arch>& finished) {
 /// The relative accuracy that t must have, same as core::needed_accuracy.
 inline constexpr double needed_accuracy = 0x1p-27;
 
-/// Returns a where `mask`, otherwise b.
+/// Returns a where `mask` is true, otherwise b.
 template <class Arch>
 [[gnu::always_inline]] inline Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a,
                                                     const Finished<Arch>& b) {
@@ -92,8 +93,8 @@ template <class Arch>
     return error + F(0x1p-51) * t <= F(0x1p-24) * largest;
 }
 
-/// Returns the error of a unit vector made from an exact vector, which is that of bringing it to
-/// length 1.
+/// Returns the error of a unit vector made from an exact vector. It is the error of bringing the
+/// vector to length 1.
 template <class Arch>
 [[gnu::always_inline]] inline Vectors<Arch> error_of_unit(const Vectors<Arch>& unit) {
     const Floats<Arch> roundings(0x1p-50);
@@ -101,8 +102,8 @@ template <class Arch>
 }
 
 /// Returns the error of a unit vector made from a vector of length 1 / inverse that is off by
-/// `error`. Each component errs by its own error, and by that of the length, to which all
-/// components contribute. (If the length's error is not small, neither is the result.)
+/// `error`. Each component is off by its own error and by the error of the length, to which all
+/// components contribute. (If the length's error is not small, the result is not small either.)
 template <class Arch>
 [[gnu::always_inline]] inline Vectors<Arch>
 error_of_unit(const Vectors<Arch>& unit, const Vectors<Arch>& error, const Floats<Arch>& inverse) {
@@ -148,10 +149,10 @@ Mask<Arch> have_no_product(const Vectors<Arch>& a, const Vectors<Arch>& b) {
     return ((a.x == o) | (b.x == o)) & ((a.y == o) | (b.y == o)) & ((a.z == o) | (b.z == o));
 }
 
-/// A ray relative to a point of its shape, moved along itself to where it is closest to that point.
-/// So everything that follows happens at the scale of the shape. The distance at which the ray
-/// starts shows in `error` alone.
-///   t = shift + s,  point(t) = anchor + start + s direction
+/// A ray relative to a point of its shape (`anchor`). The ray is moved along itself to where it is
+/// closest to that point, so all further computation happens at the scale of the shape. The
+/// distance of the ray's origin shows in `error` alone.
+///   t = shift + s,  point(t) = anchor + start + s * direction
 template <class Arch>
 struct LocalRays {
     Vectors<Arch> direction;
@@ -165,15 +166,18 @@ struct LocalRays {
         shift = negated(dot(from_anchor, direction));
         start = mul_add<Arch>(shift, direction, from_anchor);
         size = sum_of_sizes(start);
-        // The operands of the roundings contribute u (|from_anchor| + |shift|
-        // |direction| + |start|), and |from_anchor| <= |shift| |direction| + |start|. The same
-        // amount again covers directions that are off by the rounding of their normalisation.
+        // The roundings of from_anchor, shift * direction and start contribute at most
+        //   u * (|from_anchor| + |shift| * |direction| + |start|).
+        // |from_anchor| is at most |shift| * |direction| + |start|, and |direction| is about 1. So
+        // this is at most 2 * u * (|shift| + |start|). As much again covers a direction that is off
+        // by the rounding of its normalisation. The constant 2^-50 = 8 * u is twice the sum of
+        // both.
         error = Floats<Arch>(0x1p-50) * (abs(shift) + size);
     }
 
     Vectors<Arch> at(const Floats<Arch>& s) const { return mul_add<Arch>(s, direction, start); }
 
-    /// Returns `count` times u (|start| + |s|): the rounding errors of a value at s.
+    /// Returns a bound on `count` * u * (|start| + |s|), the rounding errors of a value at s.
     Floats<Arch> rounding(double count, const Floats<Arch>& s) const {
         return Floats<Arch>(count * 0x1.2p-53) * (size + abs(s));
     }

@@ -47,15 +47,16 @@ struct CornerNormals {
     }
 };
 
-/// Filter of a triangle. With edges e = b - a, g = c - a, normal n = e x g and s = a - origin, the
-/// ray meets the point a + v e + w g at t if t d = s + v e + w g. So (Moeller and Trumbore, "Fast,
-/// Minimum Storage Ray/Triangle Intersection", 1997)
-///   t (n . d) = n . s,  v (n . d) = g . (s x d),  w (n . d) = -e . (s x d).
+/// Filter of a triangle, with u as in filter.hpp. Let e = b - a and g = c - a be edges, n = e x g
+/// the normal, s = a - origin, and d the direction. The ray meets the point a + v * e + w * g at t
+/// if t * d = s + v * e + w * g. So (Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle
+/// Intersection", 1997)
+///   t * (n . d) = n . s,  v * (n . d) = g . (s x d),  w * (n . d) = -e . (s x d).
 ///
-/// n is off by 4 u of absolute_cross(e, g), so n . s and n . d are off by 8 u of the sum of the
-/// absolute products. s x d is off by 4 u of absolute_cross(s, d), and its products with edges by
-/// 8 u. Moving the origin by slack moves these products by slack |edge| or less. Taking 11 u
-/// instead of 8 u also covers the sum 1 - v - w.
+/// n is off by 4 * u * absolute_cross(e, g). So n . s and n . d are off by 8 * u times the sum of
+/// the absolute products. s x d is off by 4 * u * absolute_cross(s, d), and its products with edges
+/// by 8 * u times the sum of theirs. If the origin is off by slack, the products with an edge are
+/// off by at most slack * |edge|. Taking 11 * u instead of 8 * u also covers the sum 1 - v - w.
 template <class Arch>
 struct TriangleFilter {
     Vectors<Arch> a, edge_e, edge_g, normal, normal_size;
@@ -91,7 +92,7 @@ struct TriangleFilter {
             fast_mul_add<Arch>(relative, fast_dot(normal_size, absolute(rays.direction)), tiny);
         const FlatCrossing<Arch> crossing(height, height_error, approach, approach_error);
 
-        // v, w and 1 - v - w, times |approach|.
+        // v, w and -(1 - v - w), times |approach| = |n . d|.
         const Vectors<Arch> moment = fast_cross(to_a, rays.direction);
         const Vectors<Arch> moment_size = absolute_cross(to_a, rays.direction, zero<Arch>());
         const auto error_along = [&](const Vectors<Arch>& edge) __attribute__((always_inline)) {
@@ -155,12 +156,13 @@ struct SmoothTriangleSolver : TriangleSolver<Arch, false> {
     }
 };
 
-/// Finisher of a triangle. Barycentric coordinates, times normal . direction, follow from one cross
-/// product of start and direction (Moeller and Trumbore, "Fast, minimum storage ray/triangle
-/// intersection", 1997). With U >= |b - a| and V >= |c - a|, the normal errs by 5 u U V, and its
-/// products with vectors by 10 u U V times their lengths. The coordinates err by U or V times the
-/// error of the start and 10 u |start|, with a margin of 1.74^2, as each component of a cross
-/// product has its own error.
+/// Finisher of a triangle, with u as in finisher.hpp. The barycentric coordinates, multiplied by
+/// the determinant normal . direction, follow from one cross product of start and direction
+/// (Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997). Let U and V be
+/// bounds on |b - a| and |c - a|. The normal is off by 5 * u * U * V, and its product with a vector
+/// by 10 * u * U * V times the length of that vector. The coordinates of c and b are off by U and V
+/// times the sum of the error of the start and 10 * u * |start|. The code doubles that sum as a
+/// margin.
 template <class Arch>
 struct TriangleFinisher {
     TriangleNumbers<Arch> triangle;
@@ -180,8 +182,8 @@ struct TriangleFinisher {
         const F s = negated(dot(normal, local.start)) * inverse;
         const F error_s = F(1.25) * (U * V) * local.error_at(s, 12.0) * abs(inverse);
 
-        // The barycentric coordinates times the determinant. They have one sign within the
-        // triangle.
+        // The barycentric coordinates times the determinant. All three have the same sign inside of
+        // the triangle.
         const Vectors<Arch> moment = cross(local.start, local.direction);
         const F at_c = dot(moment, to_b), at_b = negated(dot(moment, to_c));
         const F at_a = determinant - at_b - at_c;
@@ -213,8 +215,9 @@ struct TriangleFinisher {
     using F = Floats<Arch>;
     using M = Mask<Arch>;
 
-    /// True where each term of direction . (to_b x to_c) has a factor 0, which proves that they are
-    /// parallel. Differences of floats are 0 only if they are exactly 0.
+    /// True where each term of direction . (to_b x to_c) has a factor 0. This proves that the ray
+    /// is parallel to the plane of the triangle. Differences of floats are 0 only if they are
+    /// exactly 0.
     static M is_parallel(const Vectors<Arch>& direction, const Vectors<Arch>& to_b,
                          const Vectors<Arch>& to_c) {
         const F o = zero<Arch>();
@@ -226,11 +229,12 @@ struct TriangleFinisher {
                vanishes(direction.z, to_b.x, to_c.y, to_b.y, to_c.x);
     }
 
-    /// Returns the error of to_b x to_c: that of the products, and that of the edges if these were
-    /// rounded. With corners that are floats, usually neither occurs.
+    /// Returns the error of to_b x to_c. It is the error of the products and, if the edges to_b and
+    /// to_c were rounded, that of the edges. With corners that are floats, usually both errors are
+    /// 0.
     Vectors<Arch> normal_error(const Vectors<Arch>& to_b, const Vectors<Arch>& to_c,
                                const Vectors<Arch>& normal) const {
-        // The rounding error of a sum is a double, and this is it (Knuth's 2Sum).
+        // The rounding error of a sum is a double, and Knuth's 2Sum computes it.
         const auto is_exact = [](const F& difference, const F& from, const F& to) {
             const F back = difference - to;
             return (to - (difference - back)) - (from + back) == zero<Arch>();
