@@ -37,13 +37,13 @@ class CrossAll {
     using C = Certified<Wide<D>>;
     static constexpr std::size_t width = F::size;
 
-    /// Pairs with shapes of one kind.
+    /// Pairs of a ray and a shape. All shapes of a packet are of one kind.
     struct Packet {
         std::size_t pair[width];
         std::size_t count = 0;
     };
 
-    /// The number of pairs of a ray up to which sifting does not pay.
+    /// Sifting does not pay for a ray with at most this number of pairs.
     static constexpr std::size_t few = 16;
 
     void add(Packet& packet, std::size_t pair) {
@@ -59,7 +59,8 @@ class CrossAll {
         return S::kind_of(scene_, pairs_.slot[packet.pair[0]]);
     }
 
-    /// A packet's rays with the directions given to load(), and a reader of their shapes.
+    /// The rays of a packet, with the directions passed to load(), and a reader of the shapes with
+    /// which the rays are paired.
     struct Loaded {
         SlotReader<D> reader;
         Rays<D> rays;
@@ -85,8 +86,8 @@ class CrossAll {
         return loaded;
     }
 
-    /// Removes pairs that certainly miss by double arithmetic. (The finishers' bounds cover the
-    /// error of bringing directions to unit length.)
+    /// Removes the pairs of a packet whose rays certainly miss their shapes, by double arithmetic.
+    /// (The finishers' bounds cover the error of bringing directions to unit length.)
     void sift(Packet& packet) {
         if (packet.count == 0) return;
         const core::Kind kind = kind_of(packet);

@@ -11,7 +11,7 @@ namespace raylane::simd {
 template <class Number>
 struct Certified {};
 
-/// Names D = Double<...> with twice its digits.
+/// Names numbers with twice the digits of D = Double<...>.
 template <class D>
 struct Wide {};
 
@@ -85,8 +85,8 @@ struct Digits<Wide<Lesser>> {
         return is_short(quotient) & is_short(divisor) & (product.high == dividend.high) &
                (product.low == dividend.low) & (abs(dividend.high) > F(0x1p-900));
     }
-    /// Sets the roundoff to 0 in `lanes` whose value is 0. There the value is exactly 0 and has not
-    /// underflowed.
+    /// Sets the roundoff to 0 in those of the lanes in which the value is 0. The value is exactly 0
+    /// there and has not underflowed.
     static Rounded without_roundoff(const M& lanes, const Rounded& rounded) {
         return {rounded.value,
                 select(lanes & (rounded.value.high == zero<D>()), zero<D>(), rounded.error)};
@@ -185,8 +185,8 @@ struct BoundedLanes {
     friend BoundedLanes abs(const BoundedLanes& a) {
         return {select(a.in_double() < zero<D>(), -a.value, a.value), a.error};
     }
-    /// Selects lane by lane. If the answer is not known, the error covers both, as the result is
-    /// within their difference of either.
+    /// Selects lane by lane. In a lane where the mask is not known, either operand may be the right
+    /// one. The error there is a bound on the distance of the selected operand from both.
     friend BoundedLanes select(const A& mask, const BoundedLanes& a, const BoundedLanes& b) {
         const BoundedLanes difference = a - b;
         const F either = difference.magnitude() + difference.error;

@@ -3,7 +3,8 @@
 #include "core/numbers/elementary.hpp"
 #include "simd/kernel/lanes/doubles.hpp"
 
-/// `core::Elementary` for registers of doubles, with the scalar functions' bits in every lane.
+/// `core::Elementary` for registers of doubles. Each lane of a result has the bits of the scalar
+/// function's result.
 namespace raylane::simd {
 
 /// select() and sqrt(), for classes whose members of these names hide them.

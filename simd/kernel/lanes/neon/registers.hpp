@@ -5,8 +5,9 @@
 #include <array>
 #include <cstdint>
 
-/// Operations whose bits differ between xsimd's NEON and SSE implementations. They are not
-/// templates, so that overload resolution prefers them to xsimd's.
+/// Operations on NEON registers that replace xsimd's. Most of them give the bits of xsimd's SSE
+/// implementations, from which xsimd's NEON implementations differ. Those that are not templates
+/// win overload resolution against xsimd's templates.
 namespace raylane::simd {
 
 using Neon = xsimd::neon64;
@@ -16,8 +17,8 @@ using Neon = xsimd::neon64;
 namespace xsimd {
 
 /// Divides by the NEON instruction. xsimd 8.1 multiplies by a twice refined reciprocal, as 32-bit
-/// processors need. This is off in the last bits, and NaN for divisors that are infinite or whose
-/// reciprocal is.
+/// processors need. That result is off in the last bits. It is NaN if the divisor or its reciprocal
+/// is infinite.
 template <>
 inline batch<float, neon64>& batch<float, neon64>::operator/=(const batch& other) noexcept {
     return *this = vdivq_f32(*this, other);
@@ -27,8 +28,8 @@ inline batch<float, neon64>& batch<float, neon64>::operator/=(const batch& other
 
 namespace raylane::simd {
 
-/// xsimd 8.1 looks these two up in tables of functions, and the compiler leaves some of these
-/// look-ups in place.
+/// bits_as() and select() replace functions that xsimd 8.1 looks up in tables of functions. The
+/// compiler leaves some of these look-ups in place.
 template <class To, class From>
 xsimd::batch<To, Neon> bits_as(const xsimd::batch<From, Neon>& from) {
     using Result = typename xsimd::batch<To, Neon>::register_type;
@@ -46,8 +47,8 @@ inline xsimd::batch<double, Neon> select(const xsimd::batch_bool<double, Neon>& 
     return vbslq_f64(mask, a, b);
 }
 
-/// Returns b if an operand is NaN, and for two zeros, as SSE does. NEON's minimum and maximum
-/// return NaN there, and treat -0 as less than 0.
+/// Returns b if an operand is NaN or both are zeros, as SSE does. NEON's minimum and maximum return
+/// NaN for NaN, and treat -0 as less than 0.
 inline xsimd::batch<float, Neon> min(const xsimd::batch<float, Neon>& a,
                                      const xsimd::batch<float, Neon>& b) {
     return vbslq_f32(vcltq_f32(a, b), a, b);
@@ -65,16 +66,18 @@ inline xsimd::batch<double, Neon> max(const xsimd::batch<double, Neon>& a,
     return vbslq_f64(vcgtq_f64(a, b), a, b);
 }
 
-/// Correctly rounded, which xsimd 8.1's is in double only.
+/// Returns the correctly rounded root. xsimd 8.1 rounds correctly in double only.
 inline xsimd::batch<float, Neon> sqrt(const xsimd::batch<float, Neon>& a) {
     return vsqrtq_f32(a);
 }
-/// Not an approximation, unlike elsewhere: NEON's has 8 bits, and filters rely on the 11 of SSE.
+/// Returns 1 / sqrt(a) by a root and a division, not by an approximation as for other instruction
+/// sets. NEON's approximation has 8 bits, and filters rely on the 11 bits of SSE's.
 inline xsimd::batch<float, Neon> rsqrt(const xsimd::batch<float, Neon>& a) {
     return vdivq_f32(vdupq_n_f32(1.0F), vsqrtq_f32(a));
 }
 
-/// Returns -0 for -0. xsimd 8.1 converts to an integer and so returns 0.
+/// Returns the floor of a, which is -0 for -0. xsimd 8.1 converts to an integer and so returns 0
+/// for -0.
 inline xsimd::batch<float, Neon> floor(const xsimd::batch<float, Neon>& a) {
     return vrndmq_f32(a);
 }
