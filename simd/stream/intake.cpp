@@ -12,7 +12,7 @@ namespace raylane::simd {
 
 namespace {
 
-/// Returns the columns from lane `to` on, a multiple of 16.
+/// Returns the columns from lane `to` on. `to` is a multiple of 16.
 StreamRays from(StreamRays rays, std::size_t to) {
     for (int axis = 0; axis < 3; ++axis) {
         rays.origin[axis] += to;
@@ -66,14 +66,15 @@ RayStream<Real> StreamIntake::take(const RayStream<Real>& rays, std::size_t firs
         take(part_of(rays, first + count, more), more, count);
         count += more;
     }
-    // Only `exact` has lower limits in its search. Other precisions check the hits that they find.
+    // Only Precision::exact has lower limits in its search. Other precisions check the hits that
+    // they find.
     if (tracing_.precision != core::Precision::exact || rays.t_min == nullptr)
         paths_.t_after = paths_.start = nullptr;
     paths_.count = count;
     return part_of(rays, first, count);
 }
 
-/// Takes all these rays in, from lane `to` on.
+/// Takes all these rays into the lanes from `to` on.
 template <class Real>
 void StreamIntake::take(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
     std::size_t none = 0;
@@ -114,8 +115,8 @@ void StreamIntake::start_on(const RayStream<Real>& rays, std::size_t count, std:
     }
 }
 
-/// Replaces lanes without a valid ray by copies of another lane, so that the lanes around them keep
-/// the property that they share.
+/// Replaces each invalid ray by a copy of a valid one, so that it does not destroy the property
+/// that the valid rays share (Coherence). Does nothing if no ray is valid.
 void StreamIntake::stand_in(std::size_t begin, std::size_t end) {
     std::size_t other = begin;
     while (other < end && !is_ray(other))

@@ -63,8 +63,9 @@ RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const Shape
     listed_slot_.resize(listed_ray_.size());
 }
 
-/// Calls visit(index of the first ray that was taken in with it, lane) for each ray when the
-/// crossings of its pairs are known. Invalid rays are visited, too.
+/// Calls visit(first, lane) for each ray, once the crossings of the ray with all shapes that it may
+/// cross are known. `first` is the index of the first ray of the batch that intake_ took together
+/// with this ray. Invalid rays are visited, too.
 template <class Real, class Visit>
 void RowWorker::for_each_ray(const RayStream<Real>& rays, const Visit& visit) {
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
@@ -81,8 +82,9 @@ void RowWorker::for_each_ray(const RayStream<Real>& rays, const Visit& visit) {
     }
 }
 
-/// Lists all shapes that the rays of lanes `begin` to `end` may cross, by ray. Returns false if
-/// these are more than most_pairs, unless there is only one ray.
+/// Lists the pairs of a ray in lanes `begin` to `end` - 1 and a shape that this ray may cross,
+/// sorted by ray. Returns false if there are more than most_pairs pairs, unless there is only one
+/// ray.
 bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
     const Paths& paths = intake_.paths();
     constexpr auto most_of_floats = static_cast<double>(std::numeric_limits<float>::max());
@@ -155,9 +157,12 @@ void RowWorker::cross_pairs() {
                                                        bits_.data()});
 }
 
-/// Adds the crossings of a ray if its order of crossings, and the choice of those between the
-/// limits, are certain, and it cannot meet again the shape that it leaves. Returns true if they
-/// were added.
+/// Adds the crossings of a ray and returns true if the results of cross_pairs() suffice:
+///   - All crossings are known, and each t rounds to one double with certainty.
+///   - The order of the crossings is certain.
+///   - It is certain which of the crossings are between the limits.
+///   - The ray cannot meet the shape that it leaves again.
+/// Otherwise adds nothing and returns false.
 template <class Real>
 bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::size_t most,
                             CrossingRows& rows) {
@@ -308,8 +313,9 @@ void RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wa
     counters += counters_;
 }
 
-/// Keeps the first of a polygon's triangles that meet at an edge. At one t, and on one side,
-/// crossings are in the order of their shapes, and a polygon's triangles have consecutive ids.
+/// Keeps one crossing where several triangles of a polygon meet at an edge: that of the first
+/// triangle. Crossings at one t, and on one side, are in the order of their shapes, and a polygon's
+/// triangles have consecutive ids.
 void RowWorker::leave_one_of_polygons() {
     std::size_t kept = 0;
     for (const Crossed& crossed : crossed_) {
@@ -336,7 +342,7 @@ void RowWorker::add(const LoneRay& ray, const CrossingRequest& wanted, CrossingR
     }
 }
 
-/// Adds the crossings at one t: the first `most`, or all.
+/// Adds the crossings at one t: the first `most` of them, or all if there are fewer.
 void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
                              bool normals, CrossingRows& rows) {
     // Entering crossings come first; each side is sorted by shape.
@@ -371,7 +377,7 @@ void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, s
 
 template <class Real>
 void RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& rows) {
-    // The crossings beyond a limit tell which solids are around it.
+    // The crossings beyond a limit tell which solids contain the ray's point at this limit.
     RayStream<Real> lines = rays;
     lines.t_min = lines.t_max = nullptr;
     for_each_ray(lines, [&](std::size_t first, std::size_t lane) {
