@@ -33,8 +33,8 @@ class SceneData {
     const std::vector<core::SoftLight>& soft_lights() const { return soft_lights_; }
     const FogView& fog() const { return fog_; }
 
-    /// Returns the kinds that are tested one by one: all in a scene of few shapes, otherwise the
-    /// unbounded ones.
+    /// Returns the kinds whose shapes are tested one by one: all kinds in a scene of few shapes,
+    /// otherwise the unbounded ones.
     std::uint32_t listed_kinds() const {
         return unbounded_kinds_ | (has_tree() ? 0 : bounded_kinds_);
     }
@@ -62,7 +62,8 @@ class SceneData {
                (view_.only_cut_lanes[slot / 16] >> slot % 16 & 1) != 0;
     }
     bool smooth() const { return smooth_; }
-    /// Radius of a sphere around all shapes in the tree; infinite without a tree.
+    /// Returns the radius of the sphere around the bounding box of all shapes in the tree; infinite
+    /// without a tree.
     float radius() const { return radius_; }
 
     /// The medium that a ray is inside of; core::no_medium is empty space.

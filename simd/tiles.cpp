@@ -7,9 +7,9 @@ namespace raylane::simd {
 
 namespace {
 
-/// Returns a stride whose multiples, modulo the number of tiles, visit all of them. Each few
-/// consecutive multiples are spread evenly, as the stride is the golden ratio of the number,
-/// increased until both have no common factor.
+/// Returns a stride that has no common factor with the number of tiles. So its multiples, modulo
+/// that number, visit all tiles. The stride is the golden ratio times the number of tiles,
+/// increased until they have no common factor. So any few consecutive multiples are spread evenly.
 std::size_t stride_of(std::size_t tiles) {
     constexpr double golden_ratio = 0.6180339887498949;
     auto stride = static_cast<std::size_t>(std::llround(golden_ratio * static_cast<double>(tiles)));

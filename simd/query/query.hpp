@@ -27,16 +27,18 @@ class Query {
                  const double* t_most = nullptr);
     /// Returns the hits of the last rays.
     const Hits& hits() const { return hits_; }
-    /// Returns true if the ray crosses nothing else within the error of its point in double behind
-    /// the lane's hit. A ray that starts there then misses nothing.
+    /// Returns true if, shortly behind the lane's hit, the ray crosses no other surface: none
+    /// within the error of the hit point in double. A ray that starts at the hit point in double
+    /// then misses no surface.
     bool is_apart(const Paths& paths, std::size_t lane) const;
     /// Returns lanes that meet several surfaces at one point, where only the reference tracer can
     /// go on. Their hits are the surface that comes first.
     std::span<const std::uint32_t> at_contacts() const { return certifier_.at_contacts(); }
-    /// Returns hit points to which rays and t in double do not lead.
+    /// Returns the hit points that differ from the points to which the rays and their t in double
+    /// lead.
     std::span<const HitPoint> points() const { return certifier_.points(); }
 
-    /// Raises `state`, an Occlusion of each ray, if anything is in its way before a distance.
+    /// Raises `state`, an Occlusion of each ray, if a surface may be in its way before a distance.
     /// nearest() decides doubtful rays.
     void occluded(const RayColumns& rays, const double* distance, std::uint8_t* state,
                   const Coherence* coherence, EngineCounters& counters);
