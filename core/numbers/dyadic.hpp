@@ -13,8 +13,8 @@ struct Scaled {
     std::int64_t exponent = 0;
 
     static Scaled of(double value, std::int64_t exponent);
-    /// Converts to double. Overflow gives the largest double, underflow the smallest; the sign is
-    /// kept.
+    /// Converts to double and keeps the sign. Overflow gives the largest finite magnitude,
+    /// underflow the smallest positive magnitude, which is subnormal. So only 0 gives 0.
     double to_double() const;
 };
 
@@ -55,8 +55,8 @@ class Dyadic {
     static int compare_magnitudes(const Dyadic& a, const Dyadic& b);
     void trim();
 
-    // |value| = sum of digits_[i] 2^(64 (exponent_ + i)); the digits at both ends are not 0, and 0
-    // has no digits.
+    // |value| is the sum of digits_[i] * 2^(64 * (exponent_ + i)). The digits at both ends are not
+    // 0, and 0 has no digits.
     InlineVector<Digit, 20> digits_; // enough for most numbers
     std::int64_t exponent_ = 0;
     bool negative_ = false;

@@ -111,13 +111,13 @@ typename Elementary<Number>::Whole Elementary<Number>::nearest_whole(const Numbe
     return {shifted - Number(0x1.8p52), P::bits(shifted)};
 }
 
-/// Returns x 2^n, provided that the result is a normal number.
+/// Returns x * 2^n, provided that the result is a normal number.
 template <class Number>
 Number Elementary<Number>::scaled(const Number& x, const Whole& n) {
     return P::number(P::bits(x) + (n.bits << 52));
 }
 
-/// Returns the first 26 bits of x: products of two such numbers are exact. The rest of x has 27
+/// Returns the first 26 bits of x. Products of two such numbers are exact. The rest of x has 27
 /// bits.
 template <class Number>
 Number Elementary<Number>::head(const Number& x) {
@@ -132,13 +132,14 @@ typename Elementary<Number>::Pair Elementary<Number>::difference(const Number& a
     return {high, (a - (high + b_used)) + (b_used - b)};
 }
 
-/// c0 + c1 x
+/// Returns c0 + c1 * x.
 template <class Number>
 Number Elementary<Number>::linear(const Number& x, double c0, double c1) {
     return Number(c1) * x + Number(c0);
 }
 
-/// c0 + c1 x + c2 x^2 + c3 x^3, in pairs: shorter chains of operations than Horner's (Estrin 1960).
+/// Returns c0 + c1 * x + c2 * x^2 + c3 * x^3, in pairs: shorter chains of operations than Horner's
+/// (Estrin 1960). `square` is x^2.
 template <class Number>
 Number Elementary<Number>::cubic(const Number& x, const Number& square, double c0, double c1,
                                  double c2, double c3) {
@@ -151,8 +152,9 @@ Number Elementary<Number>::cubic(const Number& x, const Number& square, double c
 
 // exp, expm1
 
-/// x = n ln 2 + t + correction, |t| <= ln(2) / 2. Source: Cody and Waite, "Software Manual for the
-/// Elementary Functions" (1980): n times the first 42 bits of ln 2 is exact.
+/// Reduces x: x = n * ln(2) + t + correction, |t| <= ln(2) / 2. The product of n with the first 42
+/// bits of ln(2) is exact. Source: Cody and Waite, "Software Manual for the Elementary Functions"
+/// (1980).
 template <class Number>
 typename Elementary<Number>::Reduced Elementary<Number>::without_powers_of_two(const Number& x) {
     const Whole n = nearest_whole(x * Number(0x1.71547652b82fep+0));
@@ -162,7 +164,7 @@ typename Elementary<Number>::Reduced Elementary<Number>::without_powers_of_two(c
     return {n, t, (high - t) - low};
 }
 
-/// t + t^2 (1/2 + t/6 + ...), to 2^-63 of e^t.
+/// Returns t + t^2 * (1/2 + t/6 + ...) + correction, accurate to 2^-63 of e^t.
 template <class Number>
 Number Elementary<Number>::expm1_near_zero(const Number& t, const Number& correction) {
     const Number square = t * t;
@@ -198,7 +200,7 @@ Number Elementary<Number>::expm1(const Number& x) {
 /// Returns the base-2 logarithm of x > 0, with a relative error of about 2^-65.
 template <class Number>
 typename Elementary<Number>::Logarithm Elementary<Number>::log2(const Number& x) {
-    // x = 2^e m, sqrt(1/2) <= m < sqrt(2)
+    // x = 2^e * m, sqrt(1/2) <= m < sqrt(2)
     const typename P::Mask subnormal = x < Number(0x1p-1022);
     const Bits bits = P::bits(P::select(subnormal, x * Number(0x1p54), x));
     const Bits exponent = (bits + Bits(0x3FF0000000000000 - 0x3FE6A09E667F3BCD)) >> 52;
@@ -218,8 +220,8 @@ typename Elementary<Number>::Logarithm Elementary<Number>::log2(const Number& x)
     const Number s_rest =
         ((numerator - s_head * denominator_head) - s_head * denominator_rest) * inverse;
 
-    // log2 m = 2 atanh(s) / ln 2 = (s + s^3/3 + s^5/5 + ...) 2 / ln 2. The first two terms are
-    // split in heads and rests; the remaining terms are accurate to 2^-66 of the sum.
+    // log2(m) = 2 * atanh(s) / ln(2) = (s + s^3/3 + s^5/5 + ...) * 2 / ln(2). The first two terms
+    // are split into heads and rests. The remaining terms are accurate to 2^-66 of the sum.
     const Number square_head = head(s_head * s_head);
     const Number square_rest = (s_head * s_head - square_head) + s_rest * (s_head + s);
     const Number third = Number(0x1.ec709d8000000p-1) * s_head; // exact
@@ -265,7 +267,7 @@ Number Elementary<Number>::pow(const Number& x, const Number& y) {
 
 // log, log10
 
-/// Returns log2(x) times head + rest. `head` holds the first 26 bits of the factor.
+/// Returns log2(x) * (head + rest). `head` holds the first 26 bits of the factor.
 template <class Number>
 Number Elementary<Number>::of_log2(const Number& x, double head, double rest) {
     const Logarithm log2_x = log2(x);
@@ -280,9 +282,9 @@ Number Elementary<Number>::of_log2(const Number& x, double head, double rest) {
 
 // sin, cos
 
-/// Reduces an angle. Up to 2^20: Cody and Waite's reduction in four parts, of 33 bits each except
-/// the last; the products of the parts with quadrants up to 2^20 are exact. Beyond: Payne and
-/// Hanek's reduction.
+/// Reduces an angle. Angles up to 2^20 use Cody and Waite's reduction in four parts. Each of the
+/// first three parts has 33 bits, so its product with a quadrant up to 2^20 is exact. Larger angles
+/// use Payne and Hanek's reduction.
 template <class Number>
 ReducedAngle<Number> Elementary<Number>::reduced(const Number& x) {
     const Number quadrant = nearest_whole(x * Number(0x1.45f306dc9c883p-1)).value;
@@ -327,7 +329,7 @@ typename Elementary<Number>::SineCosine Elementary<Number>::sin_cos(const Number
               0x1.71de355e97e73p-19);
     const Number sine = r + (r * square * sine_terms + (c - c * half));
 
-    // 1 - r^2/2 + r^4/24 - ..., to 2^-63; the rounding error of 1 - r^2/2 is added back.
+    // 1 - r^2/2 + r^4/24 - ..., to 2^-63. The rounding error of 1 - r^2/2 is added back.
     const Number cosine_terms =
         linear(square, 0x1.1ee9dbd5da2b6p-29, -0x1.8fa68573ea2eep-37) * (fourth * fourth) +
         cubic(square, fourth, 0x1.555555555554bp-5, -0x1.6c16c16c15016p-10, 0x1.a01a019c8f419p-16,
@@ -346,8 +348,8 @@ typename Elementary<Number>::SineCosine Elementary<Number>::sin_cos(const Number
 
 // atan
 
-/// Let a = |x|. For an angle beyond 3/8 pi, the tangent of its complement is 1/a. For an angle
-/// between 1/8 pi and 3/8 pi, the tangent of its difference from 1/4 pi is (a - 1) / (a + 1).
+/// Let a = |x|. For an angle beyond 3/8 * pi, the tangent of its complement is 1/a. For an angle
+/// between 1/8 * pi and 3/8 * pi, the tangent of its difference from 1/4 * pi is (a - 1) / (a + 1).
 template <class Number>
 Number Elementary<Number>::atan(const Number& x) {
     const Bits sign = P::bits(x) & Bits(std::uint64_t(1) << 63);

@@ -7,7 +7,7 @@
 
 namespace raylane::core {
 
-/// F(t) = A t^2 + 2 B t + C in exact numbers.
+/// F(t) = A * t^2 + 2 * B * t + C in exact numbers.
 struct ExactQuadratic {
     Dyadic A, B, C;
 
@@ -17,15 +17,15 @@ struct ExactQuadratic {
     ExactQuadratic half_derivative() const { return {0.0, 0.5 * A, B}; }
 };
 
-/// A real root of a quadratic. It need not be representable; only signs are computed. They follow
-/// from the coefficients by sums and products alone, as few as resultants need (Deakin and
-/// Snoeyink, "Sorting line-quadric intersections at low degree", arXiv 1605.05629; Karavelas and
-/// Emiris, "Root comparison techniques applied to computing the additively weighted Voronoi
-/// diagram", 2003).
+/// A real root of a quadratic. The root need not be representable, because only signs are computed.
+/// The signs follow from the coefficients by sums and products alone, as few as resultants need
+/// (Deakin and Snoeyink, "Sorting line-quadric intersections at low degree", arXiv 1605.05629;
+/// Karavelas and Emiris, "Root comparison techniques applied to computing the additively weighted
+/// Voronoi diagram", 2003).
 class ExactRoot {
   public:
-    /// The root where F rises, or the one where it falls. A linear F must not be constant and has
-    /// one root. A double root is both.
+    /// Takes the root where F rises, or, if `rises` is false, the root where F falls. F must not be
+    /// constant. A linear F has one root, whatever `rises` is. A double root counts as both.
     ExactRoot(ExactQuadratic F, bool rises) : F_(std::move(F)), rises_(rises) {}
     static ExactRoot at(double t) { return {ExactQuadratic::minus(t), true}; }
 
@@ -35,13 +35,14 @@ class ExactRoot {
     int sign() const { return sign_of(ExactQuadratic::minus(0.0)); }
     /// Returns the order of two roots: -1 if a is less, 0 if they are equal, 1 if a is greater.
     friend int compare(const ExactRoot& a, const ExactRoot& b);
-    /// Returns the float nearest to root * 2^exponent, ties to even, among the floats from low to
-    /// high, which are >= 0. The nearest of all floats must be one of them.
+    /// Returns the float nearest to root * 2^exponent, ties to even. That float must be one of
+    /// those from `low` to `high`, which are >= 0.
     float rounded_between(float low, float high, int exponent) const;
-    /// Returns the root with a relative error of at most 2^-100, given `t` in double within `error`
-    /// of it.
+    /// Returns the root with a relative error of at most 2^-100. `t` must be within `error` of the
+    /// root.
     Bounded<DoubleDouble> in_wide(double t, double error) const;
-    /// Returns the root with an absolute error of at most 2^exponent, given the same.
+    /// Returns the root with an absolute error of at most 2^exponent. `t` must be within `error` of
+    /// the root.
     Dyadic near(double t, double error, int exponent) const;
 
   private:
