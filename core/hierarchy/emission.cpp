@@ -34,8 +34,8 @@ struct Shares {
     int left, right;
 };
 
-/// Returns the shares of the children when a subtree gets `entries`. Both are 0 if it takes one
-/// entry itself.
+/// Returns the entries of each child if the subtree may fill `entries` entries of a wide node. Both
+/// numbers are 0 if the subtree takes one entry itself.
 Shares shares_of(const Cursor& at, int entries) {
     if (at.is_leaf()) return {0, 0};
     for (; entries > 1; --entries)
@@ -133,8 +133,8 @@ class Emitter {
         return std::get<Blocks<Shape>>(blocks_);
     }
 
-    /// `next`, here and below: the numbers of the next node and blocks; its `entries` counts those
-    /// of the node `wide`.
+    /// `next`, here and below, holds the index of the next wide node and of the next block of each
+    /// kind. Its member `entries` counts the used entries of the node `wide`.
     void emit_children(const Cursor& at, const Shares& shares, std::uint32_t wide, Tally& next) {
         if (!at.forks()) {
             emit(at.left(), shares.left, wide, next);
@@ -177,8 +177,8 @@ class Emitter {
         return Child::block(leaf.kind, index);
     }
 
-    /// Prefetches a shape of a later leaf. Leaves come in the order of their items, but their
-    /// shapes are scattered over the list.
+    /// Prefetches a shape of a later leaf. Leaves are emitted in the order of their items, but the
+    /// shapes of the items are scattered over the list.
     template <class Shape>
     void fetch_ahead(const ShapeList<Shape>& list, std::size_t at) const {
         constexpr auto ahead = std::size_t{4} * block_size;

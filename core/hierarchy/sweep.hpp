@@ -11,16 +11,17 @@
 
 namespace raylane::core {
 
-/// Builds the subtree over a few items by the surface-area heuristic over all splits between
-/// neighbours. The leaves fill up, because the cost counts blocks. Sorts once along each axis; the
-/// halves of a split stay sorted.
+/// Builds the subtree over at most most_items items by the surface-area heuristic. It tries all
+/// splits between neighbours along each axis. The leaves fill up, because the cost counts blocks.
+/// The items are sorted once along each axis, and the halves of a split stay sorted.
 class Sweep {
   public:
     static constexpr int most_items = 128;
 
-    /// Builds the subtree below node `root` of `nodes`, whose bounds must be set. `first` is the
-    /// index of the first item among all items of the tree. Rearranges the items' positions, but
-    /// not their bounds, into the order of the leaves.
+    /// Builds the subtree below nodes[root], whose bounds must be set, and returns the subtree's
+    /// costs. `first` is the index of items[0] among all items of the tree. On return, items[i] has
+    /// the Item::position() of the item that is number i in the order of the leaves. The bounds and
+    /// kinds of the items keep their order.
     EntryCosts build(std::span<Item> items, std::size_t first, std::vector<BinaryNode>& nodes,
                      std::uint32_t root);
 

@@ -13,10 +13,10 @@ namespace raylane::core {
 Bounds frustum_bounds(const Vec3d& base, const Vec3d& axis, double base_radius, double top_radius);
 
 /// A ray decomposed along and across the axis of a cylinder or cone: with f = origin - base,
-///   height(t) = (f + t direction) . axis, in [0, axis . axis] between the ends,
-///   across(t) = across_origin + t across_direction, the offset from the axis.
-/// The rounding error of the quotient is along the axis and affects `across` only at second order,
-/// so axis / |axis|^2 is not rounded first.
+///   height(t) = (f + t * direction) . axis, in [0, axis . axis] between the ends,
+///   across(t) = across_origin + t * across_direction, the offset from the axis.
+/// The quotient axis / |axis|^2 is not rounded first. So the rounding error of the division by
+/// |axis|^2 is along the axis and affects `across` only at second order.
 template <class Real>
 struct AxialRay {
     Real axis_squared;
@@ -44,8 +44,9 @@ struct AxialRay {
     }
 };
 
-/// Clips against the caps of a solid. For a start on its surface going inward, clips only against
-/// the caps through which the ray can leave, not the one it starts on.
+/// Clips a ray's interval against the caps of a solid. A ray that starts on the surface and goes
+/// inward is clipped only against the cap towards which it goes, and never against the cap on which
+/// it starts.
 template <class Real, class AnyInterval>
 void clip_caps(AnyInterval& interval, const AxialRay<Real>& axial, const Start& start,
                Judge<Real>& judge) {
@@ -83,7 +84,7 @@ Vec3<Real> offset_from_axis(const Vec3<Number>& base, const Vec3<Number>& axis,
     return mul_add(Real(-(dot(from_base, a) / squared_length(a))), a, from_base);
 }
 
-/// An AxialRay without fractions: across is scaled by |axis|^2.
+/// An AxialRay without fractions: `across` is scaled by |axis|^2.
 template <class Real>
 struct ScaledAxialRay {
     Vec3<Real> axis, from_base, direction;
@@ -116,7 +117,8 @@ struct ScaledAxialRay {
         if (face == base_cap) return {0.0, -0.5 * height_direction, -height_origin};
         return {0.0, 0.5 * height_direction, height_origin - axis_squared};
     }
-    /// Returns the forms of body, base and top of a solid with this body.
+    /// Returns the values at the ray's origin of the forms of body, base cap and top cap.
+    /// `body_there` is the value of the body's form.
     std::array<Real, 3> forms_at_origin(const Real& body_there) const {
         return {body_there, -height_origin, height_origin - axis_squared};
     }

@@ -13,14 +13,15 @@ namespace raylane::core {
 /// megabytes at random then seldom wait for address translation. Throws std::bad_alloc.
 void* allocate_big(std::size_t bytes);
 void free_big(void* memory, std::size_t bytes) noexcept;
-/// Returns the memory behind the first `used` bytes to the system, where that is possible. Its
-/// contents are lost, but it may be written again.
+/// Returns the memory behind the first `used` bytes to the system, where that is possible. The
+/// contents of that memory are lost, but it may be written again.
 void forget_rest(void* memory, std::size_t bytes, std::size_t used) noexcept;
 
-/// An array of plain data whose size is set once. Its elements are uninitialised, so that memory is
-/// first touched by the code that fills it, possibly in many threads, and never twice. Copies share
-/// the elements, which must not be changed once a copy exists. The elements may belong to another
-/// owner, such as a mapped file, and must not be changed then either.
+/// An array of plain data whose size is set once. The constructor leaves the elements
+/// uninitialised, so the code that fills the array is the first to touch its memory, possibly in
+/// many threads. Copies share the elements, which must not be changed once a copy exists. The
+/// elements may belong to another owner, such as a mapped file. Such elements must not be changed
+/// either.
 template <class T>
 class BigArray {
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64);

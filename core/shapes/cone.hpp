@@ -27,10 +27,11 @@ Bounds bounds_of(const ConeOf<Number, ends>& cone) {
 
 /// Solves |across(t)|^2 = width(t)^2, where the width runs from base_radius to top_radius along the
 /// axis:
-///   F(t) = |across|^2 - width^2 = A t^2 + 2 B t + C,  width(t) = W + t M.
+///   F(t) = |across|^2 - width^2 = A * t^2 + 2 * B * t + C,  width(t) = W + t * M.
 /// The equation also describes the mirror nappe beyond the apex, where width < 0. Between the ends,
-/// width >= 0, so crossings that are clipped to the ends need a separate test at the apex alone: a
-/// ray through it, from the inside of one nappe to that of the other, crosses both there.
+/// width >= 0. So crossings that are clipped to the ends need a separate test at the apex alone: a
+/// ray through the apex, from the inside of one nappe to the inside of the other, crosses both
+/// nappes there.
 ///
 /// Drawing: bench/drawings/cone_nappes.svg
 template <class Real, class Number, Ends ends>
@@ -51,8 +52,8 @@ Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray
     Crossings<Real> roots;
     const int curvature = judge.sign(A);
     if (start.on_surface && start.face == body) {
-        // t = 0 is one root, -2 B / A the other. Going inward, F falls at 0, so it rises again only
-        // if A > 0.
+        // t = 0 is one root, -2 * B / A the other. Going inward, F falls at 0, so it rises again
+        // only if A > 0.
         if (curvature > 0) roots.add({not_behind(Real(-(B + B) / A)), body, false});
     } else {
         const Real C = mul_add(Real(-W), W, squared_length(axial.across_origin));
@@ -94,7 +95,9 @@ Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray
     return start.on_surface ? interval.exit() : interval.crossings();
 }
 
-/// Returns half the gradient of F: across - width slope axis. It vanishes at the apex.
+/// Returns a vector along the outward normal. On a cap, it is the axis or its opposite. On the
+/// body, it is half the gradient of F as in crossings(), across - width * slope * axis, where
+/// `across` is the offset from the axis to the point. This vector vanishes at the apex.
 template <class Real, class Number, Ends ends>
 Vec3<Real> outward_direction(const ConeOf<Number, ends>& cone, const Vec3<Real>& point, Face face) {
     const Vec3<Real> axis = convert<Real>(cone.axis);
@@ -115,7 +118,7 @@ Vec3<Real> apex_direction(const ConeOf<Number, ends>& cone) {
     return cone.top_radius < cone.base_radius ? axis : -axis;
 }
 
-/// The cone's width, scaled by |axis|^2: origin + t direction.
+/// The cone's width along a ray, scaled by |axis|^2: origin + t * direction.
 template <class Real>
 struct ScaledWidth {
     Real widening, origin, direction;

@@ -11,9 +11,8 @@
 
 namespace raylane::core {
 
-/// Answers the yes-or-no questions that a solver asks of its numbers. For a plain real type, the
-/// number decides. For numbers with bounds, the judge remembers whether any answer was within the
-/// error.
+/// Answers the yes-or-no questions of a solver about its numbers. For a plain real type, the number
+/// decides. For numbers with bounds, the judge remembers whether any answer was within the error.
 template <class Real>
 class Judge {
   public:
@@ -51,8 +50,8 @@ class Judge {
     bool textbook_ = false;
 };
 
-/// A divisor of several numbers. In float, `/` multiplies by its reciprocal, which has an error of
-/// an ulp and is several times as fast.
+/// A divisor of several numbers. In float, `/` multiplies by the reciprocal of the divisor. The
+/// result has an error of an ulp, but multiplication is several times as fast as division.
 template <class Real>
 class Divisor {
   public:
@@ -75,7 +74,7 @@ class Divisor {
 inline constexpr double needed_accuracy = 0x1p-27;
 
 /// A judge of numbers with bounds. An answer within the error, or a t that is not accurate enough,
-/// is a doubt, and the caller must ask again in a wider type.
+/// leaves a doubt. The caller must then solve again in a wider type.
 template <class T>
 class Judge<Bounded<T>> {
   public:

@@ -12,7 +12,8 @@ std::uint32_t pattern_of(float number) {
     return std::bit_cast<std::uint32_t>(number);
 }
 
-/// Range of the bit patterns of one axis. Lanes are filled from the first on.
+/// Range of a block's coordinates along one axis, as the integers of their bit patterns. Empty
+/// lanes do not count. They follow the lanes that hold spheres.
 struct Span {
     std::uint32_t least = PackedBlock::empty, most = 0;
 
