@@ -7,7 +7,8 @@
 
 namespace raylane::core {
 
-/// Returns the fraction of fog in [0, 1] on a segment of length `distance` that ends at world `z`.
+/// Returns the fraction of fog in [0, 1] on a segment of length `distance` whose end has the world
+/// coordinate `z`.
 template <class Real>
 Real fog_fraction(const Fog& fog, Real distance, Real z) {
     const Real start = Real(fog.start), end = Real(fog.end);
@@ -24,7 +25,7 @@ Real fog_fraction(const Fog& fog, Real distance, Real z) {
     return Real(0);
 }
 
-/// Returns the same for a ray that hits nothing: the limit for an infinite segment.
+/// Returns fog_fraction() for a ray that hits nothing: the limit for an infinite segment.
 template <class Real>
 Real fog_fraction_at_infinity(const Fog& fog, const Vec3<Real>& origin,
                               const Vec3<Real>& direction) {

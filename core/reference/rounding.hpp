@@ -7,29 +7,29 @@
 namespace raylane::core {
 
 /// Returns t * 2^exponent, rounded to the nearest float, ties to even, but never to 0 or infinity.
-/// Decides exactly if t and its error alone leave a doubt.
+/// Uses exact arithmetic only if the error of t leaves the rounding in doubt.
 float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, int exponent);
 
-/// Returns t, rounded to the nearest double, ties to even. Decides exactly if t and its error alone
-/// leave a doubt.
+/// Returns t, rounded to the nearest double, ties to even. Uses exact arithmetic only if the error
+/// of t leaves the rounding in doubt.
 double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit);
 
-/// Compares a crossing's true t with a number: -1 if it is less, 0 if both are equal, 1 if it is
-/// more. Decides exactly if t and its error alone leave a doubt.
+/// Compares a crossing's true t with a number: -1 if t is less, 0 if both are equal, 1 if t is
+/// more. Uses exact arithmetic only if the error of t leaves the answer in doubt.
 int compare_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, double number);
 
-/// Returns true if every t within `error` of this one rounds to the same float, as by rounded_t().
-/// Stores that float in `t_rounded`, or otherwise the least of them.
+/// Returns true if all numbers within `error` of t round to the same float by the rules of
+/// rounded_t(). Stores that float in `t_rounded`. Otherwise stores the least of the floats.
 bool rounds_surely(double t, double error, float& t_rounded);
 
 /// Returns true if every number within `error` of this sum rounds to its high part.
 bool rounds_surely(const DoubleDouble& t, double error);
 
 /// Returns the unit normal outside (in front) of the surface at the true point of a crossing, each
-/// component rounded to the nearest float, ties to even; 0 is +0. At an edge, it is the normal of
-/// the lowest of the faces that the ray crosses there. At the apex of a cone, it is the axis, to
-/// the outside; at that of a quadric, z. `known` gives components that are known already, and NaN
-/// for the others.
+/// component rounded to the nearest float, ties to even; 0 is +0. At an edge, the result is the
+/// normal of the lowest of the faces that the ray crosses there. At the apex of a cone, it is the
+/// axis, pointing outwards. At the apex of a quadric, it is the z axis. `known` holds the
+/// components that are known already, and NaN for the others.
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit);
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit,
                      const Vec3f& known);

@@ -22,15 +22,15 @@ Hit<Real> contact_hit(const Contact<Real>& contact) {
     return hit;
 }
 
-/// Tolerance for a miss of bounds, relative to t: the solvers' error, which is 2^-27 in double,
-/// plus that of the quotients here, 3 half ulps (Ize, "Robust BVH Ray Traversal", 2013). In float,
-/// and in plain double, the solvers guarantee nothing.
+/// Tolerance for a miss of bounds, relative to t. It is the solvers' error, which is 2^-27 in
+/// double, plus the error of the quotients in entry_t(), 3 half ulps (Ize, "Robust BVH Ray
+/// Traversal", 2013). In float, and in plain double, the solvers guarantee nothing.
 template <class Real>
 constexpr Real allowance = Real(1) + Real(std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-25);
 
-/// Returns the t >= 0 at which a ray enters the bounds of entry i; -1 if it misses them between 0
-/// and t_most. A component of 0 gives 0 * inf only if the origin is in a plane of the bounds.
-/// Either answer is then right, as no shape touches its bounds.
+/// Returns the t >= 0 at which a ray enters the bounds of entry i, or -1 if the ray misses these
+/// bounds between 0 and t_most. A direction component of 0 gives 0 * inf only if the origin is in a
+/// plane of the bounds. Either answer is then right, as no shape touches its bounds.
 template <class Real>
 Real entry_t(const WideNode& node, int i, const Ray<Real>& ray, const Vec3<Real>& inverse,
              Real t_most) {
@@ -124,7 +124,8 @@ void Searcher<Real>::sort(const Ray<Real>& ray, const OriginSurfaces<Real>& orig
         hits[i].joins = i != 0 && hits[i - 1].t == hits[i].t;
 }
 
-/// Returns true if a crossing with a part of a solid is one of the solid's surface, too.
+/// Returns true if a crossing is on the surface of the solid that the shape belongs to, or if the
+/// shape belongs to no solid.
 template <class Real>
 bool Searcher<Real>::is_surface(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                                 const Hit<Real>& hit) {
@@ -138,7 +139,7 @@ bool Searcher<Real>::is_surface(const Ray<Real>& ray, const OriginSurfaces<Real>
     }
 }
 
-/// Fills the candidates. Returns one that may be the first, if any.
+/// Fills candidates_. Returns a hit that may be the first, or no hit.
 template <class Real>
 Hit<Real> Searcher<Real>::look(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                                OfHit counts, Real t_most) {
@@ -160,7 +161,8 @@ Hit<Real> Searcher<Real>::look(const Ray<Real>& ray, const OriginSurfaces<Real>&
     return best;
 }
 
-/// Returns the encounter with the candidates, which include `best`, with its contacts.
+/// Returns the ray's encounter with the candidates, which include `best`: the first hit that
+/// counts, and all hits at the same t.
 template <class Real>
 Encounter<Real> Searcher<Real>::encounter(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                                           const Hit<Real>& best) {
@@ -228,7 +230,8 @@ Encounter<Real> Searcher<Real>::first_of(const std::vector<AnyHit>& hits, const 
     return {hit_first, OriginSurfaces<Real>(contacts_)};
 }
 
-/// Calls visit(kind, block) for the blocks that may be hit before t_most(), until it returns false.
+/// Calls visit(kind, block) for the blocks that may be hit before t_most(), until visit returns
+/// false.
 template <class Real>
 template <class Most, class Visit>
 void Searcher<Real>::for_each_candidate(const Ray<Real>& ray, const Most& t_most,

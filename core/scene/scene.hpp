@@ -39,7 +39,7 @@ struct TransmissiveShapes {
 /// indices, and has its own copy of the rest.
 class Scene {
   public:
-    /// Returns the shapes. Equal shapes of one material are there once, as the first of them.
+    /// Returns the shapes. If equal shapes have one material, only the first of them is stored.
     const Tables& shapes() const { return shapes_; }
     std::size_t shape_count() const { return material_of_.size(); }
     const Hierarchy& hierarchy() const { return hierarchy_; }
@@ -55,12 +55,14 @@ class Scene {
     const MaterialIndices& material_indices() const { return material_of_; }
     /// Returns the compound solids, whose parts are among the shapes.
     const Solids& solids() const { return solids_; }
-    /// Returns the material inside of a shape's surface. For a part of a solid, it is that of the
-    /// whole.
+    /// Returns the material inside of a shape's surface. For a part of a solid, it is the material
+    /// inside of the whole solid.
     MaterialIndex medium_index_of(ShapeId id) const {
         return solids_.has(id) ? solids_.medium_of(id) : material_of_[id];
     }
-    /// Returns true if another medium begins behind a surface, provided that light passes it.
+    /// Returns true if light that passes a surface enters or leaves a medium there. `material` is
+    /// the material of the surface, `medium` that of the inside behind it. One of the two must be
+    /// transmissive.
     bool bounds_medium(MaterialIndex material, MaterialIndex medium) const {
         return materials_[material].transmits() || materials_[medium].transmits();
     }
@@ -143,8 +145,8 @@ class SceneBuilder {
     void name_material(MaterialIndex material, std::string_view name);
     void add_light(const Light& light);
     /// Gives each material i the index new_index[i]. The new indices must be 0, 1, 2, ... without a
-    /// gap. If several materials get one index, the last counts. For readers that meet a material's
-    /// name before the material.
+    /// gap. If several materials get one index, the last of them is kept. Readers need this if a
+    /// file may use a material's name before it defines the material.
     void renumber_materials(std::span<const MaterialIndex> new_index);
 
     /// Adds a shape, in float or in double, and returns its id: 0, 1, 2, ... `material` must be an
@@ -160,8 +162,9 @@ class SceneBuilder {
 
     /// Adds a compound solid. Returns the id of its first part, which is also the solid's id. The
     /// ids of the other parts follow, in the order of the description. `material` applies to parts
-    /// without a material and to the inside of the whole; by default the inside has its first
-    /// part's. Fields are those of shapes behind "objects/0/objects/2/", ...
+    /// without a material and to the inside of the whole solid. By default, the inside has the
+    /// material of the first part. The field of an error is that of the part, preceded by
+    /// "objects/0/objects/2/", ...
     ShapeId add_solid(const Solid& solid, MaterialIndex material);
 
     /// Reserves memory for `count` more shapes, so that adding them copies nothing.

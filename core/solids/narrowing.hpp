@@ -9,12 +9,13 @@
 
 namespace raylane::core {
 
-/// Narrows the bounds of a solid and of its parts to where they matter.
+/// Narrows the bounds of a solid and of its parts to the places where they matter.
 ///
-/// Halves the parts by place into groups. Each group passes on the solid's expression without the
-/// parts that are decided in the group's bounds, so that n parts take n log n steps. The terms of a
-/// group's expression and the steps for each part are limited. Bounds are wider than they could be
-/// where many parts stay undecided together.
+/// Halves the parts by position into groups, again and again. Each group passes on the solid's
+/// expression without the parts that are decided in the group's bounds. So the number of steps for
+/// n parts grows with n * log(n). The terms of a group's expression and the steps for each part are
+/// limited. Where many parts stay undecided together, bounds are therefore wider than they could
+/// be.
 class SolidNarrowing {
   public:
     using Index = Solids::Index;
@@ -27,10 +28,11 @@ class SolidNarrowing {
     /// Narrows the bounds of a whole solid, which are finite.
     void narrow_whole(Index solid);
     /// Narrows the bounds of parts of a solid, which are finite. A part that matters nowhere is no
-    /// longer traced; one whose inside is all in the solid fills.
+    /// longer traced. A part whose whole inside belongs to the solid is marked (Node::fills).
     void narrow_parts(Index solid, std::vector<Index> parts);
 
-    /// True if rays have to find a part's inside, and not only its surface.
+    /// Returns true if the bounds of a part must contain its inside, and not only its surface,
+    /// because the search has to find rays that are inside of the part.
     bool needs_inside(Index part) const;
 
   private:
@@ -54,7 +56,7 @@ class SolidNarrowing {
     Value matters(Index part, const Expression& expression) const;
     void narrow_group(std::size_t first, std::size_t last, const Expression& expression);
     void narrow_part(Index part, const Expression& expression);
-    /// True for a part of the group whose expression is reduced.
+    /// Returns true for a part of the group whose expression is being reduced.
     bool is_of_group(Index node) const {
         const std::size_t number = number_[node - solid_];
         return first_ <= number && number < last_;

@@ -111,8 +111,9 @@ void SolidCollector::find_hulls(Index first) {
     }
 }
 
-/// Returns bounds of the points at which the inside or the surface of a part may matter: inside of
-/// all nodes with which it is intersected, outside of all nodes with which it is united.
+/// Returns bounds of the points at which the inside or the surface of a part may matter. Such a
+/// point is inside of every intersection above the part and outside of every union above the part.
+/// Unions with Node::many do not narrow the bounds.
 Bounds SolidCollector::allowed(Index part) const {
     Bounds bounds = everywhere();
     for (Index above = solids_.nodes_[part].parent; above != Solids::none;
