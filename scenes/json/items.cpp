@@ -93,11 +93,13 @@ class ItemParser {
     bool scalar(JsonType type, std::string_view text, double number);
     bool open(JsonType type);
     bool close();
-    /// Returns false if the value of a root key must not have this type.
+    /// Adds a value to the item. Returns false if the value is that of a root key (a key of the
+    /// outermost object) and has the wrong type.
     bool add(JsonType type, std::string_view text, double number);
     void root_key(std::string_view key);
-    /// Returns the type that the outermost value or the root key's value must have, or nothing if
-    /// the function that takes the item decides.
+    /// Returns the type that the file's outermost value or, inside of it, the value of the latest
+    /// root key must have. Returns nothing for a root key with a single item, whose type take_
+    /// checks.
     std::optional<JsonType> expected_type() const;
     std::string next_pointer() const;
     JsonPositions next_positions(JsonType type) const;

@@ -113,7 +113,8 @@ void Reader::read_entity() {
                  "must be one of v, b, l, f, s, c, p and pp, got " + quoted_word(entity));
 }
 
-/// Reads the view. If there are several, the last counts: NFF's text expects a single one.
+/// Reads the view. If there are several views, the last one counts: NFF's text expects a single
+/// view.
 void Reader::read_view() {
     require_no_objects();
     const NffView view = read_nff_view(fields_);
@@ -129,8 +130,8 @@ void Reader::read_view() {
     has_view_ = true;
 }
 
-/// Reads the background. It may come anywhere. If there are several, the last counts, as with the
-/// view.
+/// Reads the background, which may come anywhere. If there are several backgrounds, the last one
+/// counts.
 void Reader::read_background() {
     builder_.background = fields_.vector("color");
     core::validate_color("color", builder_.background);
@@ -179,7 +180,7 @@ void Reader::read_cone() {
 
     const bool inside = base_radius < 0.0F || apex_radius < 0.0F;
     const core::MaterialIndex index = material(inside ? Visible::inside : Visible::both);
-    // NFF's text puts the smaller radius at the apex. Nothing depends on that.
+    // NFF's text puts the smaller radius at the apex. This reader accepts either order.
     if (base_radius == apex_radius)
         builder_.add(core::OpenCylinder{base, apex - base, std::abs(base_radius)}, index);
     else
@@ -188,8 +189,8 @@ void Reader::read_cone() {
 }
 
 /// Takes as the front the side from which the vertices run counter-clockwise, by the area of the
-/// whole polygon. The text's shortcut, the turn at the second vertex, agrees wherever the text
-/// permits it.
+/// whole polygon. NFF's text decides by the turn at the second vertex. Both rules agree for the
+/// polygons that the text permits.
 void Reader::read_polygon(bool with_normals) {
     begin_objects();
     vertices_.clear();
@@ -258,9 +259,10 @@ void Reader::add_lights() {
         builder_.add_light({.position = light.position, .color = light.color.value_or(usual)});
 }
 
-/// Returns the index of the current fill's material. "Objects are normally considered one sided"
-/// permits culling that no image of the databases shows, and the Readme withdraws it for the
-/// teapot. So only a negative radius, which asks for one side, hides the other side.
+/// Returns the index of the current fill's material. NFF's text says "Objects are normally
+/// considered one sided". This permits culling, but no image of the databases shows it, and the
+/// Readme withdraws it for the teapot. So only a negative radius, which asks for one side, hides
+/// the other side.
 core::MaterialIndex Reader::material(Visible visible) {
     std::optional<core::MaterialIndex>& index = visible == Visible::inside ? inside_ : both_sides_;
     if (!index) index = materials_->index_of(fill_, visible);

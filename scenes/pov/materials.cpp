@@ -44,7 +44,7 @@ bool set_checker(const Pigment& pigment, const Motion& motion, const core::Plane
         const bool is_constant = plane != nullptr && plane->normal[(axis + 1) % 3] == 0.0 &&
                                  plane->normal[(axis + 2) % 3] == 0.0;
         if (is_constant || std::abs(edge) >= too_long) {
-            // POV-Ray counts a point on a border to the cell above it.
+            // POV-Ray counts a point on a border as part of the cell above the border.
             constexpr double border = 1e-10;
             const double place = is_constant ? plane->point[axis] : 0.0;
             parity += std::floor((place - offset) / edge + border);
@@ -53,7 +53,7 @@ bool set_checker(const Pigment& pigment, const Motion& motion, const core::Plane
         if (size == 0.0) size = std::abs(edge);
         const double cells = offset / size;
         if (std::abs(edge) != size || cells != std::floor(cells)) return false;
-        // POV-Ray counts an edge to the cell above it.
+        // POV-Ray counts an edge as part of the cell above it.
         const int bits = edge < 0.0 ? 1 | 8 : 1;
         pattern.axes = static_cast<std::uint8_t>(pattern.axes | bits << axis);
         parity += cells + (edge < 0.0 ? 1.0 : 0.0);
@@ -65,8 +65,8 @@ bool set_checker(const Pigment& pigment, const Motion& motion, const core::Plane
     return true;
 }
 
-/// Sets a gradient or stripes, from the transformed origin along the direction, which is
-/// transformed by the inverse of the map.
+/// Sets a gradient or stripes. They start at the transformed origin. Their direction is transformed
+/// by the inverse transpose of the map.
 bool set_gradient(const Pigment& pigment, const Motion& motion, core::Pattern& pattern) {
     if (pigment.direction == Vec3d(0.0)) return false;
     const Vec3d x = column(motion, 0), y = column(motion, 1), z = column(motion, 2);
@@ -121,8 +121,8 @@ std::array<float, 24> key_of(const core::Material& m) {
             m.opacity};
 }
 
-/// Sets the stronger of both highlights. Phong's, by the reflected ray, is about Blinn's, by the
-/// halfway vector, with four times the exponent.
+/// Sets the stronger of both highlights. Phong's highlight, by the reflected ray, with exponent n
+/// is about Blinn's, by the halfway vector, with exponent 4 * n.
 void set_highlight(const Finish& finish, core::Material& material, Tokens& tokens,
                    const Place& place) {
     if (finish.specular > 0.0 && finish.phong > 0.0)
@@ -177,7 +177,8 @@ core::Material Materials::material_of(const Look& look, const Place& place,
     if (color[3] != 0.0)
         tokens_.remark(place, "filter of a colour is not supported: light passes without colour");
     const double through = std::clamp(color[4] + color[3] * largest, 0.0, 1.0);
-    // So much of a ray in the direction that most are seen from as cos^brilliance in the mean.
+    // POV-Ray's diffuse light follows cos^brilliance, raylane's follows cos. With this factor,
+    // their means over the hemisphere, weighted by cos^2, are equal.
     const double diffuse = std::max(finish.diffuse, 0.0) * (4.0 / (3.0 + finish.brilliance));
     material.ambient =
         static_cast<float>(std::max(finish.ambient * ambient_light + finish.emission, 0.0));
@@ -194,8 +195,8 @@ core::Material Materials::material_of(const Look& look, const Place& place,
                 static_cast<float>(static_cast<double>(material.ambient) * (1.0 - through));
             material.diffuse = static_cast<float>(diffuse * (1.0 - through));
         } else {
-            // Highlights and reflections are of the whole surface in POV-Ray, but of its opaque
-            // share in raylane.
+            // In POV-Ray, highlights and reflections apply to the whole surface. In raylane, they
+            // apply to the opaque share of the surface only.
             material.opacity = static_cast<float>(1.0 - through);
             const double whole = through < 1.0 ? 1.0 / (1.0 - through) : 1.0;
             material.specular *= static_cast<float>(whole);

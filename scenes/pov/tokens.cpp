@@ -54,7 +54,8 @@ Token Tokens::raw() {
     }
 }
 
-/// Leaves a text at its end. Returns false at the end of the main text.
+/// Leaves the innermost file, macro or function at its end. Returns false at the end of the main
+/// file.
 bool Tokens::leave_frame(const Place& end) {
     const Frame& frame = frames_.back();
     if (!frame.conditions.empty())
@@ -197,15 +198,16 @@ const Value* Tokens::value_of(const Token& token) const {
     return token.kind == TokenKind::word ? find(token.text) : nullptr;
 }
 
-/// Declares a name in the current scope, or the outer name if a parameter stands for one.
+/// Declares a name in the current scope. If the name is a parameter that stands for an outer name,
+/// declares the outer name.
 void Tokens::declare_here(std::string_view name, Value value) {
     for (const Alias& alias : frames_.back().aliases)
         if (alias.parameter == name) return declare(name, std::move(value), false);
     frames_.back().names.insert_or_assign(name, std::move(value));
 }
 
-/// Declares a name: if it is not local, in the innermost scope that has it, or globally if none
-/// has.
+/// Declares a name. A local name is declared in the current scope. Any other name is declared in
+/// the innermost scope that has it or, if no scope has it, globally.
 void Tokens::declare(std::string_view name, Value value, bool is_local) {
     if (is_local) return declare_here(name, std::move(value));
     const Found place = found(name);
@@ -476,9 +478,11 @@ void Tokens::include() {
     open(name, token.place);
 }
 
-/// Registers the names of a file, and of those that it includes, to be declared when they are used.
+/// Registers the names that one of POV-Ray's own files declares, and those of the files that it
+/// includes. Each of these names is declared when it is first used.
 void Tokens::include_standard(const StandardFile& file) {
-    // POV-Ray's own files end with #version and the number that `version` was before.
+    // Each of POV-Ray's own files ends by setting #version to the value that `version` had before
+    // the file. Without an earlier #version, this value is 3.7.
     if (!version) version = 3.7;
     if (!standard_files_.insert(file.name).second) return;
     for (const std::string_view other : file.includes)
@@ -489,7 +493,7 @@ void Tokens::include_standard(const StandardFile& file) {
     }
 }
 
-/// Declares a name if one of POV-Ray's own files declares it. Returns whether it does.
+/// Declares a name if one of POV-Ray's own files declares it. Returns true if so.
 bool Tokens::declare_standard(const Token& name) {
     const auto standard = standard_names_.find(name.text);
     if (name.kind != TokenKind::word || standard == standard_names_.end() ||

@@ -50,21 +50,22 @@ class Tokens {
     const Token& peek();
     /// Returns the next token of an expression, after executing all directives before it. In a
     /// #declare or #version, and outside of brackets, a directive that may use the declared name
-    /// ends the expression: then the token is the directive's '#'. Macros are not expanded.
+    /// ends the expression. The token is then the '#' of that directive. Macros are not expanded.
     const Token& ahead();
     bool at(std::string_view what) { return peek().is(what); }
-    /// Takes the next token if it is this one. Returns whether it is.
+    /// Takes the next token and returns true if it is `what`. Otherwise takes nothing and returns
+    /// false.
     bool accept(std::string_view what);
     void expect(std::string_view what);
-    /// Returns true if this token follows the word that `peek` has returned.
+    /// Returns true if the token `what` follows the word that `peek` has returned.
     bool is_before(std::string_view what) const;
     /// Skips braces and everything between them.
     void skip_braces();
 
     /// Returns null for undeclared names.
     const Value* find(std::string_view name) const;
-    /// Returns the value of a name, or of an array's element until the next one is read; null for
-    /// others.
+    /// Returns the value of a name or of an array's element; null for other tokens. The value of an
+    /// element is valid until the next element is read.
     const Value* value_of(const Token& token) const;
     /// Takes and returns the next value. Returns null, and takes nothing, if it has another type.
     template <class T>
@@ -79,7 +80,8 @@ class Tokens {
     /// Reads "(NAME)" or "(NAME[0])" from the bracket on. Returns true if there is such a value.
     bool read_is_declared();
     void declare(std::string_view name, Value value, bool is_local);
-    /// Returns a value to keep under another name. Copies an array, so that none contains itself.
+    /// Returns a value to keep under another name. Copies an array, so that no array contains
+    /// itself.
     Value copied(Value value, const Place& place);
     /// Reads "function(A, B) { EXPRESSION }" behind the word, and returns a macro. A function of a
     /// pigment or the like is not rendered.
@@ -107,14 +109,15 @@ class Tokens {
     double gamma() const {
         return assumed_gamma.value_or(version.value_or(3.62) < 3.7 ? 0.0 : 1.0);
     }
-    /// Mean colours of images, by the file's name and whether its codes were decoded.
+    /// Mean colours of images, by the path of the file and whether its sRGB codes were decoded to
+    /// linear values before taking the mean.
     std::map<std::pair<std::string, bool>, std::optional<Tuple>> image_colors;
     Shared<Texture> default_texture = std::make_shared<const Texture>();
     /// Returns a file beside the one that names it, or beside the scene.
     std::optional<std::filesystem::path> file_beside(const std::string& name,
                                                      const Place& place) const;
-    /// Returns the end of a message if an included file of POV-Ray's own declares this unsupported
-    /// name: it says which file.
+    /// Returns the end of an error message, which names the included file of POV-Ray's own that
+    /// declares the unsupported name `name`. Returns an empty text if no such file declares it.
     std::string origin_of(const Token& name) const;
     /// Returns true for a file that raylane has written, by its first words.
     bool is_by_convert() const;

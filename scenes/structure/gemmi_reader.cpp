@@ -40,7 +40,8 @@ namespace {
 using Directed = std::vector<std::pair<int, int>>; ///< CONECT's, from one serial to another
 using Orders = std::map<std::pair<int, int>, int>; ///< of bonds, by serial numbers, ascending
 
-/// Counts orders. Each bond is listed at both of its ends, a double bond twice at each end.
+/// Returns the order of each bond, which is the number of times that an end of the bond lists it.
+/// CONECT lists each bond at both of its ends, a double bond twice at each end.
 Orders orders_of(Directed directed) {
     Orders orders;
     std::sort(directed.begin(), directed.end());
@@ -111,7 +112,7 @@ class ModelReader : public FrameReader {
     }
 
   private:
-    /// Sets the displacements of atoms that have only B.
+    /// Sets the isotropic displacements of atoms that have only a B factor.
     static void add_isotropies(Structure& frame) {
         constexpr float b_of_u = 78.956835F; // 8 pi^2
         for (const float b : frame.properties[0].values)
@@ -120,8 +121,9 @@ class ModelReader : public FrameReader {
             frame.isotropies[of.atom] = 0.0F;
     }
 
-    /// Adds a residue's atoms. If places exclude each other, adds only those of the first,
-    /// `conformer`. Residues with one number share it (1CBN has SER or PRO as residue 22).
+    /// Adds a residue's atoms. If atoms have alternative places, adds only those of the first
+    /// conformer, which `conformer` keeps. Residues with the same number share `conformer` (1CBN
+    /// has SER or PRO as residue 22).
     void add(const gemmi_files::Residue& residue, bool is_small, char& conformer, Structure& frame,
              KindTable& kinds, std::unordered_map<int, AtomIndex>& atom_of) const {
         const auto index = static_cast<std::uint32_t>(frame.of_residue.size());
@@ -178,8 +180,9 @@ std::string_view field(std::string_view line, std::size_t column, std::size_t wi
     return line.size() < column ? std::string_view() : trimmed(line.substr(column - 1, width));
 }
 
-/// Residues whose atom names all begin in column 13, where only symbols of two letters and names of
-/// four should begin. AMBER, CHARMM and older tools write these.
+/// The residues of a PDB file whose atom names all begin in column 13. In the PDB format, only
+/// names with an element symbol of two letters and names of four characters begin there. AMBER,
+/// CHARMM and older tools write such residues.
 class ShiftedResidues {
   public:
     ShiftedResidues(const InputFile& file, std::string_view text) {
@@ -197,7 +200,8 @@ class ShiftedResidues {
         }
     }
 
-    /// Returns true for a shifted residue. If its names do not tell, those of the polymers decide.
+    /// Returns true if the line's residue is shifted. If the names in the residue do not decide
+    /// this, the names in all polymer residues do.
     bool has(std::string_view line) const {
         const auto of = columns_.find(residue_of(line)), of_polymers = columns_.find(polymers);
         if (of != columns_.end() && of->second.has_14) return false;
@@ -226,8 +230,9 @@ class ShiftedResidues {
     std::map<std::string, Columns, std::less<>> columns_;
 };
 
-/// Returns the element of an atom for which a PDB file has none: an ion's; by columns; or, if the
-/// columns are of no use, by the name and its residue.
+/// Returns the element of an atom for which a PDB file has no element. It is that of an ion, or
+/// follows from the columns in which the name stands. Otherwise it follows from the names of the
+/// atom and its residue.
 Element element_of_record(std::string_view line, bool is_shifted) {
     const std::string_view name = field(line, 13, 4), residue = field(line, 18, 3);
     if (const Element element = element_of_ion(name, residue)) return element;
@@ -248,9 +253,10 @@ struct ModelText {
     std::size_t entry = 0;
 };
 
-/// Splits a PDB file into models. gemmi needs their numbers to be unique, and ignores CONECT.
-/// CONECT in a model applies to that model. Elsewhere it applies to the models that END separates
-/// from others, as in joined files, or to all models if END leaves it without any.
+/// Splits a PDB file into models. gemmi needs the numbers of the models to be unique, and ignores
+/// CONECT. CONECT in a model applies to that model. Elsewhere, CONECT applies to all models of the
+/// part of the file that END separates from others, as in joined files. If that part has no model,
+/// CONECT applies to all models of the file.
 class PdbModels {
   public:
     /// `text` must outlive this object.
@@ -268,7 +274,7 @@ class PdbModels {
     void take(const Lines& lines) {
         const std::string_view line = lines.text();
         if (line.starts_with("MODEL")) {
-            is_open_ = false; // its first atom opens it
+            is_open_ = false; // the first atom opens it
             in_model_ = true;
         } else if (const std::string_view word = Words(lines).next();
                    word == "END" || word == "ENDMDL") { // not ENDROOT of PDBQT
@@ -321,7 +327,7 @@ class PdbModels {
 
     void open(std::uint64_t line) {
         ModelText& model = models_.emplace_back();
-        if (is_title_new_) model.text = title_; // which the next models share
+        if (is_title_new_) model.text = title_; // the next models share it
         is_title_new_ = false;
         model.text += cell_;
         model.entry = shared_.of_entry.size() - 1;
@@ -371,8 +377,8 @@ class PdbModels {
             if (const int to = serial(column); to != 0 && to != from) bonds.emplace_back(from, to);
     }
 
-    /// Without limits, titles and cells that many models share would take the square of the file's
-    /// size.
+    /// Without these limits, titles and cells that many models share would take memory in
+    /// proportion to the square of the file's size.
     static constexpr std::size_t longest_title = 4096, longest_record = 80;
 
     const InputFile& file_;

@@ -6,7 +6,7 @@
 
 namespace raylane::scenes {
 
-/// The columns of a line in the section Atoms of LAMMPS' data, after the number of the atom.
+/// The columns of a line in the section Atoms of a LAMMPS data file, after the number of the atom.
 struct AtomLayout {
     std::string style;                     ///< "charge", "hybrid sphere dipole"
     std::vector<std::string_view> columns; ///< "type", "charge", "x", "y", "z"

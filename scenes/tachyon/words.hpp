@@ -36,11 +36,12 @@ class TachyonWords {
     std::string_view peek();
     /// Takes and returns the next word. The word is valid until the next call.
     std::string_view take();
-    /// Takes the next word if it is this keyword. Returns whether it is.
+    /// Takes the next word and returns true if it is this keyword. Otherwise takes nothing and
+    /// returns false.
     bool accept(std::string_view keyword);
     /// Takes the next word, and throws if it is not this keyword.
     void expect(std::string_view keyword);
-    /// Throws the error of `expect` for several keywords.
+    /// Throws the error of expect() where one of several keywords would be valid.
     [[noreturn]] void refuse_next(std::string_view must);
     /// Throws for the first word of the statement.
     [[noreturn]] void refuse_statement(std::string_view must) const;
@@ -56,7 +57,8 @@ class TachyonWords {
     core::Vec3f named_triple(std::string_view keyword);
     core::Vec3f named_vector(std::string_view keyword);
 
-    /// Continues with another file, relative to this one, and then after this word.
+    /// Continues with another file, whose name is relative to the current file. After its end,
+    /// continues in the current file behind the last word taken.
     void include(const std::string& name);
 
     /// Reports an unsupported feature, once for each `what`.
