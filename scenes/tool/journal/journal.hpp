@@ -18,25 +18,30 @@
 
 namespace raylane::scenes {
 
-/// The picture that a checkpoint belongs to. A rendering resumes only from its own subject.
+/// The picture that a checkpoint belongs to: a scene with the options of its rendering. A rendering
+/// resumes only from a checkpoint of its own subject.
 struct JournalSubject {
     std::string scene;   ///< fingerprint_of() the scene
     std::string options; ///< one line with everything else that the picture depends on
 };
 
-/// A checkpoint: the finished tiles of a picture that is being drawn, in a file beside the output.
-/// Another process can resume from it, however this one ends. Each tile is written as soon as it is
-/// finished, with a checksum. If the process dies, at most the tiles in progress are lost. If the
-/// power fails, those of the last `sync_every` are lost, too. A new file is made only after
-/// `begin_after`; an existing one is extended from the first tile on.
+/// A checkpoint: the finished tiles of a picture that is being rendered, in a file beside the
+/// output. Another process can resume from it, however this process ends.
 ///
-/// Checkpoints of one output and different subjects exist side by side. The first is "OUTPUT.part",
-/// the others are "OUTPUT.CHECKSUM.part", with 16 hexadecimal digits computed from the subject. A
-/// complete picture removes all that no other process uses.
+/// A new file is made only `begin_after` seconds after the start, with the tiles that are finished
+/// by then. From then on, each tile is written as soon as it is finished, with a checksum. A file
+/// that this journal found is extended from its first finished tile on. If the process dies, at
+/// most the tiles in progress are lost. If the power fails, the tiles of the last `sync_every`
+/// seconds are lost, too.
+///
+/// Each subject, that is, each scene with its options, has a separate checkpoint beside the output.
+/// The one made first is "OUTPUT.part". The others are "OUTPUT.CHECKSUM.part", with 16 hexadecimal
+/// digits computed from the subject. When the picture is complete, remove() deletes all these files
+/// except those that another process uses.
 ///
 /// A lock on the file ensures that one process uses it at a time. Errors of the file do not end the
-/// drawing; problem() returns them. Records that cannot be written are kept in memory, up to
-/// `most_waiting` bytes, and tried again every `sync_every`.
+/// rendering; problem() returns them. Records that cannot be written are kept in memory, up to
+/// `most_waiting` bytes. The journal tries to write them again every `sync_every` seconds.
 class Journal {
   public:
     static constexpr std::chrono::seconds begin_after{2}, sync_every{3};
@@ -45,13 +50,13 @@ class Journal {
     /// The file that was found at construction, and the journal's reaction.
     enum class Found : std::uint8_t {
         nothing,
-        same,           ///< resumes from it
-        other_scene,    ///< keeps it; this journal takes another name
-        other_options,  ///< or another version: the same
-        cut_off,        ///< within the header: truncates it
-        none_of_ours,   ///< no checkpoint of this user: keeps it and writes none
-        in_use,         ///< by another process: the same
-        named_too_long, ///< the same
+        same,           ///< a checkpoint of this subject: resumes from it
+        other_scene,    ///< of another scene: keeps it; this journal takes another name
+        other_options,  ///< of other options or another version: as for other_scene
+        cut_off,        ///< cut off within the header: truncates it
+        none_of_ours,   ///< not a checkpoint of this user: keeps it and writes no checkpoint
+        in_use,         ///< another process uses it: as for none_of_ours
+        named_too_long, ///< its name would be too long: as for none_of_ours
     };
 
     /// `picture`: the output. `tell` receives the first problem() as soon as it occurs, in the
@@ -78,16 +83,16 @@ class Journal {
     /// Notes a tile whose bytes exist already.
     void note(std::size_t number, std::string_view bytes);
 
-    /// Writes everything that waits, because the drawing ends early. Returns false if that fails.
+    /// Writes all waiting records, because the rendering ends early. Returns false if that fails.
     bool keep();
-    /// Frees the file's space for a complete picture of `bytes` bytes that the disk has no space
-    /// for. Returns false, and keeps the file, if that is not enough.
+    /// Frees the file's space for a complete picture of `bytes` bytes, for which the disk has no
+    /// space. Returns false, and keeps the file, if the freed space would not be enough.
     bool give_room(std::size_t bytes);
     /// Removes this checkpoint and those of other subjects after the picture is written, once the
     /// picture is certain to survive on the disk.
     void remove();
-    /// Returns the system's last error in one line as long as something is not written that should
-    /// be, otherwise an empty text.
+    /// Returns the last problem in one line, as long as something is not written that should be.
+    /// Otherwise returns an empty text.
     std::string problem();
 
   private:
