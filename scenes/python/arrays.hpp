@@ -167,8 +167,9 @@ class Rows {
   public:
     static constexpr std::size_t any = static_cast<std::size_t>(-1);
 
-    /// Throws InvalidValue if the array has another shape or, unless `wanted` is `any`, another
-    /// number of rows than `wanted`.
+    /// Takes an array of shape (n, row...), or of shape `row` for a single row. Throws InvalidValue
+    /// for another shape. Also throws if there are n rows and n differs from `wanted`, unless
+    /// `wanted` is `any`.
     Rows(const py::handle& values, const std::vector<py::ssize_t>& row, const char* field,
          std::size_t wanted = any)
         : array_(array_of<Value>(values, field)), row_(row) {

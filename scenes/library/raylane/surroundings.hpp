@@ -13,10 +13,10 @@ enum class LightKind : std::uint8_t { point, directional, sky, sphere, disc, rec
 
 /// A light source. It casts shadows and is invisible itself. Point and directional lights have no
 /// size and do not fade with distance. For the other kinds, `color` is the radiance in every
-/// direction and on both sides. A diffuse surface shows the fraction of it that the light fills of
-/// the hemisphere above the surface, weighted by the cosine of the angle to the normal. An
-/// unobstructed sky of one colour is as bright as a light without a size straight above the
-/// surface.
+/// direction and on both sides. A diffuse surface shows this radiance times the fraction of the
+/// hemisphere above the surface that the light fills. The cosine of the angle to the normal weights
+/// this fraction. An unobstructed sky of one colour is as bright as a light without a size straight
+/// above the surface.
 struct Light {
     LightKind kind = LightKind::point;
     Vec3 position{}; ///< point: its position, not on a surface; sphere, disc: centre; rectangle:
@@ -115,8 +115,8 @@ struct Settings {
     bool alpha = false;
     int max_depth = 8;         ///< reflections and refractions on one path, 0 to 1000
     float min_weight = 0.001F; ///< [0, 1]; a path ends when its largest throughput falls below this
-    /// Surfaces of opacity below 1 that a path shows behind each other, 1 to 1000000. Further ones
-    /// are ignored.
+    /// Maximum number of surfaces of opacity below 1 that one path shows, 1 to 1000000. The path
+    /// ignores further ones, as if they were not there.
     int max_see_through = 1'000'000;
     Outline outline;
 };
