@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <string>
 
-/// Calls the library with any shapes and rays. Exact arithmetic decides which answers are right.
-/// Without an oracle (for rays that name the shape that they leave, or spans of any length), one
-/// answer is compared with another.
+/// Calls the library with arbitrary shapes and rays. Exact arithmetic (the oracle) decides which
+/// answers are right. For spans of any length, the answers of different calls are compared with
+/// each other. This is the only check if rays name the shape that they leave, or if some surfaces
+/// are visible from one side only: the oracle is not used there.
 using namespace raylane;
 using namespace raylane::fuzz;
 using core::Vec3d;
@@ -61,7 +62,8 @@ struct Asked {
     }
 };
 
-/// Returns rows of rays at equal steps, of any numbers, including infinities and NaN.
+/// Returns rows of rays. In each row, the origin and the direction change by equal steps. Some
+/// numbers are arbitrary, including infinities and NaN.
 Asked any_rays(Bytes& bytes, const std::vector<tests::AnyShape>& shapes) {
     Asked asked;
     Rays& rays = asked.rays;
@@ -124,7 +126,9 @@ void check_by_oracle(const std::vector<tests::AnyShape>& shapes, const Asked& as
     }
 }
 
-/// Traces all rays together and each alone, with all of the library's calls.
+/// Traces the rays of a span with all of the library's calls. With Precision::exact, compares the
+/// answers with each other, with those for some of the rays alone and, if possible, with the
+/// oracle.
 void ask_spans(Bytes& bytes) {
     constexpr Precision precisions[] = {Precision::exact, Precision::exact,
                                         Precision::exact, Precision::robust,
@@ -166,7 +170,7 @@ void ask_spans(Bytes& bytes) {
         const std::uint64_t once = first.first[i];
         hold(first.shape[once] == hits.shape[i] && first.t[once] == t_double[i], "most, first", i);
     }
-    for (std::size_t i = 0; i < count; i += 1 + count / 16) { // each by itself
+    for (std::size_t i = 0; i < count; i += 1 + count / 16) { // some of them alone
         Hits alone(1);
         const RaySpan one = asked.part(i, 1);
         tracer.intersect(one, alone.span());

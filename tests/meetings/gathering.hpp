@@ -122,8 +122,8 @@ inline Meeting terrain(int across, Random& random, int rays) {
 
 using MakeShell = AnyShape (*)(const Frame&, int);
 
-/// Returns makers of shapes that have one centre and touch its top, for each kind that has such
-/// shapes.
+/// Returns a maker of shapes, Touching<Shape>::shell(), for each kind that has one. The shapes
+/// touch the origin of the frame from below.
 inline std::vector<MakeShell> all_shells() {
     std::vector<MakeShell> all;
     core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
@@ -135,8 +135,9 @@ inline std::vector<MakeShell> all_shells() {
     return all;
 }
 
-/// Shapes of one or several kinds that have one centre and touch its top. Some are equal, some a
-/// few ulps apart, and some slightly larger.
+/// Shapes of one or several kinds that touch the origin of the frame from below. Most have their
+/// centre at the same distance below it. Some shapes are equal, some are a few ulps apart, and some
+/// are slightly larger. The larger ones touch the origin, too.
 inline Meeting shells(int count, Random& random, int rays) {
     Gathering gathering(random);
     const Frame& frame = gathering.frame();
@@ -149,7 +150,7 @@ inline Meeting shells(int count, Random& random, int rays) {
         switch (random.integer(0, 3)) {
         case 0:
             break;
-        case 1: // slightly off the common centre
+        case 1: // slightly larger, about the origin
             shape = tests::Placing(Vec3f(0.0F),
                                    1.0F + std::ldexp(1.0F, random.integer(-22, -4)))(shape);
             break;

@@ -79,7 +79,8 @@ class Fullness {
     rlimit before_{};
 };
 
-/// The journal of an image of 20 x 12 pixels in tiles of 8. Its tiles are arbitrary bytes.
+/// The journal of an image of 20 x 12 pixels in tiles of 8 x 8. The bytes of its tiles are
+/// arbitrary.
 struct Notes {
     core::Scene scene = scene_of(text);
     tests::TemporaryDirectory directory{};
@@ -90,7 +91,7 @@ struct Notes {
     std::string bytes(std::size_t number) const {
         return std::string(drawing.records().bytes(number), static_cast<char>('a' + number));
     }
-    /// Returns the number of tiles that the next journal of this subject finds.
+    /// Returns the number of finished tiles that a new journal of this subject finds in the file.
     int found() const {
         const Journal journal(drawing.path, drawing.subject(), drawing.records());
         int count = 0;

@@ -121,7 +121,8 @@ TEST_CASE("a repeated call of the library allocates nothing") {
         const Scene scene = touching_balls(side);
         const simd::StreamTracer tracer(scene, 1);
         const float far = static_cast<float>(side);
-        // Rays from one point line by line; along the lattice, through contacts; from everywhere.
+        // Kind 0: rays from one point, line by line. Kind 1: rays parallel to z, many of them
+        // through points where balls touch. Kind 2: rays with different origins and directions.
         for (const int kind : {0, 1, 2}) {
             std::vector<float> of_rays[6];
             for (std::size_t i = 0; i < count; ++i) {

@@ -4,12 +4,14 @@
 using namespace raylane;
 using namespace raylane::tests;
 
-/// Compares frusta of coherent rays with the same rays one by one, and with the scalar search.
+/// Compares the answers for coherent rays traced in frusta with those for the same rays one by one,
+/// and with those of the scalar search.
 
 namespace {
 
-/// Checks rays from anywhere to one light, which frusta put in another order. In each
-/// hundred packets, `strays` hold rays from anywhere.
+/// Checks rays to one light, which the search in frusta reorders. In each hundred packets of 16
+/// rays, `strays` packets have rays from anywhere. The rays of the other packets start near each
+/// other.
 void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
     CAPTURE(std::string(kernels.name), overlapping, strays);
     Rays rays(3001, overlapping ? 9.0 : 12.0);
@@ -85,8 +87,8 @@ void check_frustum(const Kernels& kernels, const Coherence& coherence, int plane
         CAPTURE(count);
         const RoundedRays rounded = rays.round(kernels);
         Answers alone(rays.padded), together(rays.padded);
-        // Some rays already have a hit before all shapes; or all have one just behind the nearest
-        // hit.
+        // Either some rays already have a hit before all shapes, or all rays have one just behind
+        // the nearest hit.
         for (std::size_t i = 0; i < count; ++i) {
             const bool behind = count % 2 == 0 && hits[i].any();
             const float met = behind                         ? 1.01F * static_cast<float>(hits[i].t)

@@ -143,18 +143,20 @@ TEST_CASE("t is the float nearest to the exact t") {
 }
 
 TEST_CASE("edges and rims and apexes have a defined normal") {
-    // Where faces of a box meet, that of edge_u comes before edge_v's, and this before edge_w's.
+    // At an edge or a corner of a box, the normal is that of the first face, in the order of
+    // edge_u, edge_v and edge_w.
     const Box box{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
     CHECK(answers({3, 3, 0}, {-1, -1, 0}, box)[0].normal.x == 1);
     CHECK(answers({0, 3, 3}, {0, -1, -1}, box)[0].normal.y == 1);
     CHECK(answers({3, 3, 3}, {-1, -1, -1}, box)[0].normal.x == 1);
     CHECK(answers({-3, 3, 3}, {1, -1, -1}, box)[0].normal.x == -1);
-    // At a rim, the normal is the side's.
+    // At a rim, the normal is that of the side.
     const CappedCylinder can{{0, -1, 0}, {0, 2, 0}, 1};
     CHECK(answers({3, 3, 0}, {-1, -1, 0}, can)[0].normal.x == 1);
     const CappedCone bucket{{0, 1, 0}, {0, 1, 0}, 1, 1.5F};
     CHECK(answers({2.5F, 3, 0}, {-1, -1, 0}, bucket)[0].normal.y < 0);
-    // At an apex, the normal points along the axis towards the apex. A quadric's is z.
+    // At the apex of a cone, the normal points along the axis towards the apex. At that of a
+    // quadric, it is z.
     const CappedCone cone{{0, -1, 0}, {0, 1, 0}, 1, 0};
     CHECK(answers({-3, 0, 0}, {1, 0, 0}, cone)[0].normal.y == 1);
     CHECK(answers({0, 3, 0}, {0, -1, 0}, cone)[0].normal.y == 1);
@@ -167,7 +169,8 @@ TEST_CASE("edges and rims and apexes have a defined normal") {
 }
 
 TEST_CASE("a ray may enter and leave with the same normal") {
-    // The ray grazes the plane by an angle that a normal in float cannot express.
+    // The ray grazes the plane: the sine of its angle with the plane is 2^-60. Both normals are
+    // those of the front.
     const Plane plane{{0, 0, 0}, {1, 0x1p60F, 0}};
     const std::vector<Answer> up = answers({-1, 0, 0}, {1, 0, 0}, plane);
     const std::vector<Answer> down = answers({1, 0, 0}, {-1, 0, 0}, plane);
