@@ -3,7 +3,9 @@
 #include "simd/by_isa.hpp"
 #include "simd/isa.hpp"
 
-/// Measures the ceiling of each kind beside raylane's precisions, with the same rays and shapes.
+/// Measures, for each kind of shape, the simplest fast float loop (ceiling.hpp). Its speed is an
+/// upper bound for raylane's float methods. The rays and shapes are those of the other benchmarks
+/// of methods.
 namespace raylane::bench {
 
 namespace {

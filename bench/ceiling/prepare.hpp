@@ -8,7 +8,8 @@
 
 #include <vector>
 
-/// Prepares the numbers of shapes for the loops, in double, once per scene.
+/// Computes the floats from which the loops of ceiling.hpp read each shape. This happens once per
+/// scene and in double.
 namespace raylane::bench {
 
 using core::convert;
@@ -62,7 +63,7 @@ inline void prepare(const core::SmoothTriangle& t, Numbers& numbers) {
     prepare(core::Triangle{t.a, t.b, t.c}, numbers);
 }
 
-/// Returns the rows of the inverse of the matrix with these columns.
+/// Returns the rows of the inverse of the matrix with the columns u, v and w.
 inline glm::dmat3 inverse_rows(const core::Vec3f& u, const core::Vec3f& v, const core::Vec3f& w) {
     return glm::transpose(
         glm::inverse(glm::dmat3(convert<double>(u), convert<double>(v), convert<double>(w))));

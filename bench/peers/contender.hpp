@@ -12,10 +12,11 @@ class Contender {
   public:
     virtual ~Contender() = default;
 
-    /// Prepares for a set of rays, which must live until the next one.
+    /// Prepares for a set of rays. The rays must exist until the next set is prepared.
     virtual void prepare(const RaySet& rays) = 0;
-    /// Answers rays begin to end; begin is a multiple of RaySet::wave. This call is timed. Each of
-    /// several threads has its number, from 0 on, and separate rays.
+    /// Answers the rays from `begin`, a multiple of RaySet::wave, to `end` - 1. The time of this
+    /// call is measured. If several threads call it, each has different rays and a different
+    /// `thread`, counted from 0.
     virtual void run(std::size_t begin, std::size_t end, int thread) = 0;
     /// Returns the answers by ray, after all rays have been answered: the id of the shape hit, or
     /// no_shape; for occlusion, 1 or 0.
@@ -35,12 +36,12 @@ using Contenders = std::vector<std::unique_ptr<Contender>>;
 /// Makes raylane's engine, with rays in its arrays.
 std::unique_ptr<Contender> make_own(const simd::SceneData& scene, simd::Isa isa, int threads);
 
-/// Makes raylane's library as users call it: rays name the shapes that they leave, or start ahead
-/// of these.
+/// Makes raylane's library as users call it. If `names` is true, rays name the shapes that they
+/// leave. Otherwise, rays start ahead of these shapes.
 std::unique_ptr<Contender> make_library(const simd::SceneData& scene, simd::Isa isa, bool names);
 
 /// Makes contenders of Embree: its calls for one ray, for 16, and for 16 with the coherent flag.
-/// Empty if Embree lacks any of the scene's shapes, or was missing in this build.
+/// Returns no contenders if Embree lacks any of the scene's shapes, or was missing in this build.
 Contenders make_embree(const core::Scene& scene, simd::Isa isa);
 
 } // namespace raylane::bench
