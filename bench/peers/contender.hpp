@@ -37,7 +37,7 @@ using Contenders = std::vector<std::unique_ptr<Contender>>;
 std::unique_ptr<Contender> make_own(const simd::SceneData& scene, simd::Isa isa, int threads);
 
 /// Makes raylane's library as users call it. If `names` is true, rays name the shapes that they
-/// leave. Otherwise, rays start ahead of these shapes.
+/// leave. Otherwise, their t_min lets them start ahead of these shapes.
 std::unique_ptr<Contender> make_library(const simd::SceneData& scene, simd::Isa isa, bool names);
 
 /// Makes contenders of Embree: its calls for one ray, for 16, and for 16 with the coherent flag.

@@ -11,9 +11,10 @@
 
 namespace raylane::core {
 
-/// Builds the subtree over at most most_items items by the surface-area heuristic. It tries all
-/// splits between neighbours along each axis. The leaves fill up, because the cost counts blocks.
-/// The items are sorted once along each axis, and the halves of a split stay sorted.
+/// Builds the subtree over at most most_items items by the surface-area heuristic. Tries all splits
+/// between neighbours along each axis and, for items of several kinds, all splits of one kind from
+/// the others. The leaves fill up, because the cost counts blocks. The items are sorted once along
+/// each axis, and the halves of a split stay sorted.
 class Sweep {
   public:
     static constexpr int most_items = 128;
