@@ -66,7 +66,6 @@ TEST_CASE("manual pages and completions have every command and option of the hel
         }
     }
     CHECK(holds(bash, "render:--engine) words=\"vector reference\""));
-    CHECK(holds(bash, "completion:*) words=\"bash\""));
     CHECK(holds(bash, "manual:*) words=\"render info "));
 }
 

@@ -209,7 +209,7 @@ TEST_CASE("a journal of another scene or other options is reported and not resum
         const Outcome outcome = workshop.run(drawing(options));
         CHECK(outcome.code == 0);
         CHECK(messages_in(outcome.err) ==
-              "raylane: out/picture.png.part: is of " + what + kept_until_complete);
+              "raylane: out/picture.png.part: belongs to " + what + kept_until_complete);
         CHECK(!has_journal(workshop));
         workshop.write("out/picture.png.part", journal);
     };
