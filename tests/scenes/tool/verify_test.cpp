@@ -105,7 +105,7 @@ TEST_CASE("verify reproduces each pixel of an image from its scene and options")
         CHECK(verify(workshop, "a.png", {"--whole"}).out == right + std::string(again));
     }
     REQUIRE(workshop.render("a.png", {"--crop", "3,4,5x6"}).code == 0);
-    CHECK(verify(workshop, "a.png", {"--pixels", "7"}).out.find("7 the same") != std::string::npos);
+    CHECK(verify(workshop, "a.png", {"--pixels", "7"}).out.find("7 equal") != std::string::npos);
     if (!scenes::has_exr()) return;
     for (const Options& options : {Options{}, {"--bits", "32", "--layers"}, {"--alpha"}}) {
         CAPTURE(options);
@@ -346,7 +346,7 @@ TEST_CASE("the option --whole checks the whole image for any choice of pixels") 
             verify(workshop, "a.png", {"--whole", "--pixels", "2", "--seed", std::to_string(seed)});
         CHECK(outcome.code == 1);
         CHECK(outcome.out.ends_with("all bits   differ from the image\n"));
-        found += outcome.out.find("2 the same") != std::string::npos ? 1 : 0;
+        found += outcome.out.find("2 equal") != std::string::npos ? 1 : 0;
     }
     CHECK(found > 0);
 }
