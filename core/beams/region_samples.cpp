@@ -34,10 +34,9 @@ Square RegionSamples::seen_by(int x, int y, int size) const {
 void RegionSamples::begin(const Region& region) {
     region_ = region;
     width_ = static_cast<std::size_t>(region.x1 - region.x0);
-    has_middles_ = survey_.has_middles();
     is_first_round_ = true;
     Pixel pixel;
-    pixel.wanted = has_middles_ ? 1 : survey_.first_samples();
+    pixel.wanted = takes_middles() ? 1 : survey_.first_samples();
     states_.assign(static_cast<std::size_t>(region.pixels()), pixel);
 }
 

@@ -35,12 +35,12 @@ class RegionSamples {
     int taken(std::size_t pixel) const { return std::max(1, states_[pixel].samples.count()); }
     /// The number of the next sample.
     int next(std::size_t pixel) const {
-        return has_middles_ && is_first_round_ ? middle_sample : states_[pixel].samples.count();
+        return takes_middles() ? middle_sample : states_[pixel].samples.count();
     }
     void add(std::size_t pixel, const Sample& sample) {
         Pixel& at = states_[pixel];
         if (is_first_round_ && at.samples.count() == 0) at.first = sample;
-        if (!has_middles_ || !is_first_round_) at.samples.add(sample);
+        if (!takes_middles()) at.samples.add(sample);
     }
     /// Ends a round. Returns false if no pixel wants more samples.
     bool end_round();
@@ -65,6 +65,7 @@ class RegionSamples {
         std::vector<ShapeId> hidden; ///< thin shapes that may show
     };
 
+    bool takes_middles() const { return is_first_round_ && survey_.has_middles(); }
     void look_at(const Region& square);
     void look_closer(Pixel& pixel, int x, int y);
     bool hides(Pixel& pixel, int x, int y);
@@ -81,7 +82,7 @@ class RegionSamples {
     BeamTracer beams_;
     Region region_{};
     std::size_t width_ = 0;
-    bool has_middles_ = false, is_first_round_ = false;
+    bool is_first_round_ = false;
     std::vector<Pixel> states_;
     std::vector<Shown> shown_; // by pixel, from the first round
     std::vector<BeamCandidate> in_pixel_;

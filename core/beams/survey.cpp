@@ -256,6 +256,7 @@ void Survey::choose_policy() {
     fit_errors();
     const double asked = core::pow(10.0, -(static_cast<double>(settings_.quality) + margin) / 10.0);
     const double too_good = asked * core::pow(10.0, -excess / 10.0);
+    const double most_cost = RegionSamples::most_samples * mean_cost();
     double least = infinity<double>;
     bool is_too_good = true;
     for (const bool spares_alike : {true, false})
@@ -269,10 +270,9 @@ void Survey::choose_policy() {
             }
             policy.limit = core::pow(2.0, low);
             const Outcome outcome = outcome_of(policy);
-            const double cost =
-                outcome.squared_error <= asked
-                    ? outcome.cost
-                    : RegionSamples::most_samples * mean_cost() * outcome.squared_error / asked;
+            const double cost = outcome.squared_error <= asked
+                                    ? outcome.cost
+                                    : most_cost * outcome.squared_error / asked;
             const bool exceeds = outcome.squared_error < too_good;
             if (exceeds == is_too_good ? cost < least : is_too_good) {
                 least = cost;

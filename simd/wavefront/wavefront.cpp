@@ -176,6 +176,7 @@ auto Wavefront::adder_to(Pixels& pixels) {
 void Wavefront::survey(core::Survey::Pass pass, std::size_t batch) {
     core::Survey::Samples pixels(*survey_, pass, batch);
     const auto add = adder_to(pixels);
+    is_surveying_ = true;
     do {
         for (std::size_t pixel = 0; pixel < pixels.pixels(); ++pixel)
             take(
@@ -183,6 +184,7 @@ void Wavefront::survey(core::Survey::Pass pass, std::size_t batch) {
                 add);
         flush(add);
     } while (!is_abandoned() && pixels.end_round());
+    is_surveying_ = false;
 }
 
 /// Takes the samples that each pixel still wants, round after round.
@@ -275,7 +277,7 @@ void Wavefront::start(std::size_t count) {
     for (double* channel : radiance_)
         std::fill_n(channel, count, 0.0);
     if (settings_.alpha) std::fill_n(transmittance_, count, 0.0);
-    if (to_quality_) std::fill_n(cost_.begin(), count, 0.0);
+    if (is_surveying_) std::fill_n(cost_.begin(), count, 0.0);
     paths_.count = count;
     tracing_.kernels->rays.camera_rays(camera_, count, across_, upward_, lens_right_, lens_up_,
                                        paths_.origin, paths_.direction);
@@ -335,7 +337,7 @@ void Wavefront::trace() {
 
 void Wavefront::trace_wave(int depth, const Coherence& coherence) {
     finder_.nearest(paths_, &coherence, counters_);
-    if (to_quality_) count_costs();
+    if (is_surveying_) count_costs();
     const bool is_first = to_quality_ && depth == 0;
     if (is_first) note_first_hits();
     for (const std::uint32_t lane : finder_.at_contacts()) { // where several surfaces meet
@@ -351,12 +353,13 @@ void Wavefront::trace_wave(int depth, const Coherence& coherence) {
 /// Adds each ray of the wave, and its rays to lights, to the cost of its sample. The reference
 /// counts those that it follows.
 void Wavefront::count_costs() {
+    const auto cost_of = [&](std::size_t lane) {
+        return finder_.hits().slot[lane] != no_slot ? 1.0 + light_rays_ : 1.0;
+    };
     for (std::size_t lane = 0; lane < paths_.count; ++lane)
-        cost_[paths_.sample[lane]] +=
-            finder_.hits().slot[lane] != no_slot ? 1.0 + light_rays_ : 1.0;
+        cost_[paths_.sample[lane]] += cost_of(lane);
     for (const std::uint32_t lane : finder_.at_contacts())
-        cost_[paths_.sample[lane]] -=
-            finder_.hits().slot[lane] != no_slot ? 1.0 + light_rays_ : 1.0;
+        cost_[paths_.sample[lane]] -= cost_of(lane);
 }
 
 void Wavefront::note_first_hits() {
@@ -380,7 +383,7 @@ void Wavefront::follow(std::size_t lane, int depth) {
          /*is_straight=*/depth_of(lane, depth) == 0});
     add(paths_.sample[lane], light.x, light.y, light.z);
     if (settings_.alpha) transmittance_[paths_.sample[lane]] += reference_.transmittance();
-    if (to_quality_) cost_[paths_.sample[lane]] += reference_.cost() - cost_before;
+    if (is_surveying_) cost_[paths_.sample[lane]] += reference_.cost() - cost_before;
 }
 
 core::Vec3d Wavefront::background_along(std::size_t lane) {

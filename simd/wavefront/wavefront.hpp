@@ -146,8 +146,9 @@ class Wavefront {
     // Used if the image has a quality.
     core::Survey* survey_;
     std::optional<core::RegionSamples> to_quality_;
+    bool is_surveying_ = false;
     double light_rays_;                      // for each surface
-    std::vector<double> cost_;               // by sample: core::Sample::cost
+    std::vector<double> cost_;               // by sample: core::Sample::cost, in a survey
     std::vector<core::ShapeId> first_shape_; // by sample: the shape that the camera ray hits
     // A wave, sorted.
     HitSorter sorted_;
