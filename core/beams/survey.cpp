@@ -21,7 +21,7 @@ struct Fraction {
         return std::min(pixels, std::max(least, std::min(pixels / dense, many)));
     }
 };
-constexpr Fraction places{6, 4096, 32, 16384}, sampled{24, 2048, 256, 4096};
+constexpr Fraction places{6, 2048, 64, 8192}, sampled{24, 1024, 512, 2048};
 /// Places in a batch.
 constexpr std::size_t batch_places = 128;
 /// The chance of a place grows with its deviation. This multiple of the mean deviation is added to
@@ -88,6 +88,7 @@ Survey::Samples::Samples(Survey& survey, Pass pass, std::size_t batch)
     const std::size_t begin = batch * batch_places;
     if (pass == Pass::look) {
         const std::size_t end = std::min(begin + batch_places, survey.places_.size());
+        pixels_.reserve(9 * (end - begin));
         for (std::size_t number = begin; number < end; ++number)
             for_each_around(survey.places_[number].x, survey.places_[number].y, picture,
                             [&](int x, int y) {
