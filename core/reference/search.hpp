@@ -1,15 +1,41 @@
 #pragma once
 
-#include "core/function_ref.hpp"
 #include "core/reference/counters.hpp"
 #include "core/reference/rounding.hpp"
 #include "core/reference/solid_surfaces.hpp"
 
 #include <limits>
+#include <memory>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 /// Finds the hits of a ray: one shape after the other, through the hierarchy or by brute force.
 namespace raylane::core {
+
+template <class Signature>
+class FunctionRef;
+
+/// Non-owning reference to a callable, for functions that are compiled once instead of once per
+/// callable. It must not outlive the callable.
+template <class Result, class... Arguments>
+class FunctionRef<Result(Arguments...)> {
+  public:
+    template <class Callable>
+    requires(!std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef>)
+        FunctionRef(const Callable& callable) // NOLINT: implicit
+        : callable_(std::addressof(callable)), call_([](const void* of, Arguments... arguments) {
+              return (*static_cast<const Callable*>(of))(std::forward<Arguments>(arguments)...);
+          }) {}
+
+    Result operator()(Arguments... arguments) const {
+        return call_(callable_, std::forward<Arguments>(arguments)...);
+    }
+
+  private:
+    const void* callable_;
+    Result (*call_)(const void*, Arguments...);
+};
 
 enum class Search : std::uint8_t { hierarchy, every_shape };
 
