@@ -4,7 +4,7 @@
 #include "core/reference/tracer.hpp"
 #include "core/scene/validate.hpp"
 #include "simd/default_rounding.hpp"
-#include "simd/layers/layers.hpp"
+#include "simd/layers/first_hits.hpp"
 #include "simd/layers/outlines.hpp"
 #include "simd/per_thread.hpp"
 #include "simd/threads.hpp"

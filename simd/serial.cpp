@@ -1,8 +1,7 @@
 #include "simd/default_rounding.hpp"
 #include "simd/threads.hpp"
-#include "simd/workers.hpp"
 
-/// Implements threads.hpp and workers.hpp without oneTBB, on the caller's thread alone.
+/// Implements threads.hpp without oneTBB, on the caller's thread alone.
 namespace raylane::simd {
 
 int default_threads() {

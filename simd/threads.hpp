@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/hierarchy/workers.hpp"
+
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -38,5 +40,19 @@ void parallel_invoke(const std::function<void()>& one, const std::function<void(
 
 /// Calls body() from a task. While body() waits, this thread does not begin another task.
 void isolate(const std::function<void()>& body);
+
+/// Runs the tasks of a build on `threads` threads (0: default_threads()).
+class ParallelWorkers : public core::Workers {
+  public:
+    explicit ParallelWorkers(int threads = 0);
+    ~ParallelWorkers() override;
+
+    void both(const Task& one, const Task& other) override;
+    void each(std::size_t count, const std::function<void(std::size_t)>& task) override;
+
+  private:
+    struct Arena;
+    std::unique_ptr<Arena> arena_;
+};
 
 } // namespace raylane::simd

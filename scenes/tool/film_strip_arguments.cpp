@@ -3,7 +3,7 @@
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/output_name.hpp"
 #include "scenes/tool/progress_bar.hpp"
-#include "simd/workers.hpp"
+#include "simd/threads.hpp"
 
 #include <cstdio>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include "scenes/errors.hpp"
 #include "scenes/tool/progress_bar.hpp"
-#include "simd/workers.hpp"
+#include "simd/threads.hpp"
 
 #include <atomic>
 #include <cstdio>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scene/camera_rays.hpp"
+#include "core/scene/layers.hpp"
 #include "core/scene/region.hpp"
 #include "simd/query/look_through.hpp"
 
@@ -62,5 +63,10 @@ class FirstHits {
     double* upward_ = nullptr;
     std::vector<std::size_t> places_; // in `hits`, by lane
 };
+
+/// Fills in a region of an image's layers, except for the samples. The layers cover the part `of`
+/// of the image.
+void fill_layers(FirstHits& tracer, const core::Region& region, const core::Region& of,
+                 core::Layers& layers);
 
 } // namespace raylane::simd

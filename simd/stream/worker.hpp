@@ -3,7 +3,7 @@
 #include "core/reference/search.hpp"
 #include "simd/query/query.hpp"
 #include "simd/stream/intake.hpp"
-#include "simd/stream/tile_columns.hpp"
+#include "simd/stream/tile_order.hpp"
 
 #include <span>
 

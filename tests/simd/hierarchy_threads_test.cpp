@@ -1,5 +1,5 @@
 #include "core/hierarchy/hierarchy.hpp"
-#include "simd/workers.hpp"
+#include "simd/threads.hpp"
 #include "tests/catch.hpp"
 #include "tests/shapes/shapes.hpp"
 

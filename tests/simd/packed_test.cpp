@@ -1,7 +1,7 @@
 #include "simd/render.hpp"
 #include "simd/stream/row_worker.hpp"
 #include "simd/stream_tracer.hpp"
-#include "simd/workers.hpp"
+#include "simd/threads.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/sanitized.hpp"

@@ -3,7 +3,7 @@
 #include "scenes/built/built_file.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/tool/memory_file.hpp"
-#include "simd/workers.hpp"
+#include "simd/threads.hpp"
 
 #include <optional>
 #include <string>
