@@ -1,7 +1,7 @@
 #include "core/reference/containing.hpp"
 
 #include "core/reference/enclosing.hpp"
-#include "core/shapes/side_of.hpp"
+#include "core/shapes/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 
 #include "core/reference/parts_near.hpp"
 #include "core/shapes/ray.hpp"
-#include "core/shapes/side.hpp"
 
 #include <cstdint>
 #include <vector>

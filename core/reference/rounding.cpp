@@ -1,6 +1,5 @@
 #include "core/reference/rounding.hpp"
 
-#include "core/shapes/normal.hpp"
 #include "core/shapes/shapes.hpp"
 
 #include <algorithm>

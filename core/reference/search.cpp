@@ -1,7 +1,6 @@
 #include "core/reference/search.hpp"
 
 #include "core/reference/crossing_order.hpp"
-#include "core/shapes/normal.hpp"
 #include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 
@@ -107,7 +106,7 @@ void Searcher<Real>::sort(const Ray<Real>& ray, const OriginSurfaces<Real>& orig
                           std::vector<Hit<Real>>& hits) {
     if constexpr (std::is_same_v<Real, double>)
         if (is_exact()) {
-            const CrossingOrder order(scene_, {ray, origins}, &order_counters);
+            const CrossingOrder order(scene_, {ray, origins});
             sharp_.assign(hits.begin(), hits.end());
             std::sort(sharp_.begin(), sharp_.end(),
                       [&](const SharpHit& a, const SharpHit& b) { return order.is_before(a, b); });

@@ -2,7 +2,6 @@
 
 #include "core/numbers/infinity.hpp"
 #include "core/shapes/shapes.hpp"
-#include "core/shapes/side_of.hpp"
 #include "core/shapes/solve.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "core/scene/surface.hpp"
 #include "core/scene/validate.hpp"
 #include "core/shapes/shapes.hpp"
-#include "core/solids/solid_size.hpp"
+#include "core/solids/solid.hpp"
 
 #include <algorithm>
 

@@ -68,4 +68,7 @@ Real not_behind(const Real& t) {
     return static_cast<double>(t) > 0.0 ? t : Real(0.0);
 }
 
+/// The side of a solid on which a point is.
+enum class Side : std::int8_t { inside = -1, surface = 0, outside = 1 };
+
 } // namespace raylane::core

@@ -14,8 +14,8 @@
 #include <span>
 
 /// Contents of each shape's file, in this order: validate(), bounds_of() if it is bounded,
-/// crossings(), outward_direction() (see normal.hpp), form_along() and normal_along() (see
-/// form.hpp), and, for solids, forms_at() (see side_of.hpp). types.hpp has its numbers and traits.
+/// crossings(), outward_direction() (see shapes.hpp), form_along() and normal_along() (see
+/// form.hpp), and, for solids, forms_at() (see shapes.hpp). types.hpp has its numbers and traits.
 namespace raylane::core {
 
 /// Re-entry: which rays that leave a shape may meet it again.

@@ -1,7 +1,7 @@
 #include "core/scene/camera_rays.hpp"
 #include "core/scene/pattern.hpp"
 #include "core/shapes/shapes.hpp"
-#include "core/solids/solid_size.hpp"
+#include "core/solids/solid.hpp"
 #include "scenes/export/writers.hpp"
 #include "scenes/pov/scanner.hpp"
 

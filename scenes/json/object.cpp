@@ -2,7 +2,7 @@
 
 #include "core/shapes/shapes.hpp"
 #include "core/solids/lens.hpp"
-#include "core/solids/solid_size.hpp"
+#include "core/solids/solid.hpp"
 #include "scenes/generators.hpp"
 #include "scenes/json/transform.hpp"
 

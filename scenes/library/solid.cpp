@@ -1,7 +1,7 @@
 #include "raylane/solid.hpp"
 
 #include "core/solids/lens.hpp"
-#include "core/solids/solid_size.hpp"
+#include "core/solids/solid.hpp"
 #include "scenes/library/convert.hpp"
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"

@@ -1,6 +1,5 @@
 #include "core/scene/scene.hpp"
 #include "core/shapes/shapes.hpp"
-#include "core/shapes/side_of.hpp"
 #include "tests/catch.hpp"
 #include "tests/random.hpp"
 

@@ -1,5 +1,5 @@
 #include "core/reference/containing.hpp"
-#include "core/shapes/side_of.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/solids/transform.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/exact.hpp"

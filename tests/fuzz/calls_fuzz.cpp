@@ -1,4 +1,4 @@
-#include "core/shapes/side_of.hpp"
+#include "core/shapes/shapes.hpp"
 #include "tests/fuzz/shapes.hpp"
 #include "tests/scenes/library/exam_in_double.hpp"
 

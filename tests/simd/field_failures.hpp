@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/camera_rays.hpp"
-#include "core/shapes/normal.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "core/shapes/types.hpp"
 #include "simd/render.hpp"

@@ -1,5 +1,5 @@
-#include "core/shapes/normal.hpp"
 #include "core/shapes/shape_table.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "core/shapes/types.hpp"
 #include "tests/catch.hpp"

@@ -1,4 +1,3 @@
-#include "core/shapes/normal.hpp"
 #include "core/shapes/shape_table.hpp"
 #include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"

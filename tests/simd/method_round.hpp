@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/shapes/normal.hpp"
 #include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "simd/query/as_core.hpp"

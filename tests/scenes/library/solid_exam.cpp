@@ -1,6 +1,6 @@
 #include "tests/scenes/library/solid_exam.hpp"
 
-#include "core/shapes/side_of.hpp"
+#include "core/shapes/shapes.hpp"
 #include "tests/scenes/library/in_library.hpp"
 
 #include <bit>
