@@ -24,17 +24,7 @@ struct EngineCounters : core::Counters {
 
     using core::Counters::operator+=;
     EngineCounters& operator+=(const EngineCounters& other) {
-        core::Counters::operator+=(other);
-        walked += other.walked;
-        deferred += other.deferred;
-        refined += other.refined;
-        one_by_one += other.one_by_one;
-        in_frusta += other.in_frusta;
-        in_lists += other.in_lists;
-        in_flight += other.in_flight;
-        doubtful += other.doubtful;
-        followed += other.followed;
-        return *this;
+        return core::add_counts(*this, other);
     }
     EngineCounters& operator-=(const EngineCounters& other) {
         auto numbers = as_numbers();

@@ -1,8 +1,22 @@
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 
 namespace raylane::core {
+
+/// Adds counters to others. The struct must consist of them alone.
+template <class Counts>
+Counts& add_counts(Counts& sum, const Counts& more) {
+    using Numbers = std::array<std::uint64_t, sizeof(Counts) / sizeof(std::uint64_t)>;
+    auto numbers = std::bit_cast<Numbers>(sum);
+    const auto added = std::bit_cast<Numbers>(more);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        numbers[i] += added[i];
+    return sum = std::bit_cast<Counts>(numbers);
+}
 
 /// Counters of the work of a rendering.
 struct Counters {
@@ -17,17 +31,7 @@ struct Counters {
 
     std::uint64_t rays() const { return primary + reflected + refracted + passed + shadow; }
 
-    Counters& operator+=(const Counters& other) {
-        primary += other.primary;
-        reflected += other.reflected;
-        refracted += other.refracted;
-        passed += other.passed;
-        shadow += other.shadow;
-        nodes += other.nodes;
-        shapes += other.shapes;
-        widened += other.widened;
-        return *this;
-    }
+    Counters& operator+=(const Counters& other) { return add_counts(*this, other); }
 };
 
 /// Counters of comparisons of crossings, by the stage that decided them.
@@ -35,13 +39,6 @@ struct OrderCounters {
     std::uint64_t by_bounds = 0; ///< intervals in double
     std::uint64_t by_digits = 0; ///< double-double with bounds
     std::uint64_t exactly = 0;   ///< signs of resultants
-
-    OrderCounters& operator+=(const OrderCounters& other) {
-        by_bounds += other.by_bounds;
-        by_digits += other.by_digits;
-        exactly += other.exactly;
-        return *this;
-    }
 };
 
 } // namespace raylane::core

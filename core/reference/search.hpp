@@ -66,7 +66,6 @@ class Searcher {
               std::vector<Hit<Real>>& hits);
 
     Counters counters;
-    OrderCounters order_counters; ///< those of sort()
 
   private:
     bool is_exact() const { return precision_ == Precision::exact; }

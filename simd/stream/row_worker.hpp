@@ -25,9 +25,7 @@ struct CrossingCounters {
     std::uint64_t widened = 0; ///< pairs of ray and shape that needed more than double
 
     CrossingCounters& operator+=(const CrossingCounters& other) {
-        order += other.order;
-        widened += other.widened;
-        return *this;
+        return core::add_counts(*this, other);
     }
 };
 
