@@ -3,7 +3,7 @@
 #include "scenes/errors.hpp"
 #include "scenes/image/exr.hpp"
 #include "scenes/image/float_pictures.hpp"
-#include "scenes/image/png_reader.hpp"
+#include "scenes/image/png.hpp"
 
 #include <cerrno>
 #include <new>

@@ -3,7 +3,7 @@
 #include "core/scene/transfer.hpp"
 #include "scenes/ending.hpp"
 #include "scenes/errors.hpp"
-#include "scenes/image/png_writer.hpp"
+#include "scenes/image/png.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #include "scenes/pov/images.hpp"
 
 #include "core/scene/transfer.hpp"
-#include "scenes/image/png_reader.hpp"
+#include "scenes/image/png.hpp"
 #include "scenes/pov/expressions.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "scenes/errors.hpp"
 #include "scenes/image/exr.hpp"
-#include "scenes/image/png_reader.hpp"
+#include "scenes/image/png.hpp"
 #include "scenes/image/reader.hpp"
 #include "scenes/number.hpp"
 #include "scenes/tool/arguments.hpp"

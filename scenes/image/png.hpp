@@ -1,6 +1,9 @@
 #pragma once
 
+#include "core/scene/film.hpp"
+#include "scenes/atomic_file.hpp"
 #include "scenes/image/float_pictures.hpp"
+#include "scenes/image/picture_options.hpp"
 
 #include <string>
 #include <string_view>
@@ -17,5 +20,9 @@ void read_png(ByteSource& source, Image& image);
 /// ("tEXt Author"). raylane writes each of its keys at most once, so a repeated key is foreign,
 /// too. `bytes`: a PNG that read_png() accepts.
 std::string foreign_chunk(std::string_view bytes);
+
+/// Writes PNG by libpng as RGB, or as RGBA if the film has an alpha; PNG's colours are not
+/// multiplied by alpha. The same picture and options give the same bytes. Throws SystemRefused.
+void write_png(AtomicFile& file, const core::Film& film, const PictureOptions& options);
 
 } // namespace raylane::scenes
