@@ -1,7 +1,6 @@
 #include "scenes/pov/expressions.hpp"
 
 #include "core/numbers/more_functions.hpp"
-#include "scenes/pov/functions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -32,4 +32,9 @@ std::vector<std::size_t> read_indices(Tokens& tokens, std::size_t most = deepest
 /// Returns the index of an element in the array's values.
 std::size_t index_in(const Array& array, const Token& name, std::span<const std::size_t> indices);
 
+/// Returns true for names of the language's numbers and functions.
+bool is_function(std::string_view name);
+/// Reads the rest of a function behind its name. Returns nothing if the name is not a function's.
+std::optional<Tuple> read_function(Tokens& tokens, const Token& name);
+
 } // namespace raylane::scenes::pov

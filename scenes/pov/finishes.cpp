@@ -2,7 +2,6 @@
 
 #include "core/numbers/more_functions.hpp"
 #include "scenes/pov/expressions.hpp"
-#include "scenes/pov/patterns.hpp"
 
 #include <algorithm>
 #include <utility>

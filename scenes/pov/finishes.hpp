@@ -2,7 +2,7 @@
 
 #include "scenes/pov/tokens.hpp"
 
-/// The look of objects.
+/// The look of objects: finishes, patterns, textures, images.
 namespace raylane::scenes::pov {
 
 /// All of these begin at the opening brace.
@@ -24,5 +24,25 @@ void read_default(Tokens& tokens);
 Shared<Motion> read_motion(Tokens& tokens);
 /// Reads "{ ... }", or a name.
 Shared<Motion> read_transform(Tokens& tokens);
+
+/// Returns the mean colour of the image in `{ png "a.png" ... }`, read from the brace to behind its
+/// end. Returns nothing if the image is missing or not a PNG.
+std::optional<Tuple> read_image_color(Tokens& tokens);
+
+/// Reads a statement of a pattern into the texture that has it: the pattern's name and its list, a
+/// map, or a number such as `turbulence`. Returns false, and reads nothing, at other words.
+bool read_pattern(Tokens& tokens, Texture& texture);
+
+/// Returns the single colour that replaces a pattern that cannot be rendered.
+Tuple color_of(const Pigment& pigment);
+/// Returns one texture in place of one texture above another.
+Shared<Texture> layered(Tokens& tokens, const Shared<Texture>& below, Shared<Texture> above,
+                        const Place& place);
+
+/// Reads "{ [0 rgb 1] [1 rgb 0] }": a map of colours, of pigments or of textures. Begins at the
+/// brace.
+PatternMap read_map(Tokens& tokens, MapOf kind);
+/// Returns the kind of map that a word begins.
+std::optional<MapOf> map_of(const Token& word);
 
 } // namespace raylane::scenes::pov

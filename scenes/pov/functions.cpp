@@ -1,5 +1,3 @@
-#include "scenes/pov/functions.hpp"
-
 #include "core/numbers/elementary.hpp"
 #include "core/numbers/more_functions.hpp"
 #include "scenes/pov/expressions.hpp"

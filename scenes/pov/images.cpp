@@ -1,8 +1,7 @@
-#include "scenes/pov/images.hpp"
-
 #include "core/scene/transfer.hpp"
 #include "scenes/image/png.hpp"
 #include "scenes/pov/expressions.hpp"
+#include "scenes/pov/finishes.hpp"
 
 #include <cmath>
 #include <new>

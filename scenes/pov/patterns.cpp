@@ -1,8 +1,5 @@
-#include "scenes/pov/patterns.hpp"
-
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
-#include "scenes/pov/images.hpp"
 #include "scenes/pov/objects.hpp"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
 #include "scenes/pov/objects.hpp"
-#include "scenes/pov/patterns.hpp"
 #include "scenes/pov/surroundings.hpp"
 
 #include <algorithm>
