@@ -3,7 +3,7 @@
 #include "core/scene/scene.hpp"
 #include "scenes/input_file.hpp"
 #include "scenes/structure/drawing.hpp"
-#include "scenes/structure/legend.hpp"
+#include "scenes/structure/structure_file.hpp"
 #include "scenes/tachyon/shading.hpp"
 
 #include <filesystem>

@@ -1,12 +1,25 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
+#include "core/shapes/types.hpp"
 #include "scenes/format.hpp"
 #include "scenes/structure/drawing.hpp"
-#include "scenes/structure/legend.hpp"
 #include "scenes/structure/readers.hpp"
 
+#include <string>
+#include <vector>
+
 namespace raylane::scenes {
+
+/// The meaning of a drawing's shapes.
+struct Legend {
+    Structure structure;
+    std::vector<AtomPair> atoms_of_shape; ///< by shape id; empty: not from a file of atoms
+
+    /// Returns "atom 12, CA of ALA 25 in chain A (C)" and the like; empty if the shape is not an
+    /// atom's.
+    std::string of(core::ShapeId shape) const;
+};
 
 /// Returns the reader of a file of atoms, which must outlive it. Throws BadInput for other formats.
 std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
