@@ -2,7 +2,7 @@
 
 #include "core/scene/film.hpp"
 #include "core/scene/layers.hpp"
-#include "scenes/byte_source.hpp"
+#include "scenes/image/float_pictures.hpp"
 #include "scenes/image/picture_options.hpp"
 #include "scenes/image/reader.hpp"
 
