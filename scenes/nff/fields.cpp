@@ -18,31 +18,8 @@ bool NffFields::next_entity() {
     return !word.empty();
 }
 
-float NffFields::number(std::string_view field) {
-    const std::string_view word = scanner_.word();
-    if (const std::optional<float> value = to_float(word)) {
-        if (*value == 0.0F && vanishes_in_float(word)) vanished_ = word;
-        return *value;
-    }
-    refuse(field,
-           is_number(word) ? "must be a number from -1e30 to 1e30" : "must be a finite number",
-           quoted_word(word));
-}
-
-int NffFields::whole_number(std::string_view field, int least, int most) {
-    const std::string_view word = scanner_.word();
-    const std::optional<int> value = to_int(word);
-    if (value && least <= *value && *value <= most) return *value;
-    refuse(field,
-           "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most),
-           quoted_word(word));
-}
-
-core::Vec3f NffFields::vector(std::string_view field) {
-    const float x = number(field);
-    const float y = number(field);
-    const float z = number(field);
-    return {x, y, z};
+void NffFields::has_read(std::string_view word, float value) {
+    if (value == 0.0F && vanishes_in_float(word)) vanished_ = word;
 }
 
 core::Vec3f NffFields::vector_on_line(std::string_view field) {

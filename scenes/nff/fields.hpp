@@ -11,7 +11,7 @@ namespace raylane::scenes {
 /// The entities of an NFF file and their fields, one after the other. Fields may be spread over any
 /// number of lines; an entity begins on a new line. Throws BadInput with the line, the entity and
 /// the field for unexpected input.
-class NffFields {
+class NffFields : public NumberFields<NffFields> {
   public:
     explicit NffFields(InputFile& file) : scanner_(file) {}
 
@@ -22,10 +22,9 @@ class NffFields {
     std::uint64_t line() const { return line_; }
     std::uint64_t bytes_passed() const { return scanner_.bytes_passed(); }
 
-    std::string_view word() { return scanner_.word(); }
-    float number(std::string_view field);
-    int whole_number(std::string_view field, int least, int most);
-    core::Vec3f vector(std::string_view field);
+    std::string_view take() { return scanner_.word(); }
+    /// Remembers a number that is not 0, but whose float is.
+    void has_read(std::string_view word, float value);
     /// Reads a vector that must be complete on the current line.
     core::Vec3f vector_on_line(std::string_view field);
     bool at_line_end() { return scanner_.at_line_end(); }

@@ -133,14 +133,14 @@ void Reader::read_view() {
 /// Reads the background, which may come anywhere. If there are several backgrounds, the last one
 /// counts.
 void Reader::read_background() {
-    builder_.background = fields_.vector("color");
+    builder_.background = fields_.triple("color");
     core::validate_color("color", builder_.background);
 }
 
 /// Reads a light. It has a colour if its line has more words.
 void Reader::read_light() {
     require_no_objects();
-    LightSource light{fields_.vector("position"), std::nullopt, fields_.line()};
+    LightSource light{fields_.triple("position"), std::nullopt, fields_.line()};
     if (!fields_.at_line_end()) light.color = fields_.vector_on_line("color");
     core::validate(
         core::Light{.position = light.position, .color = light.color.value_or(core::Color(1.0F))});
@@ -148,7 +148,7 @@ void Reader::read_light() {
 }
 
 void Reader::read_fill() {
-    fill_.color = fields_.vector("color");
+    fill_.color = fields_.triple("color");
     fill_.kd = fields_.number("Kd");
     fill_.ks = fields_.number("Ks");
     fill_.shine = fields_.number("Shine");
@@ -161,7 +161,7 @@ void Reader::read_fill() {
 
 void Reader::read_sphere() {
     begin_objects();
-    core::Sphere sphere{fields_.vector("center"), fields_.number("radius")};
+    core::Sphere sphere{fields_.triple("center"), fields_.number("radius")};
     const Visible visible = sphere.radius < 0.0F ? Visible::inside : Visible::both;
     sphere.radius = std::abs(sphere.radius);
     builder_.add(sphere, material(visible));
@@ -169,9 +169,9 @@ void Reader::read_sphere() {
 
 void Reader::read_cone() {
     begin_objects();
-    const Vec3f base = fields_.vector("base");
+    const Vec3f base = fields_.triple("base");
     const float base_radius = fields_.number("base radius");
-    const Vec3f apex = fields_.vector("apex");
+    const Vec3f apex = fields_.triple("apex");
     const float apex_radius = fields_.number("apex radius");
     if (base == apex) throw InvalidValue("apex", "must differ from the base, got the same point");
     if (std::min(base_radius, apex_radius) < 0.0F && std::max(base_radius, apex_radius) > 0.0F)
@@ -198,14 +198,14 @@ void Reader::read_polygon(bool with_normals) {
     const int count = fields_.whole_number("number of vertices", 3, most_vertices);
     for (int i = 1; i <= count; ++i) {
         fields_.begin_vertex(i, count);
-        vertices_.push_back(fields_.vector("position"));
+        vertices_.push_back(fields_.triple("position"));
         for (int axis = 0; axis < 3; ++axis)
             if (const float coordinate = vertices_.back()[axis];
                 std::abs(coordinate) > core::coordinate_limit)
                 fields_.refuse("position", "must be numbers from -1e30 to 1e30",
                                to_text(coordinate));
         if (!with_normals) continue;
-        normals_.push_back(fields_.vector("normal"));
+        normals_.push_back(fields_.triple("normal"));
         if (normals_.back() == Vec3f(0.0F))
             fields_.refuse("normal", "must not be the zero vector", "0 0 0");
     }

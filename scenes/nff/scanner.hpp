@@ -1,8 +1,13 @@
 #pragma once
 
+#include "core/numbers/vector.hpp"
+#include "scenes/errors.hpp"
 #include "scenes/input_file.hpp"
+#include "scenes/number.hpp"
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -44,6 +49,45 @@ class NffScanner {
     std::uint64_t line_begins_at_ = 0; // offset in the file
     std::uint64_t line_ = 1;
     std::uint64_t word_line_ = 1;
+};
+
+/// The numbers of a statement's fields. `Fields` has take(), the next word, and refuse(field,
+/// must, got), which throws.
+template <class Fields>
+class NumberFields {
+  public:
+    float number(std::string_view field) {
+        const std::string_view word = self().take();
+        if (const std::optional<float> value = to_float(word)) {
+            self().has_read(word, *value);
+            return *value;
+        }
+        self().refuse(field,
+                      is_number(word) ? "must be a number from -1e30 to 1e30"
+                                      : "must be a finite number",
+                      quoted_word(word));
+    }
+    int whole_number(std::string_view field, int least, int most) {
+        const std::string_view word = self().take();
+        const std::optional<int> value = to_int(word);
+        if (value && least <= *value && *value <= most) return *value;
+        self().refuse(field,
+                      "must be a whole number from " + std::to_string(least) + " to " +
+                          std::to_string(most),
+                      quoted_word(word));
+    }
+    core::Vec3f triple(std::string_view field) {
+        const float x = number(field);
+        const float y = number(field);
+        const float z = number(field);
+        return {x, y, z};
+    }
+
+    /// Called for each number.
+    void has_read(std::string_view /*word*/, float /*value*/) {}
+
+  private:
+    Fields& self() { return static_cast<Fields&>(*this); }
 };
 
 } // namespace raylane::scenes

@@ -25,7 +25,7 @@ enum ViewPart : std::size_t { from, at, up, angle, hither, resolution };
 
 /// Reads the name of a part that has not yet come.
 ViewPart next_part(NffFields& fields, const std::array<bool, names.size()>& seen) {
-    const std::string_view word = fields.word();
+    const std::string_view word = fields.take();
     const auto part =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), word) - names.begin());
     if (part < names.size() && !seen[part]) return static_cast<ViewPart>(part);
@@ -46,13 +46,13 @@ NffView read_nff_view(NffFields& fields) {
         seen[part] = true;
         switch (part) {
         case from:
-            view.camera.from = fields.vector("from");
+            view.camera.from = fields.triple("from");
             break;
         case at:
-            view.camera.at = fields.vector("at");
+            view.camera.at = fields.triple("at");
             break;
         case up:
-            view.camera.up = fields.vector("up");
+            view.camera.up = fields.triple("up");
             break;
         case angle:
             degrees = fields.number("angle");

@@ -72,30 +72,6 @@ void TachyonWords::refuse_statement(std::string_view must) const {
                                   std::string(must) + ", got " + quoted_word(statement_));
 }
 
-float TachyonWords::number(std::string_view field) {
-    const std::string_view word = take();
-    if (const std::optional<float> value = to_float(word)) return *value;
-    refuse(field,
-           is_number(word) ? "must be a number from -1e30 to 1e30" : "must be a finite number",
-           quoted_word(word));
-}
-
-int TachyonWords::whole_number(std::string_view field, int least, int most) {
-    const std::string_view word = take();
-    const std::optional<int> value = to_int(word);
-    if (value && least <= *value && *value <= most) return *value;
-    refuse(field,
-           "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most),
-           quoted_word(word));
-}
-
-core::Vec3f TachyonWords::triple(std::string_view field) {
-    const float x = number(field);
-    const float y = number(field);
-    const float z = number(field);
-    return {x, y, z};
-}
-
 core::Vec3f TachyonWords::vector(std::string_view field) {
     const core::Vec3f v = triple(field);
     return {v.x, v.y, 0.0F - v.z}; // no -0

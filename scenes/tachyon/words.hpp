@@ -23,7 +23,7 @@ inline constexpr int max_int = std::numeric_limits<int>::max();
 ///
 /// Tachyon's axes are left-handed: seen along z, y is up and x to the right. A scene in raylane has
 /// the opposite z, which is exact and does not change the image.
-class TachyonWords {
+class TachyonWords : public NumberFields<TachyonWords> {
   public:
     TachyonWords(InputFile& file, const OnRemark& on_remark);
 
@@ -46,10 +46,6 @@ class TachyonWords {
     /// Throws for the first word of the statement.
     [[noreturn]] void refuse_statement(std::string_view must) const;
 
-    float number(std::string_view field);
-    int whole_number(std::string_view field, int least, int most);
-    /// Reads three numbers as in the file: a colour.
-    core::Vec3f triple(std::string_view field);
     /// Reads a point or a direction, and converts it to the scene's axes.
     core::Vec3f vector(std::string_view field);
     /// Read a keyword and the value that follows it.
