@@ -1,7 +1,6 @@
 #include "scenes/format.hpp"
 
 #include "scenes/built/built_file.hpp"
-#include "scenes/ending.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 

@@ -110,4 +110,15 @@ double as_printed(float value) {
     return number;
 }
 
+std::string in_lower_case(std::string_view text) {
+    std::string result(text);
+    for (char& c : result)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return result;
+}
+
+std::string ending_of(const std::filesystem::path& path) {
+    return in_lower_case(path.extension().string());
+}
+
 } // namespace raylane::scenes

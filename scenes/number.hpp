@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
-/// Conversion of numbers in files, independent of the locale.
+/// Conversion of numbers and letters in files, independent of the locale.
 namespace raylane::scenes {
 
 /// Returns the float nearest to the decimal number `word`, which may have a leading '+'. Returns
@@ -39,5 +40,11 @@ std::string to_text(float value);
 /// Returns to_text(value) as a double, so that 0.001F prints as 0.001 rather than
 /// 0.0010000000474974513.
 double as_printed(float value);
+
+/// Returns the text with the letters A to Z in lower case.
+std::string in_lower_case(std::string_view text);
+
+/// Returns the extension of a file name, such as ".json", in lower case.
+std::string ending_of(const std::filesystem::path& path);
 
 } // namespace raylane::scenes

@@ -1,8 +1,8 @@
 #include "scenes/export/export.hpp"
 
 #include "scenes/built/built_file.hpp"
-#include "scenes/ending.hpp"
 #include "scenes/export/writers.hpp"
+#include "scenes/number.hpp"
 
 namespace raylane::scenes {
 

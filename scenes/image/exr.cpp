@@ -2,6 +2,7 @@
 
 #include "scenes/errors.hpp"
 #include "scenes/image/float_pictures.hpp"
+#include "scenes/number.hpp"
 
 namespace raylane::scenes {
 
@@ -182,9 +183,8 @@ void add_layers(const core::Layers& layers, Channels& channels) {
 void add_attributes(const PictureOptions& options, Imf::Header& header) {
     if (options.dpi) Imf::addXDensity(header, *options.dpi);
     for (const auto& [name, content] : options.texts) {
-        std::string key = name == "Comment" ? "comments" : name; // OpenEXR's standard name
-        for (char& c : key)
-            if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+        // OpenEXR's standard name
+        const std::string key = name == "Comment" ? "comments" : in_lower_case(name);
         header.insert(key, Imf::StringAttribute(content));
     }
 }

@@ -1,9 +1,9 @@
 #include "scenes/image/writer.hpp"
 
 #include "core/scene/transfer.hpp"
-#include "scenes/ending.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/image/png.hpp"
+#include "scenes/number.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,6 @@
 #include "scenes/structure/labels.hpp"
 
+#include "scenes/number.hpp"
 #include "scenes/structure/lines.hpp"
 
 #include <algorithm>

@@ -176,9 +176,7 @@ class DumpReader : public FrameReader {
             property.values.reserve(std::min(count, room));
         KindTable kinds(frame.of_kind);
         for (std::size_t atom = 0; atom < count; ++atom) {
-            if (!lines_.next())
-                lines_.fail("must be atom " + std::to_string(atom + 1) + " of " +
-                            std::to_string(count) + ", got the end of the file");
+            lines_.next_atom(atom + 1, count);
             read_atom(frame, kinds);
         }
     }

@@ -12,13 +12,6 @@
 
 namespace raylane::scenes {
 
-std::string in_lower_case(std::string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return result;
-}
-
 namespace {
 
 constexpr std::size_t longest_line = std::size_t{1} << 20;
@@ -75,6 +68,12 @@ bool Lines::refill() {
     at_end_ = count == 0;
     end_ += count;
     return !at_end_;
+}
+
+void Lines::next_atom(std::size_t number, std::size_t count) {
+    if (!next())
+        fail("must be atom " + std::to_string(number) + " of " + std::to_string(count) +
+             ", got the end of the file");
 }
 
 void Lines::fail(std::string_view message, std::size_t column) const {

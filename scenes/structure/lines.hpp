@@ -14,9 +14,6 @@ inline bool is_letter(char c) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-/// Returns the text with the letters A to Z in lower case.
-std::string in_lower_case(std::string_view text);
-
 /// A text file, read line by line. Holds no more than a line and a buffer. Throws BadInput for
 /// lines of 1 MiB or more.
 class Lines {
@@ -25,6 +22,8 @@ class Lines {
 
     /// Goes to the next line. Returns false at the end of the file. The last line may have no end.
     bool next();
+    /// Goes to the line of atom `number` of `count`, and fails at the end of the file.
+    void next_atom(std::size_t number, std::size_t count);
     /// Returns the line without its end and without a carriage return before that; valid until the
     /// next call.
     std::string_view text() const { return text_; }

@@ -1,6 +1,7 @@
 #include "scenes/structure/selection.hpp"
 
 #include "scenes/errors.hpp"
+#include "scenes/number.hpp"
 #include "scenes/structure/atom_tree.hpp"
 #include "scenes/structure/lines.hpp"
 

@@ -1,4 +1,5 @@
 #include "scenes/errors.hpp"
+#include "scenes/number.hpp"
 #include "scenes/structure/kind_table.hpp"
 #include "scenes/structure/labels.hpp"
 #include "scenes/structure/lines.hpp"
@@ -111,9 +112,7 @@ class XyzReader : public FrameReader {
         reserve(frame, count);
         KindTable kinds(frame.of_kind);
         for (std::size_t atom = 0; atom < count; ++atom) {
-            if (!lines_.next())
-                lines_.fail("must be atom " + std::to_string(atom + 1) + " of " +
-                            std::to_string(count) + ", got the end of the file");
+            lines_.next_atom(atom + 1, count);
             read_atom(frame, kinds);
         }
         return true;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 
 namespace raylane::scenes {
 
@@ -113,12 +112,7 @@ void TachyonWords::refuse(std::string_view field, std::string_view must,
                           std::string_view got) const {
     std::string message = printable(statement_);
     if (line() != line_of_statement()) message += " of line " + std::to_string(statement_line_);
-    if (!field.empty()) {
-        message.append(": ");
-        std::transform(field.begin(), field.end(), std::back_inserter(message), [](char c) {
-            return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-        });
-    }
+    if (!field.empty()) message.append(": ").append(in_lower_case(field));
     sources_.back().scanner->fail(line(),
                                   message.append(": ").append(must).append(", got ").append(got));
 }
