@@ -52,10 +52,7 @@ struct Subject {
     }
 
     simd::Rendering render(const core::Settings& with, core::Precision precision) const {
-        simd::RenderOptions options;
-        options.precision = precision;
-        options.threads = 1;
-        return simd::render(scene, with, options);
+        return simd::render(scene, with, {.precision = precision, .threads = 1});
     }
 
   private:

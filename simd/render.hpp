@@ -63,15 +63,15 @@ struct RenderOptions {
     int threads = 0; ///< 0: default_threads()
     /// The part of the image to render, not empty. Its pixels have the same bits as in the whole
     /// image.
-    std::optional<core::Region> crop;
+    std::optional<core::Region> crop{};
     bool layers = false; ///< true: render layers (AOVs), too
     Progress* progress = nullptr;
     /// Called before each tile by the thread that is to render it, so by several threads at a time.
     /// If it returns true, it has filled the tile, and nothing is rendered.
-    std::function<bool(const TileToFill&)> recall;
+    std::function<bool(const TileToFill&)> recall{};
     /// Called after each tile that has been rendered, likewise. With a quality, the film has pixels
     /// around a crop that does not consist of whole squares.
-    std::function<void(const FinishedTile&)> after_tile;
+    std::function<void(const FinishedTile&)> after_tile{};
     /// The tiles of grid_of(settings, options) that are rendered here. Null: all.
     TileSource* tiles = nullptr;
 };

@@ -46,8 +46,7 @@ Row measure_picture(const simd::SceneData& scene, const Measuring& how) {
     std::vector<TimedRun> runs;
     for (std::size_t i = 0; i < drawings.size(); ++i)
         runs.push_back({drawings[i].name, [&, i](int threads) {
-                            simd::RenderOptions options;
-                            options.threads = threads;
+                            const simd::RenderOptions options{.threads = threads};
                             return seconds_of(
                                 [&] { films[i] = drawings[i].draw(settings, options).film; });
                         }});

@@ -34,9 +34,7 @@ void draw(const core::Scene& scene) {
     settings.light_samples = 1;
     settings.max_depth = 2;
     settings.max_see_through = 2;
-    simd::RenderOptions how;
-    how.threads = 1;
-    simd::render(scene, settings, how);
+    simd::render(scene, settings, {.threads = 1});
 }
 
 void read(std::string_view text, Format format) {

@@ -29,9 +29,7 @@ std::vector<core::Color> picture_of(const core::Scene& scene, core::Precision pr
     settings.width = width;
     settings.grid = 1;
     settings.quality = 0.0F;
-    simd::RenderOptions options;
-    options.precision = precision;
-    return simd::render(scene, settings, options).film.pixels();
+    return simd::render(scene, settings, {.precision = precision}).film.pixels();
 }
 
 std::string json_of(const core::Scene& scene) {

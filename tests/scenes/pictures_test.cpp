@@ -52,8 +52,7 @@ void check(const std::filesystem::path& path) {
     const core::Scene scene = scenes::load_scene(path);
     const core::Settings settings = test_settings(scene);
 
-    simd::RenderOptions reference;
-    reference.engine = simd::Engine::reference;
+    const simd::RenderOptions reference{.engine = simd::Engine::reference};
     const core::Film expected = picture_of(scene, settings, reference);
     const core::Film film = picture_of(scene, settings, {});
 
@@ -69,16 +68,12 @@ void check(const std::filesystem::path& path) {
 
     for (const simd::Isa isa : simd::all_isas) {
         if (!simd::is_available(isa)) continue;
-        simd::RenderOptions options;
-        options.isa = isa;
-        options.threads = 1;
+        const simd::RenderOptions options{.isa = isa, .threads = 1};
         CAPTURE(simd::name_of(isa));
         CHECK(picture_of(scene, settings, options).pixels() == film.pixels());
     }
     for (const int tile : {8, 23, 64}) {
-        simd::RenderOptions options;
-        options.tile = tile;
-        options.threads = 2;
+        const simd::RenderOptions options{.tile = tile, .threads = 2};
         CAPTURE(tile);
         CHECK(picture_of(scene, settings, options).pixels() == film.pixels());
     }

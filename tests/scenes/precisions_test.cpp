@@ -123,10 +123,9 @@ TEST_CASE("Every pixel is finite however large the numbers of a scene are") {
             for (const core::Precision precision :
                  {core::Precision::exact, core::Precision::robust, core::Precision::fast,
                   core::Precision::plain_double}) {
-                simd::RenderOptions options;
-                options.engine = engine;
-                options.precision = precision;
-                const core::Film film = simd::render(scene, scene.settings(), options).film;
+                const core::Film film = simd::render(scene, scene.settings(),
+                                                     {.engine = engine, .precision = precision})
+                                            .film;
                 CAPTURE(text, std::string(core::name_of(precision)),
                         engine == simd::Engine::reference);
                 for (const core::Color& pixel : film.pixels())

@@ -34,8 +34,7 @@ void check(const std::filesystem::path& path, simd::Engine engine, int longest) 
     CAPTURE(path.filename());
     const core::Scene scene = tests::ScaledScene(scenes::load_scene(path), 1.0F).build();
     core::Settings settings = test_settings(scene, longest);
-    simd::RenderOptions options;
-    options.engine = engine;
+    const simd::RenderOptions options{.engine = engine};
     if (engine == simd::Engine::reference) settings.quality = 0.0F; // saves time
     const simd::Rendering expected = simd::render(scene, settings, options);
     for (const float factor : {0x1p-20F, 0x1p-3F, 0x1p7F, 0x1p20F}) {

@@ -22,10 +22,8 @@ Vector pixel(const std::string& items, simd::Engine engine, int max_depth = 100)
     const core::Scene scene = tests::scene_of(
         R"({"image": {"width": 1, "height": 1}, "limits": {"min_weight": 0, "max_depth": )" +
         std::to_string(max_depth) + "}, " + items + "}");
-    simd::RenderOptions options;
-    options.engine = engine;
-    options.threads = 1;
-    return core::convert<double>(simd::render(scene, scene.settings(), options).film.at(0, 0));
+    return core::convert<double>(
+        simd::render(scene, scene.settings(), {.engine = engine, .threads = 1}).film.at(0, 0));
 }
 
 std::string camera(const std::string& from, const std::string& at) {

@@ -73,12 +73,7 @@ struct Drawing {
         small.grid = 1;
         return small;
     }();
-    simd::RenderOptions options = [] {
-        simd::RenderOptions with;
-        with.threads = 4;
-        with.tile = 8;
-        return with;
-    }();
+    simd::RenderOptions options{.tile = 8, .threads = 4};
 };
 
 } // namespace

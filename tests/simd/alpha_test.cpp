@@ -41,8 +41,7 @@ Film drawn(const Scene& scene, const simd::RenderOptions& options = {}) {
 }
 
 simd::RenderOptions by(simd::Engine engine) {
-    simd::RenderOptions options;
-    options.engine = engine;
+    const simd::RenderOptions options{.engine = engine};
     return options;
 }
 
@@ -177,19 +176,13 @@ TEST_CASE("alpha has the same bits for all tiles and threads and instruction set
         const Scene scene = cloud.finish();
         const Film film = drawn(scene);
         for (const int tile : {8, 24, 64}) {
-            simd::RenderOptions options;
-            options.tile = tile;
-            options.threads = 3;
-            CHECK(same(drawn(scene, options), film));
+            CHECK(same(drawn(scene, {.tile = tile, .threads = 3}), film));
         }
         for (const simd::Isa isa : simd::all_isas)
             if (simd::is_available(isa)) {
-                simd::RenderOptions options;
-                options.isa = isa;
-                CHECK(same(drawn(scene, options), film));
+                CHECK(same(drawn(scene, {.isa = isa}), film));
             }
-        simd::RenderOptions options;
-        options.crop = {7, 3, 30, 33};
+        const simd::RenderOptions options{.crop = Region{7, 3, 30, 33}};
         CHECK(same(drawn(scene, options), film.cropped(*options.crop)));
         if (quality == 0.0F)
             CHECK(largest_alpha_difference(drawn(scene, by(simd::Engine::reference)), film) < 1e-6);

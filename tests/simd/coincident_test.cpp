@@ -22,11 +22,8 @@ void check_ends(const Scene& scene) {
     for (const Precision precision : all_precisions) {
         std::vector<Color> by_vectors;
         for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
-            simd::RenderOptions options;
-            options.precision = precision;
-            options.engine = engine;
-            options.threads = 1;
-            const simd::Rendering rendering = simd::render(scene, scene.settings(), options);
+            const simd::Rendering rendering = simd::render(
+                scene, scene.settings(), {.engine = engine, .precision = precision, .threads = 1});
             long wrong = 0;
             for (const Color& pixel : rendering.film.pixels())
                 wrong += std::isfinite(pixel.x) && pixel.x >= 0.0F ? 0 : 1;

@@ -60,10 +60,7 @@ std::vector<Substance> all_substances() {
 
 std::vector<Color> picture_of(Room&& room, simd::Engine engine) {
     const Scene scene = room.finish();
-    simd::RenderOptions options;
-    options.engine = engine;
-    options.threads = 1;
-    return simd::render(scene, scene.settings(), options).film.pixels();
+    return simd::render(scene, scene.settings(), {.engine = engine, .threads = 1}).film.pixels();
 }
 
 constexpr int numbers[] = {2, 4, 5, 9, 33};

@@ -66,10 +66,8 @@ TEST_CASE("a thousand reflections and any number of contacts fit a small stack",
         for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
             Color seen(-1.0F);
             on_small_stack([&] {
-                simd::RenderOptions options;
-                options.engine = engine;
-                options.threads = 1;
-                seen = simd::render(scene, scene.settings(), options).film.pixels()[4];
+                seen = simd::render(scene, scene.settings(), {.engine = engine, .threads = 1})
+                           .film.pixels()[4];
             });
             CAPTURE(panes, sum, seen.x);
             CHECK(std::abs(static_cast<double>(seen.x) / sum - 1.0) < 0.01);

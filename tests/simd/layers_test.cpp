@@ -94,9 +94,7 @@ TEST_CASE("layers hold the first hit of the ray through a pixel's middle") {
 TEST_CASE("layers have the same bits for all threads and engines and instruction sets") {
     const Scene scene = still_life();
     const core::Layers layers = layers_of(scene);
-    simd::RenderOptions options;
-    options.threads = 5;
-    options.tile = 8;
+    simd::RenderOptions options{.tile = 8, .threads = 5};
     CHECK(same(layers, layers_of(scene, options)));
     options.precision = Precision::fast;
     CHECK(same(layers, layers_of(scene, options)));
@@ -113,9 +111,7 @@ TEST_CASE("layers have the same bits for all threads and engines and instruction
 
 TEST_CASE("layers count the samples that a quality takes") {
     const Scene scene = still_life(25.0F);
-    simd::RenderOptions options;
-    options.layers = true;
-    const simd::Rendering rendering = simd::render(scene, scene.settings(), options);
+    const simd::Rendering rendering = simd::render(scene, scene.settings(), {.layers = true});
     const auto& samples = rendering.layers.samples;
     CHECK(*std::min_element(samples.begin(), samples.end()) == 1);
     CHECK(*std::max_element(samples.begin(), samples.end()) >= 4);
@@ -134,9 +130,7 @@ TEST_CASE("a crop has the same bits as in the whole image") {
             Settings settings = scene.settings();
             settings.outline.width = 3.0F;
             settings.outline.color = {1, 0, 0};
-            simd::RenderOptions options;
-            options.layers = true;
-            options.engine = engine;
+            simd::RenderOptions options{.engine = engine, .layers = true};
             const simd::Rendering whole = simd::render(scene, settings, options);
             for (const Region& crop :
                  {Region{0, 0, 41, 33}, {5, 3, 6, 4}, {17, 0, 41, 20}, {9, 15, 37, 33}}) {
@@ -159,8 +153,6 @@ TEST_CASE("a crop that is not inside of the image is refused") {
     const Scene scene = still_life();
     for (const Region& crop :
          {Region{0, 0, 42, 33}, {-1, 0, 3, 3}, {3, 3, 3, 5}, {40, 32, 41, 34}, {5, 5, 4, 6}}) {
-        simd::RenderOptions options;
-        options.crop = crop;
-        CHECK_THROWS_AS(simd::render(scene, scene.settings(), options), InvalidValue);
+        CHECK_THROWS_AS(simd::render(scene, scene.settings(), {.crop = crop}), InvalidValue);
     }
 }

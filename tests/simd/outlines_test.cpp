@@ -150,16 +150,11 @@ TEST_CASE("lines have the same bits for all tiles and threads and instruction se
     const core::Film film = drawn(scene);
     CHECK(hidden(film) > 100.0);
     for (const int tile : {8, 24, 64}) {
-        simd::RenderOptions options;
-        options.tile = tile;
-        options.threads = 3;
-        CHECK(drawn(scene, options).pixels() == film.pixels());
+        CHECK(drawn(scene, {.tile = tile, .threads = 3}).pixels() == film.pixels());
     }
     for (const simd::Isa isa : simd::all_isas)
         if (simd::is_available(isa)) {
-            simd::RenderOptions options;
-            options.isa = isa;
-            CHECK(drawn(scene, options).pixels() == film.pixels());
+            CHECK(drawn(scene, {.isa = isa}).pixels() == film.pixels());
         }
 }
 

@@ -159,12 +159,10 @@ void check_rays(const Pair& scenes, const Rays& rays, Isa isa, Precision precisi
 
 void check_pictures(const Pair& scenes, Engine engine, Isa isa, Precision precision) {
     CAPTURE(std::string(name_of(isa)), std::string(name_of(precision)));
-    RenderOptions options;
-    options.engine = engine;
-    options.isa = isa;
-    options.precision = precision;
     const auto picture = [&](const Scene& scene) {
-        return render(scene, scene.settings(), options).film.pixels();
+        return render(scene, scene.settings(),
+                      {.engine = engine, .isa = isa, .precision = precision})
+            .film.pixels();
     };
     const std::vector<Color> plain = picture(scenes.plain), packed = picture(scenes.packed);
     REQUIRE(plain.size() == packed.size());

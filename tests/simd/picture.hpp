@@ -10,10 +10,7 @@ namespace raylane::tests {
 /// Returns the image of a scene with its settings, row by row.
 inline std::vector<core::Color> picture(const core::Scene& scene, simd::Engine engine,
                                         simd::Isa isa = simd::best_isa()) {
-    simd::RenderOptions options;
-    options.engine = engine;
-    options.isa = isa;
-    return simd::render(scene, scene.settings(), options).film.pixels();
+    return simd::render(scene, scene.settings(), {.engine = engine, .isa = isa}).film.pixels();
 }
 
 } // namespace raylane::tests

@@ -142,9 +142,7 @@ TEST_CASE("an image with details everywhere is sampled without middles of pixels
         return builder.finish();
     };
     const auto has_middles = [](const Scene& scene) {
-        simd::RenderOptions options;
-        options.layers = true;
-        const simd::Rendering rendering = rendered(scene, 30.0F, options);
+        const simd::Rendering rendering = rendered(scene, 30.0F, {.layers = true});
         const auto& samples = rendering.layers.samples;
         // The middle of a pixel counts only if the pixel has no other sample.
         const std::uint64_t counted =
@@ -179,9 +177,7 @@ TEST_CASE("an image of a quality does not depend on threads or tiles or instruct
 
 TEST_CASE("the reference renders a quality like the vector engine", "[long]") {
     const Scene scene = workshop();
-    simd::RenderOptions options;
-    options.engine = simd::Engine::reference;
-    const simd::Rendering reference = rendered(scene, 32.0F, options);
+    const simd::Rendering reference = rendered(scene, 32.0F, {.engine = simd::Engine::reference});
     const simd::Rendering vector = rendered(scene, 32.0F);
     CHECK(psnr(reference.film, vector.film) > 60.0);
     CHECK(static_cast<double>(reference.counters.primary) ==
@@ -209,9 +205,7 @@ TEST_CASE("both engines take the same samples where surfaces coincide") {
     lamp.position = {3, 8, 6};
     const Scene scene = builder.finish(lamp);
     const simd::Rendering vector = rendered(scene, 32.0F);
-    simd::RenderOptions options;
-    options.engine = simd::Engine::reference;
-    const simd::Rendering reference = rendered(scene, 32.0F, options);
+    const simd::Rendering reference = rendered(scene, 32.0F, {.engine = simd::Engine::reference});
     CHECK(reference.counters.primary == vector.counters.primary);
     CHECK((reference.film.pixels() == vector.film.pixels()));
 }

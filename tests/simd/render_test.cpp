@@ -108,11 +108,9 @@ TEST_CASE("paths of the greatest depth fit the threads' stacks", "[native]") {
     builder.add_shape(Plane{{0, 0, 1}, {0, 0, -1}}, shine);
     const Scene scene = builder.finish();
     for (const auto precision : {core::Precision::robust, core::Precision::exact}) {
-        simd::RenderOptions options;
-        options.threads = 2;
-        options.engine = simd::Engine::reference;
-        options.precision = precision;
-        const simd::Rendering rendering = simd::render(scene, scene.settings(), options);
+        const simd::Rendering rendering =
+            simd::render(scene, scene.settings(),
+                         {.engine = simd::Engine::reference, .precision = precision, .threads = 2});
         CHECK(rendering.film.at(16, 16).x == 1001.0F);
     }
     CHECK(simd::render(scene, scene.settings(), {}).film.at(16, 16).x == 1001.0F);
@@ -121,10 +119,7 @@ TEST_CASE("paths of the greatest depth fit the threads' stacks", "[native]") {
 TEST_CASE("a rendering that is stopped begins no more tiles") {
     const Scene scene = mirrored_ball();
     simd::Progress progress;
-    simd::RenderOptions options;
-    options.threads = 1;
-    options.tile = 16;
-    options.progress = &progress;
+    simd::RenderOptions options{.tile = 16, .threads = 1, .progress = &progress};
     int tiles = 0;
     options.after_tile = [&](const simd::FinishedTile&) { progress.stop = ++tiles == 3; };
     CHECK(!simd::render(scene, scene.settings(), options).complete);

@@ -29,10 +29,7 @@ Builder looking_at(const Vec3f& center, const Vec3f& from) {
 }
 
 Film picture(const Scene& scene, simd::Engine engine, simd::Isa isa = simd::best_isa()) {
-    simd::RenderOptions options;
-    options.engine = engine;
-    options.isa = isa;
-    return simd::render(scene, scene.settings(), options).film;
+    return simd::render(scene, scene.settings(), {.engine = engine, .isa = isa}).film;
 }
 
 /// Calls visit(film) with the image of each instruction set, and with the reference's.

@@ -32,9 +32,7 @@ Builder lit_from_above() {
 }
 
 std::vector<Color> picture_of(const Scene& scene, simd::Engine engine) {
-    simd::RenderOptions options;
-    options.engine = engine;
-    return simd::render(scene, scene.settings(), options).film.pixels();
+    return simd::render(scene, scene.settings(), {.engine = engine}).film.pixels();
 }
 
 /// Compares a scene of one shape with a scene that has copies of the shape as well.

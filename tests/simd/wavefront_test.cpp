@@ -15,9 +15,7 @@ using namespace little_scene;
 namespace {
 
 simd::RenderOptions by(simd::Engine engine) {
-    simd::RenderOptions options;
-    options.engine = engine;
-    options.threads = 1;
+    const simd::RenderOptions options{.engine = engine, .threads = 1};
     return options;
 }
 

@@ -87,9 +87,8 @@ EMSCRIPTEN_KEEPALIVE const float* lanes_draw(int isa, int width, int height, int
         settings.height = height;
         settings.grid = grid;
         settings.quality = 0.0F;
-        simd::RenderOptions options;
-        options.isa = available()[static_cast<std::size_t>(isa)];
-        const simd::Rendering rendering = simd::render(*scene, settings, options);
+        const simd::Rendering rendering =
+            simd::render(*scene, settings, {.isa = available()[static_cast<std::size_t>(isa)]});
         floats.clear();
         for (const core::Color& pixel : rendering.film.pixels())
             floats.insert(floats.end(), {pixel.x, pixel.y, pixel.z});

@@ -298,9 +298,7 @@ TEST_CASE("a light 2^-61 above a tilted plane lights it with finite numbers", "[
     const Scene scene = builder.build();
     const core::Scene& inside = library::Internals::of(scene);
     for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
-        simd::RenderOptions options;
-        options.engine = engine;
-        const core::Film film = simd::render(inside, inside.settings(), options).film;
+        const core::Film film = simd::render(inside, inside.settings(), {.engine = engine}).film;
         for (const core::Color& pixel : film.pixels())
             for (int axis = 0; axis < 3; ++axis)
                 CHECK(std::isfinite(pixel[axis]));
