@@ -101,9 +101,7 @@ void OutputFile::reserve(int width, int height) {
 }
 
 void OutputFile::commit(const core::Film& film, core::Transfer transfer) {
-    PictureOptions options;
-    options.transfer = transfer;
-    commit(film, options);
+    commit(film, {.transfer = transfer});
 }
 
 void OutputFile::commit(const core::Film& film, const PictureOptions& options,

@@ -236,9 +236,8 @@ LightSource read_light(Tokens& tokens) {
 }
 
 core::Light light_of(const LightSource& source) {
-    core::Light light;
-    light.position = core::convert<float>(source.position);
-    light.color = core::convert<float>(source.color);
+    core::Light light{.position = core::convert<float>(source.position),
+                      .color = core::convert<float>(source.color)};
     if (source.parallel) {
         light.kind = core::LightKind::directional;
         light.direction = core::convert<float>(Vec3d(source.point_at - source.position));

@@ -37,11 +37,11 @@ struct Drawing {
     std::array<int, 3> repeat = {1, 1, 1}; ///< cells side by side along the edges
     bool show_cell = false;                ///< the cell's edges
     bool ellipsoids = false; ///< ellipsoids and spheres that hold half of a displacement
-    core::Framing framing;
-    int width = 1200, height = 900;    ///< pixels of the image
-    float opacity = 1.0F;              ///< of atoms and bonds, in (0, 1]
-    float depth_cue = 0.3F;            ///< share of the background in the farthest atoms, in [0, 1)
-    std::optional<DrawingScale> scale; ///< of another frame
+    core::Framing framing{};
+    int width = 1200, height = 900; ///< pixels of the image
+    float opacity = 1.0F;           ///< of atoms and bonds, in (0, 1]
+    float depth_cue = 0.3F;         ///< share of the background in the farthest atoms, in [0, 1)
+    std::optional<DrawingScale> scale{}; ///< of another frame
 };
 
 /// The atoms of a shape: an atom, twice; the ends of a bond; or `no_atoms` for the cell's edges.

@@ -96,8 +96,7 @@ std::optional<TachyonFog> read_fog(TachyonWords& words) {
 }
 
 core::Light read_point_light(TachyonWords& words) {
-    core::Light light;
-    light.position = words.named_vector("CENTER");
+    const core::Light light{.position = words.named_vector("CENTER")};
     if (words.named_number("RAD") > 0.0F)
         words.remark("RAD is ignored: the sphere of a light is invisible");
     scale(light, words);
@@ -113,8 +112,7 @@ core::Light read_directional_light(TachyonWords& words) {
 }
 
 core::Light read_spotlight(TachyonWords& words) {
-    core::Light light;
-    light.position = words.named_vector("CENTER");
+    const core::Light light{.position = words.named_vector("CENTER")};
     words.named_number("RAD");
     words.named_vector("DIRECTION");
     words.named_number("FALLOFF_START");

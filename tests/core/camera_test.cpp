@@ -21,10 +21,7 @@ Settings settings_of(int width, int height, int grid,
 } // namespace
 
 TEST_CASE("a perspective camera's field of view spans the image's height") {
-    Camera camera;
-    camera.from = {0, 0, 0};
-    camera.at = {0, 0, -7};
-    camera.field_of_view = 90.0F;
+    const Camera camera{.from = {0, 0, 0}, .at = {0, 0, -7}, .field_of_view = 90.0F};
     // One pixel: its four sub-pixels are halfway out, where the edges are at slope 1.
     const CameraRays<double> rays(camera, settings_of(1, 1, 2));
     const double slopes[4][2] = {{-0.5, 0.5}, {0.5, 0.5}, {-0.5, -0.5}, {0.5, -0.5}};
@@ -42,11 +39,8 @@ TEST_CASE("a perspective camera's field of view spans the image's height") {
 }
 
 TEST_CASE("an orthographic camera's rays are parallel") {
-    Camera camera;
-    camera.projection = Projection::orthographic;
-    camera.from = {1, 2, 3};
-    camera.at = {1, 2, 0};
-    camera.height = 4.0F;
+    const Camera camera{
+        .projection = Projection::orthographic, .from = {1, 2, 3}, .at = {1, 2, 0}, .height = 4.0F};
     const CameraRays<double> rays(camera, settings_of(4, 2, 1));
     const Ray<double> first = rays.ray(0, 0, 0), last = rays.ray(3, 1, 0);
     CHECK(first.direction == Vec3d(0, 0, -1));
@@ -76,10 +70,7 @@ TEST_CASE("stratified samples stay in their cells and are reproducible") {
 }
 
 TEST_CASE("a stratified ray goes through the sample point of its cell") {
-    Camera camera;
-    camera.projection = Projection::orthographic;
-    camera.from = {0, 0, 3};
-    camera.at = {0, 0, 0};
+    Camera camera{.projection = Projection::orthographic, .from = {0, 0, 3}, .at = {0, 0, 0}};
     camera.height = 4.0F; // 4 pixels of 1
     const CameraRays<double> rays(camera, settings_of(4, 4, 2, SamplePattern::stratified));
     for (int sample = 0; sample < 4; ++sample) {

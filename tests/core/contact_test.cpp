@@ -68,11 +68,10 @@ TEST_CASE("light reaches a floor through the block that stands on it") {
     Material matte = luminous({1, 0, 0});
     matte.ambient = 0.0F;
     matte.diffuse = 1.0F;
-    Light sun;
-    sun.kind = LightKind::directional;
     builder.add_shape(block(-9, 0, -9, {18, 1, 18}), glass(1.0F));
     builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, matte);
-    look_at_floor(builder.finish(sun), [](const Vec3d& color) { REQUIRE(color == red); });
+    look_at_floor(builder.finish({.kind = LightKind::directional}),
+                  [](const Vec3d& color) { REQUIRE(color == red); });
 }
 
 TEST_CASE("two touching blocks of one glass refract as one block") {
@@ -140,9 +139,8 @@ TEST_CASE("coincident surfaces filter light once for each material") {
         float radius = 20;
         for (const int material : materials)
             builder.add(Disc{{0, 3, 0}, {0, 1, 0}, radius++}, of[material]);
-        Light sun;
-        sun.kind = LightKind::directional;
-        return color_along<double>(builder.finish(sun), {0.25, 1, 0.5}, {0.1, -1, 0.2});
+        return color_along<double>(builder.finish({.kind = LightKind::directional}), {0.25, 1, 0.5},
+                                   {0.1, -1, 0.2});
     };
     const Vec3d one = seen({0}), both = seen({0, 1});
     CHECK(one == Vec3d(0.5, 0, 0));

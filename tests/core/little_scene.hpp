@@ -60,11 +60,7 @@ class Builder : public SceneBuilder {
     }
 
     /// Builds the scene with a light, as scenes need one even if nothing reflects it.
-    Scene finish() {
-        Light sun;
-        sun.kind = LightKind::directional;
-        return finish(sun);
-    }
+    Scene finish() { return finish({.kind = LightKind::directional}); }
 
     Scene finish(const Light& light) {
         add_light(light);

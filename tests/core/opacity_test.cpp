@@ -131,10 +131,7 @@ TEST_CASE("a transparent surface shades in proportion to its opacity") {
     matte.diffuse = 1.0F;
     builder.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, matte);
     builder.add_shape(Sphere{{0, 0, 5}, 1}, pane(0.25F, 0.0F));
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = {0, 0, -1};
-    const Scene scene = builder.finish(sun);
+    const Scene scene = builder.finish({.kind = LightKind::directional, .direction = {0, 0, -1}});
     CHECK(gray_along(scene, {9, 0, 9}, {-9, 0, -9}) == Approx(0.75 * 0.75));
     CHECK(gray_along(scene, {9, 0, 9}, {-4, 0, -9}) == Approx(1.0));
 }
@@ -225,10 +222,7 @@ TEST_CASE("light into a transparent union passes only its outer walls") {
             all.parts.push_back(part);
     }
     builder.add_solid(all, builder.add_material(matte));
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = {-4, -6, -5};
-    const Scene scene = builder.finish(sun);
+    const Scene scene = builder.finish({.kind = LightKind::directional, .direction = {-4, -6, -5}});
     const Vec3d to_light = normalized(Vec3d(4, 6, 5));
     int lit = 0;
     for (int y = 0; y < 60; ++y)

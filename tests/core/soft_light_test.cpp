@@ -26,11 +26,7 @@ Vec3d vector(const Directed<double>& v) {
 }
 
 Light sphere_light(const Vec3f& middle, float radius) {
-    Light light;
-    light.kind = LightKind::sphere;
-    light.position = middle;
-    light.radius = radius;
-    return light;
+    return {.kind = LightKind::sphere, .position = middle, .radius = radius};
 }
 Light disc_light(const Vec3f& middle, const Vec3f& normal, float radius) {
     Light light = sphere_light(middle, radius);
@@ -39,12 +35,7 @@ Light disc_light(const Vec3f& middle, const Vec3f& normal, float radius) {
     return light;
 }
 Light rectangle_light(const Vec3f& corner, const Vec3f& u, const Vec3f& v) {
-    Light light;
-    light.kind = LightKind::rectangle;
-    light.position = corner;
-    light.edge_u = u;
-    light.edge_v = v;
-    return light;
+    return {.kind = LightKind::rectangle, .position = corner, .edge_u = u, .edge_v = v};
 }
 
 /// A surface's irradiance in units of pi times the light's radiance, and the light's solid angle in
@@ -249,10 +240,7 @@ TEST_CASE("a rounding error in the 0 of a normal does not move samples") {
 }
 
 TEST_CASE("samples of the sky follow the cosine and show its colours") {
-    Light light;
-    light.kind = LightKind::sky;
-    light.direction = {0, -3, 0};
-    light.reach = 5.0F;
+    const Light light{.kind = LightKind::sky, .direction = {0, -3, 0}, .reach = 5.0F};
     const SoftLight soft = prepared(light);
     const SoftLightSampler<double> sampler(soft);
     Random random(4);

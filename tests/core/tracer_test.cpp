@@ -13,9 +13,7 @@ namespace {
 constexpr double exactly = 1e-13;
 
 Light point_light(const Vec3f& position) {
-    Light light;
-    light.position = position;
-    return light;
+    return {.position = position};
 }
 
 /// Returns a material that reflects half of the light that falls on it at a right angle, and no
@@ -74,10 +72,8 @@ TEST_CASE("lights add up and directional lights have no place") {
     Builder builder;
     builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, matte());
     builder.add_light(point_light({0, 1, 0}));
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = {-3, -4, 0};
-    sun.color = {0.25F, 0.5F, 0.75F};
+    const Light sun{
+        .kind = LightKind::directional, .direction = {-3, -4, 0}, .color = {0.25F, 0.5F, 0.75F}};
     const Scene scene = builder.finish(sun);
     const Vec3d color = color_along<double>(scene, {0, 1, 0}, {0, -1, 0});
     CHECK(color.x == Approx(0.5 * (1.0 + 0.25 * 0.8)).epsilon(exactly));

@@ -35,13 +35,12 @@ core::Material any_material(Bytes& bytes, bool plain) {
 
 void add_lights(Bytes& bytes, core::SceneBuilder& builder) {
     for (int i = bytes.below(3); i > 0; --i) {
-        core::Light light;
-        light.kind = static_cast<core::LightKind>(bytes.below(6));
-        light.position = bytes.vector<float>();
-        light.direction = bytes.vector<float>();
-        light.radius = std::abs(bytes.number<float>());
-        light.edge_u = bytes.vector<float>();
-        light.edge_v = bytes.vector<float>();
+        const core::Light light{.kind = static_cast<core::LightKind>(bytes.below(6)),
+                                .position = bytes.vector<float>(),
+                                .direction = bytes.vector<float>(),
+                                .radius = std::abs(bytes.number<float>()),
+                                .edge_u = bytes.vector<float>(),
+                                .edge_v = bytes.vector<float>()};
         try {
             builder.add_light(light);
         } catch (const core::InvalidValue&) { // one light less

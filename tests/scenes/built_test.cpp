@@ -67,9 +67,7 @@ core::Scene mixture(int spheres, std::size_t pack_from) {
     glass.transmission = 0.5F;
     for (const core::Material& material : {core::Material{}, glass, core::Material{}})
         builder.add_material(material);
-    core::Light lamp;
-    lamp.position = {30, 40, 50};
-    builder.add_light(lamp);
+    builder.add_light({.position = {30, 40, 50}});
     builder.camera.from = {70, 43, 42};
     builder.camera.at = {40, 40, 40};
     const auto point = [&] {

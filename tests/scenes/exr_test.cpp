@@ -46,9 +46,7 @@ TEST_CASE("an EXR holds the film's floats or the nearest halves") {
     const auto path = directory.path() / "out.exr";
     const core::Film film = little_film();
     for (const int bits : {0, 16, 32}) {
-        scenes::PictureOptions options;
-        options.bits = bits;
-        scenes::OutputFile(path, scenes::exr_of).commit(film, options);
+        scenes::OutputFile(path, scenes::exr_of).commit(film, {.bits = bits});
         const scenes::Image image = scenes::read_image(path);
         CHECK(image.linear_float);
         REQUIRE(image.rgb.size() == 3 * film.pixels().size());
@@ -71,9 +69,7 @@ TEST_CASE("an EXR has a film's alpha and colors multiplied by it") {
     film.at(0, 0) = {0.5F, 0.25F, 0.125F};
     film.alpha_at(0, 0) = 0.5F;
     for (const int bits : {16, 32}) {
-        scenes::PictureOptions options;
-        options.bits = bits;
-        scenes::OutputFile(path, scenes::exr_of).commit(film, options);
+        scenes::OutputFile(path, scenes::exr_of).commit(film, {.bits = bits});
         const scenes::Image image = scenes::read_image(path);
         CHECK(image.rgb.floats() == std::vector<float>{0.5F, 0.25F, 0.125F, 0, 0, 0});
         CHECK(image.alpha.floats() == std::vector<float>{0.5F, 0});
@@ -91,9 +87,8 @@ TEST_CASE("an EXR has the layers and the resolution and texts of the options") {
     layers.shape[4] = 16'777'217; // not a float
     layers.material[4] = 7;
     layers.samples[4] = 16;
-    scenes::PictureOptions options;
-    options.dpi = 300.0F;
-    options.texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}};
+    const scenes::PictureOptions options{
+        .dpi = 300.0F, .texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}}};
     scenes::OutputFile(path, scenes::exr_of).commit(little_film(), options, &layers);
 
     Imf::InputFile file(path.c_str());
@@ -134,9 +129,8 @@ TEST_CASE("An EXR with attributes or channels that raylane does not write is ref
     const TemporaryDirectory directory;
     const auto own = directory.path() / "own.exr", path = directory.path() / "a.exr";
     const core::Layers layers(3, 2);
-    scenes::PictureOptions options;
-    options.dpi = 300.0F;
-    options.texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}};
+    const scenes::PictureOptions options{
+        .dpi = 300.0F, .texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}}};
     scenes::OutputFile(own, scenes::exr_of).commit(little_film(), options, &layers);
     const auto complaint = [&](const auto& change) {
         Imf::InputFile from(own.c_str());
@@ -213,8 +207,7 @@ TEST_CASE("an EXR without colors or with fewer samples than pixels is refused be
 TEST_CASE("a damaged EXR is bad input") {
     const TemporaryDirectory directory;
     const core::Layers layers(3, 2);
-    scenes::PictureOptions named;
-    named.texts = {{"Title", "a scene"}};
+    const scenes::PictureOptions named{.texts = {{"Title", "a scene"}}};
     const std::string whole = scenes::exr_of(core::Film(3, 2, /*with_alpha=*/true), &layers, named);
     const auto read = [&](const std::string& content) {
         const auto path = directory.write("a.exr", content);

@@ -123,9 +123,7 @@ TEST_CASE("a PNG has 16 bits on request") {
     const TemporaryDirectory directory;
     const core::Film film = film_of(37, 21);
     const auto path = directory.path() / "out.png";
-    scenes::PictureOptions options;
-    options.bits = 16;
-    scenes::OutputFile(path).commit(film, options);
+    scenes::OutputFile(path).commit(film, {.bits = 16});
     std::vector<float> codes;
     for (const core::Color& pixel : film.pixels())
         for (int channel = 0; channel < 3; ++channel)
@@ -146,9 +144,7 @@ TEST_CASE("a PNG has a film's alpha and colors not multiplied by it") {
     film.at(2, 0) = core::Color(0.25F); // a highlight: more than its alpha
     film.alpha_at(2, 0) = 0.125F;       // the last pixel stays empty
     for (const int bits : {8, 16}) {
-        scenes::PictureOptions options;
-        options.bits = bits;
-        scenes::OutputFile(path).commit(film, options);
+        scenes::OutputFile(path).commit(film, {.bits = bits});
         const Image image = scenes::read_image(path);
         const auto code = [&](float linear, Transfer transfer) {
             return bits == 8
@@ -180,9 +176,8 @@ TEST_CASE("a PNG has the resolution and texts of the options and no time stamp")
     const std::string plain = written({});
     for (const char* type : {"pHYs", "tEXt", "iTXt", "tIME"})
         CHECK(!holds(plain, type));
-    scenes::PictureOptions options;
-    options.dpi = 300.0F;
-    options.texts = {{"Software", "raylane"}, {"Title", "caf\xC3\xA9"}};
+    const scenes::PictureOptions options{
+        .dpi = 300.0F, .texts = {{"Software", "raylane"}, {"Title", "caf\xC3\xA9"}}};
     const std::string told = written(options);
     CHECK(holds(told, chunk("pHYs", big_endian(11811) + big_endian(11811) + "\1")));
     CHECK(holds(told, chunk("tEXt", bytes("Software\0raylane"))));

@@ -129,10 +129,9 @@ TEST_CASE("a parameter behind its use is refused in a pipe") {
 }
 
 TEST_CASE("parameters are for scenes in JSON") {
-    scenes::LoadOptions options;
-    options.parameters = {{"n", 1.0}};
     CHECK(message_of<scenes::BadInput>([&] {
-              static_cast<void>(scenes::parse_scene("water.xyz", "1\n\nO 0 0 0\n", options));
+              static_cast<void>(
+                  scenes::parse_scene("water.xyz", "1\n\nO 0 0 0\n", {.parameters = {{"n", 1.0}}}));
           }).find("only JSON scenes have parameters") != std::string::npos);
 }
 

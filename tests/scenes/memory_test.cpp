@@ -241,9 +241,7 @@ void check_budget(const Budget& file) {
     peak = before;
     std::string refused;
     try {
-        scenes::LoadOptions options;
-        options.on_remark = [](const std::string&) {};
-        scenes::parse_scene(file.name, file.text, options);
+        scenes::parse_scene(file.name, file.text, {.on_remark = [](const std::string&) {}});
     } catch (const scenes::BadInput& bad) {
         refused = std::string(bad.what()).substr(0, 200);
     }

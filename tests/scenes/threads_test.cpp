@@ -55,9 +55,8 @@ std::vector<Input> inputs() {
 /// Returns the fingerprint of the scene that is read, or the error.
 std::string outcome_of(const Input& input) {
     try {
-        scenes::LoadOptions options;
-        options.on_remark = [](const std::string&) {};
-        return scenes::fingerprint_of(scenes::parse_scene(input.name, input.text, options));
+        return scenes::fingerprint_of(
+            scenes::parse_scene(input.name, input.text, {.on_remark = [](const std::string&) {}}));
     } catch (const scenes::BadInput& bad) {
         return bad.what();
     }

@@ -70,9 +70,7 @@ TEST_CASE("nothing is allocated inside the wavefront loop") {
     Material room = luminous(Color(0.2F));
     room.visible = Visible::inside;
     builder.add_shape(Sphere{{0, 0, 0}, 40}, room);
-    Light light;
-    light.position = {5, 9, 7};
-    builder.add_light(light);
+    builder.add_light({.position = {5, 9, 7}});
     const Scene scene = builder.finish();
     const simd::SceneData data(scene);
     simd::Wavefront wavefront(data, scene.settings(), {&simd::kernels_of(simd::best_isa())});

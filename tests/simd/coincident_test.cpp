@@ -45,9 +45,7 @@ class Room : public Builder {
         camera.from = offset + Vec3f(1, 4, 7);
         camera.at = offset;
         background = {0.5F, 0.5F, 0.5F};
-        Light light;
-        light.position = offset + Vec3f(2, 9, 3);
-        add_light(light);
+        add_light({.position = offset + Vec3f(2, 9, 3)});
         Material matte = luminous();
         matte.ambient = 0.25F;
         matte.diffuse = 0.75F;
@@ -143,8 +141,5 @@ TEST_CASE("light gets through glass surfaces that are closer together than doubl
     matte.diffuse = 1.0F;
     scene.add_shape(Plane{{0, 1001, 0}, {0, -1, 0}}, matte);
     scene.look(1000.5F, 1001.0F);
-    Light light;
-    light.kind = LightKind::directional;
-    light.direction = {0, 1, 0};
-    check_ends(scene.finish(light));
+    check_ends(scene.finish({.kind = LightKind::directional, .direction = {0, 1, 0}}));
 }

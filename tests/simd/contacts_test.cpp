@@ -25,9 +25,7 @@ class Room : public Builder {
         camera.from = {1, 3, 7};
         camera.at = {0, 0.5F, 0};
         background = {0.5F, 0.6F, 0.8F};
-        Light lamp;
-        lamp.position = {3, 8, 4};
-        add_light(lamp);
+        add_light({.position = {3, 8, 4}});
         Material floor = luminous();
         floor.pattern.kind = PatternKind::checker;
         floor.pattern.colors = {Color(1.0F), Color(0.1F, 0.2F, 0.4F)};

@@ -51,10 +51,7 @@ inline Material chalk(float specular = 0.0F) {
 }
 
 inline Light sun_along(const Vec3f& direction) {
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = direction;
-    return sun;
+    return {.kind = LightKind::directional, .direction = direction};
 }
 
 inline Film drawn(const Scene& scene) {

@@ -48,9 +48,7 @@ Scene cloud(Projection projection, bool in_fog, int most) {
     glaze.opacity = 0.375F;
     builder.add_solid(both, builder.add_material(glaze));
     builder.add_shape(Plane{{0, -2.5F, 0}, {0, 1, 0}}, Material{});
-    Light lamp;
-    lamp.position = {4, 6, 5};
-    return builder.finish(lamp);
+    return builder.finish({.position = {4, 6, 5}});
 }
 
 } // namespace

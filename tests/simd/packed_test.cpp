@@ -44,9 +44,7 @@ struct Pair {
         glass.transmission = 0.8F;
         builder.add_material(mirror);
         builder.add_material(glass);
-        Light lamp;
-        lamp.position = {30, 40, 50};
-        builder.add_light(lamp);
+        builder.add_light({.position = {30, 40, 50}});
         // One in ten is around the origin, where blocks have rows that are stored whole.
         double middle = 40.0;
         const auto place = [&] { return static_cast<float>(middle + random.uniform(-10.0, 10.0)); };

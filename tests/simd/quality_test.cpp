@@ -44,9 +44,7 @@ Scene workshop(std::pair<int, int> size = {96, 64}) {
         builder.add_shape(Sphere{place, 0.3F + 0.05F * static_cast<float>(i)}, material);
         builder.add_shape(CappedCylinder{place, rounded(random.cube(2.0)), 0.05F}, material);
     }
-    Light lamp;
-    lamp.position = {3, 8, 6};
-    return builder.finish(lamp);
+    return builder.finish({.position = {3, 8, 6}});
 }
 
 simd::Rendering rendered(const Scene& scene, float quality,
@@ -201,9 +199,7 @@ TEST_CASE("both engines take the same samples where surfaces coincide") {
     builder.add_shape(Disc{{0, 0, 1}, {0, 0, 1}, 0.75F}, in({0.2F, 1, 0.2F}));
     builder.add_shape(Sphere{{1.5F, 1, 0}, 0.75F}, in({1, 1, 0.2F}));
     builder.add_shape(Sphere{{1.5F, 1, 0}, 0.75F}, in({0.2F, 1, 1}));
-    Light lamp;
-    lamp.position = {3, 8, 6};
-    const Scene scene = builder.finish(lamp);
+    const Scene scene = builder.finish({.position = {3, 8, 6}});
     const simd::Rendering vector = rendered(scene, 32.0F);
     const simd::Rendering reference = rendered(scene, 32.0F, {.engine = simd::Engine::reference});
     CHECK(reference.counters.primary == vector.counters.primary);

@@ -116,9 +116,7 @@ TEST_CASE("a mirror ball in a skin of refracting glass equals the reference's", 
         builder.add_shape(Sphere{center, radius}, shine);
         builder.add_shape(Sphere{center, outer_radius}, glass(1.5F, Reflection::dielectric));
         builder.add_shape(Sphere{center + Vec3f(3, 0, -1), 1.0F}, luminous({1, 1, 0}));
-        Light light;
-        light.position = center + Vec3f(2, 8, 5);
-        const Scene scene = builder.finish(light);
+        const Scene scene = builder.finish({.position = center + Vec3f(2, 8, 5)});
         const Film expected = picture(scene, simd::Engine::reference);
         for_each_picture(scene, [&](const Film& film) {
             long wrong = 0;

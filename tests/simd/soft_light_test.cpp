@@ -48,17 +48,11 @@ void check_both(const Scene& scene, const Check& check) {
 }
 
 Light sky() {
-    Light light;
-    light.kind = LightKind::sky;
-    return light;
+    return {.kind = LightKind::sky};
 }
 
 Light ball_of_light(const Vec3f& middle, float radius) {
-    Light light;
-    light.kind = LightKind::sphere;
-    light.position = middle;
-    light.radius = radius;
-    return light;
+    return {.kind = LightKind::sphere, .position = middle, .radius = radius};
 }
 
 /// Returns balls on a checkered floor under lights of all kinds. One ball is a mirror, one is
@@ -108,10 +102,7 @@ Scene studio(float quality, float lens = 0.0F) {
     light.edge_v = {0, 0, 1};
     light.color = {1, 2, 3};
     builder.add_light(light);
-    Light point;
-    point.position = {0, 5, 4};
-    point.color = Color(0.3F);
-    return builder.finish(point);
+    return builder.finish({.position = {0, 5, 4}, .color = Color(0.3F)});
 }
 
 simd::Rendering rendered(const Scene& scene, const simd::RenderOptions& options = {}) {

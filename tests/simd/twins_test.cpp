@@ -25,9 +25,7 @@ Builder lit_from_above() {
     builder.camera.from = {1, 3, 6};
     builder.camera.field_of_view = 30.0F;
     builder.background = {0.5F, 0.6F, 0.9F};
-    Light light;
-    light.position = {2, 9, 13};
-    builder.add_light(light);
+    builder.add_light({.position = {2, 9, 13}});
     return builder;
 }
 

@@ -15,8 +15,7 @@ using namespace little_scene;
 namespace {
 
 simd::RenderOptions by(simd::Engine engine) {
-    const simd::RenderOptions options{.engine = engine, .threads = 1};
-    return options;
+    return {.engine = engine, .threads = 1};
 }
 
 /// Returns the number of channels of pixels that differ by more than rounding.
@@ -102,10 +101,7 @@ TEST_CASE("an orthographic camera and parallel light trace coherent rays too") {
     builder.camera.projection = Projection::orthographic;
     builder.camera.from = {3, 4, 5};
     builder.camera.height = 4.0F;
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = {-1, -2, -0.5F};
-    builder.add_light(sun);
+    builder.add_light({.kind = LightKind::directional, .direction = {-1, -2, -0.5F}});
     Material matte = luminous(Color(0.5F));
     matte.ambient = 0.1F;
     matte.diffuse = 0.9F;
@@ -138,10 +134,8 @@ TEST_CASE("rays along the axes and almost along them lose no hit") {
     builder.camera.from = {0, 0, 9};
     builder.camera.height = 4.0F;
     for (const float tilt : {0.0F, -1e-31F, 1e-31F, -0x1p-100F, -0x1p-140F}) {
-        Light sun;
-        sun.kind = LightKind::directional;
-        sun.direction = {tilt, tilt, -1};
-        sun.color = Color(0.2F);
+        const Light sun{
+            .kind = LightKind::directional, .direction = {tilt, tilt, -1}, .color = Color(0.2F)};
         builder.add_light(sun);
     }
     Material matte = mirror(0.5F);
@@ -161,9 +155,7 @@ TEST_CASE("scenes may be very large or very small") {
         Builder builder;
         builder.settings.width = builder.settings.height = 32;
         builder.camera.from = {scale, 2 * scale, 5 * scale};
-        Light light;
-        light.position = {3 * scale, 9 * scale, 9 * scale};
-        builder.add_light(light);
+        builder.add_light({.position = {3 * scale, 9 * scale, 9 * scale}});
         Material matte = mirror(0.25F);
         matte.diffuse = 0.5F;
         const auto s = [&](float x, float y, float z) { return scale * Vec3f(x, y, z); };

@@ -270,9 +270,7 @@ TEST_CASE("an atom with an isotropic displacement alone is a sphere beside ellip
                                 "_atom_site_aniso_U_23\nCl1 .1 .1 .2 0 0 0\n")
             .at(0);
     CHECK(frame.isotropies.size() == 3);
-    Drawing drawing;
-    drawing.ellipsoids = true;
-    drawing.style = Style::balls;
+    const Drawing drawing{.style = Style::balls, .ellipsoids = true};
     const raylane::core::Scene scene = draw_structure(frame, drawing, "a");
     std::vector<double> radii;
     raylane::core::for_each_shape(

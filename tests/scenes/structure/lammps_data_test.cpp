@@ -403,8 +403,7 @@ TEST_CASE("ellipsoids have their diameters along axes that a quaternion turns") 
 }
 
 TEST_CASE("an atom style is refused for other files than LAMMPS' data") {
-    LoadOptions options;
-    options.atom_style = "full";
+    const LoadOptions options{.atom_style = "full"};
     CHECK(message_of<BadInput>([&] { parse_scene("a.xyz", "1\n\nC 0 0 0\n", options); }) ==
           "--atom-style: goes with a LAMMPS data file, but a.xyz is not one");
     CHECK(parse_scene("a.data", data("1 atom types", "Atoms", "1 1 1 0.5 1 2 3\n"), options)

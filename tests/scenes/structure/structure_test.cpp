@@ -262,8 +262,7 @@ TEST_CASE("a remark has the column of a name in a list that matches nothing") {
                    "--select: column 25: \"XY\" matches no atom"});
     CHECK(unmatched("type C 7") == Messages{"--select: column 8: \"7\" matches no type"});
     CHECK(unmatched("chain A b and residue ala -5--1").empty());
-    Drawing drawing;
-    drawing.select = "chain A foo";
+    const Drawing drawing{.select = "chain A foo"};
     Messages told;
     draw_structure(all, drawing, "a", nullptr, nullptr,
                    [&](const std::string& remark) { told.push_back(remark); });
@@ -371,8 +370,7 @@ TEST_CASE("atoms that are not balls are ellipsoids in the proportions of the sty
     structure.radii = {4.0F, 1.0F};
     structure.shapes = {{0, {Vec3f(2, 0, 0), Vec3f(0, 0, 4), Vec3f(0, -1, 0)}}};
     const auto drawn = [&](Style style) {
-        Drawing drawing;
-        drawing.style = style;
+        const Drawing drawing{.style = style};
         return draw_structure(structure, drawing, "a");
     };
     for (const auto& drawing : {std::pair(Style::automatic, 1.0F), {Style::balls, 0.5F}}) {
@@ -460,8 +458,7 @@ TEST_CASE("Atoms on top of each other are drawn without bonds and quickly") {
     REQUIRE(bonds.size() == 1);
     CHECK(bonds[0].b == 1);
     std::vector<std::string> remarks;
-    Drawing drawing;
-    drawing.style = Style::balls;
+    const Drawing drawing{.style = Style::balls};
     const raylane::core::Scene scene =
         draw_structure(structure, drawing, "a.xyz", nullptr, nullptr,
                        [&](const std::string& remark) { remarks.push_back(remark); });

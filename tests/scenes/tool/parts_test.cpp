@@ -118,11 +118,8 @@ TEST_CASE("parts that do not make a whole give an error of one line") {
     {
         scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / "part-1.exr");
         picture.film.at(3, 4) += core::Color(1.0F);
-        scenes::PictureOptions options;
-        options.bits = 32;
-        options.texts = picture.texts;
         scenes::OutputFile(workshop.path() / "part-2.exr", scenes::exr_of)
-            .commit(picture.film, options);
+            .commit(picture.film, {.bits = 32, .texts = picture.texts});
         CHECK(refusal(merged({2, 3}, "out/a.png")) ==
               "raylane: part-2.exr: has pixels that differ from its Pixels attribute\n");
     }
@@ -181,9 +178,7 @@ TEST_CASE("parts without an Options attribute can be merged") {
     draw_parts(workshop, 2);
     for (const char* name : {"part-1.exr", "part-2.exr"}) {
         const scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / name);
-        scenes::PictureOptions options;
-        options.bits = 32;
-        options.texts = picture.texts;
+        scenes::PictureOptions options{.bits = 32, .texts = picture.texts};
         CHECK(std::erase_if(options.texts,
                             [](const auto& text) { return text.first == "Options"; }) == 1);
         scenes::OutputFile(workshop.path() / name, scenes::exr_of).commit(picture.film, options);
@@ -397,9 +392,7 @@ TEST_CASE("parts can be merged and verified without their instruction set") {
     draw_parts(workshop, 2, {"--precision", "robust"});
     for (const char* name : {"part-1.exr", "part-2.exr"}) {
         const scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / name);
-        scenes::PictureOptions options;
-        options.bits = 32;
-        options.texts = picture.texts;
+        scenes::PictureOptions options{.bits = 32, .texts = picture.texts};
         // The hash includes the instruction set that drew the part.
         std::erase_if(options.texts, [](const auto& text) { return text.first == "Options"; });
         for (auto& [key, text] : options.texts)

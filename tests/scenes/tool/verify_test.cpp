@@ -49,9 +49,7 @@ void write_again(const std::filesystem::path& from, const std::filesystem::path&
                  int pixels = 0) {
     const scenes::Image image = scenes::read_image(from);
     const core::Film film = film_of(image, pixels);
-    scenes::PictureOptions options;
-    options.texts = texts(image.texts);
-    scenes::OutputFile(to).commit(film, options);
+    scenes::OutputFile(to).commit(film, {.texts = texts(image.texts)});
 }
 
 /// Writes an image again with one pixel inverted and with its texts.
@@ -60,9 +58,7 @@ void turn_one_over(const std::filesystem::path& path) {
     core::Film film = film_of(image);
     core::Color& one = film.at(3, 4);
     one = core::Color(1.0F) - one;
-    scenes::PictureOptions options;
-    options.texts = image.texts;
-    scenes::OutputFile(path).commit(film, options);
+    scenes::OutputFile(path).commit(film, {.texts = image.texts});
 }
 
 } // namespace
@@ -158,9 +154,7 @@ TEST_CASE("verify finds one changed bit in each format") {
         CAPTURE(bits);
         REQUIRE(workshop.render("a.exr", {"--bits", std::to_string(bits), "--layers"}).code == 0);
         scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / "a.exr");
-        scenes::PictureOptions options;
-        options.bits = bits;
-        options.texts = picture.texts;
+        scenes::PictureOptions options{.bits = bits, .texts = picture.texts};
         const auto written = [&] {
             workshop.write("a.exr", scenes::exr_of(picture.film, &*picture.layers, options));
         };
@@ -552,9 +546,8 @@ TEST_CASE("images without valid texts give an error of one line") {
                      "options, got one without Comment");
     refused("none.png", "none.png: no such file");
     const auto with_comment = [&](const std::string& comment) {
-        scenes::PictureOptions options;
-        options.texts = {{"Comment", comment}, {"Scene", "0"}};
-        scenes::OutputFile(workshop.path() / "b.png").commit(core::Film(16, 12), options);
+        scenes::OutputFile(workshop.path() / "b.png")
+            .commit(core::Film(16, 12), {.texts = {{"Comment", comment}, {"Scene", "0"}}});
     };
     with_comment("made by hand");
     refused("b.png", "b.png: has a Comment that is not a list of options of render");
