@@ -4,6 +4,7 @@
 #include "scenes/scene_file.hpp"
 #include "simd/scene_data.hpp"
 #include "tests/catch.hpp"
+#include "tests/replaced_heap.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <algorithm>
@@ -13,7 +14,6 @@
 #include <cstdlib>
 #include <malloc.h>
 #include <mutex>
-#include <new>
 #include <random>
 #include <sys/mman.h>
 #include <sys/syscall.h>
@@ -26,14 +26,6 @@ namespace {
 
 std::atomic<std::size_t> live = 0, peak = 0;
 
-void* counted(std::size_t bytes, std::size_t alignment) {
-    void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-    if (memory == nullptr) throw std::bad_alloc();
-    live += ::malloc_usable_size(memory);
-    peak = std::max(peak.load(), live.load());
-    return memory;
-}
-
 /// A part of a live allocation that was returned to the system.
 struct GivenBack {
     const char* first = nullptr;
@@ -42,20 +34,22 @@ struct GivenBack {
 std::array<GivenBack, 16> given_back;
 std::mutex giving_back;
 
-void discounted(void* memory) {
-    if (memory != nullptr) {
-        const std::size_t bytes = ::malloc_usable_size(memory);
-        const auto* const first = static_cast<const char*>(memory);
-        live -= bytes;
-        const std::lock_guard lock(giving_back);
-        for (GivenBack& part : given_back)
-            if (part.bytes != 0 && part.first >= first && part.first < first + bytes)
-                live += std::exchange(part.bytes, 0);
-    }
-    std::free(memory);
+} // namespace
+
+void raylane::tests::has_taken(void* memory) {
+    live += ::malloc_usable_size(memory);
+    peak = std::max(peak.load(), live.load());
 }
 
-} // namespace
+void raylane::tests::will_release(void* memory) {
+    const std::size_t bytes = ::malloc_usable_size(memory);
+    const auto* const first = static_cast<const char*>(memory);
+    live -= bytes;
+    const std::lock_guard lock(giving_back);
+    for (GivenBack& part : given_back)
+        if (part.bytes != 0 && part.first >= first && part.first < first + bytes)
+            live += std::exchange(part.bytes, 0);
+}
 
 /// Replaces the C library's function, and counts the bytes that are returned.
 extern "C" int madvise(void* memory, std::size_t bytes, int advice) noexcept {
@@ -68,25 +62,6 @@ extern "C" int madvise(void* memory, std::size_t bytes, int advice) noexcept {
         live -= bytes;
     }
     return static_cast<int>(::syscall(SYS_madvise, memory, bytes, advice));
-}
-
-void* operator new(std::size_t bytes) {
-    return counted(bytes, alignof(std::max_align_t));
-}
-void* operator new(std::size_t bytes, std::align_val_t alignment) {
-    return counted(bytes, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-    discounted(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    discounted(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-    discounted(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    discounted(memory);
 }
 
 using namespace raylane;

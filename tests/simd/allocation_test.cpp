@@ -3,10 +3,9 @@
 #include "simd/wavefront/wavefront.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
+#include "tests/replaced_heap.hpp"
 
 #include <atomic>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 /// A separate program, as it counts all allocations.
@@ -14,38 +13,12 @@ namespace {
 
 std::atomic<long> allocations = 0;
 
-void* counted(std::size_t bytes, std::size_t alignment) {
-    ++allocations;
-    void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
-}
-
-/// Not inline, as g++ would take free() for a mismatch with operator new.
-__attribute__((noinline)) void release(void* memory) {
-    std::free(memory);
-}
-
 } // namespace
 
-void* operator new(std::size_t bytes) {
-    return counted(bytes, alignof(std::max_align_t));
+void raylane::tests::has_taken(void*) {
+    ++allocations;
 }
-void* operator new(std::size_t bytes, std::align_val_t alignment) {
-    return counted(bytes, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-    release(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    release(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-    release(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    release(memory);
-}
+void raylane::tests::will_release(void*) {}
 
 using namespace raylane;
 using namespace little_scene;
