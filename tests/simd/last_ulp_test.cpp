@@ -1,11 +1,11 @@
 #include "core/reference/search.hpp"
 #include "core/shapes/bounds.hpp"
 #include "core/shapes/shapes.hpp"
-#include "simd/stream_tracer.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/sanitized.hpp"
+#include "tests/simd/stream_columns.hpp"
 
 #include <array>
 #include <cmath>
@@ -16,42 +16,13 @@ using namespace raylane::core;
 using namespace raylane::simd;
 using ray_sets::Random;
 using ray_sets::Set;
+using tests::RayAnswers;
+using tests::StreamColumns;
 
 /// Streams of rays that almost miss a shape's bounds, or the shape itself.
 namespace {
 
 constexpr int of_each_kind = tests::sanitized ? 6 : 40;
-
-struct Stream {
-    std::vector<float> of[6], t_min, t, normal[3];
-    std::vector<ShapeId> shape;
-
-    void add(const Ray<float>& ray) {
-        for (int axis = 0; axis < 3; ++axis) {
-            of[axis].push_back(ray.origin[axis]);
-            of[3 + axis].push_back(ray.direction[axis]);
-        }
-        t_min.push_back(0.0F);
-    }
-    std::size_t size() const { return t_min.size(); }
-    Ray<double> get(std::size_t i) const {
-        const auto at = [&](int k) { return static_cast<double>(of[k][i]); };
-        return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}};
-    }
-    void trace(const StreamTracer& tracer) {
-        t.resize(size());
-        shape.resize(size());
-        for (std::vector<float>& component : normal)
-            component.resize(size());
-        tracer.nearest(
-            RayStream<float>{size(),
-                             {of[0].data(), of[1].data(), of[2].data()},
-                             {of[3].data(), of[4].data(), of[5].data()},
-                             t_min.data(),
-                             nullptr},
-            {t.data(), {normal[0].data(), normal[1].data(), normal[2].data()}, shape.data()});
-    }
-};
 
 /// Returns the furthest along an axis of many random points of the surface.
 template <class Shape>
@@ -85,15 +56,14 @@ Ray<float> along_bounds(const Shape& shape, Random& random) {
 }
 
 template <class Shape>
-void add_kind(SceneBuilder& builder, bool lattice, Random& random, Stream& stream) {
+void add_kind(SceneBuilder& builder, bool lattice, Random& random, StreamColumns& rays) {
     for (int i = 0; i < of_each_kind; ++i) {
         const auto shape = ray_sets::Target<Shape>::make(random, lattice);
         builder.add(shape, 0);
         for (int j = 0; j < 8; ++j)
-            stream.add(along_bounds(shape, random));
+            rays.add(along_bounds(shape, random));
         for (const Set set : ray_sets::all_sets)
-            if ((set == Set::lattice) == lattice)
-                stream.add(ray_sets::make_ray(shape, set, random));
+            if ((set == Set::lattice) == lattice) rays.add(ray_sets::make_ray(shape, set, random));
     }
 }
 
@@ -112,30 +82,29 @@ TEST_CASE("traversal and brute force agree on rays along the faces of bounds", "
         SceneBuilder builder;
         builder.wants_light = false;
         builder.add_material({});
-        Stream stream;
+        StreamColumns rays;
         for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
-            if constexpr (tests::is_bounded<Shape>)
-                add_kind<Shape>(builder, lattice, random, stream);
+            if constexpr (tests::is_bounded<Shape>) add_kind<Shape>(builder, lattice, random, rays);
         });
         const Scene scene = std::move(builder).build();
-        stream.trace(StreamTracer(scene));
+        const RayAnswers answers(StreamTracer(scene), rays.view());
 
         Searcher<double> by_trying(scene, Search::every_shape);
         Searcher<double> by_hierarchy(scene, Search::hierarchy);
         const auto all = [](const Hit<double>&) { return true; };
         int hits = 0, wrong = 0, lost_by_reference = 0;
-        for (std::size_t i = 0; i < stream.size(); ++i) {
-            const Hit<double> truth = by_trying.nearest(stream.get(i), {}, all).hit;
-            const Hit<double> found = by_hierarchy.nearest(stream.get(i), {}, all).hit;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Hit<double> truth = by_trying.nearest(rays.get(i), {}, all).hit;
+            const Hit<double> found = by_hierarchy.nearest(rays.get(i), {}, all).hit;
             hits += truth.any() ? 1 : 0;
             lost_by_reference += found.shape == truth.shape && found.t == truth.t ? 0 : 1;
             const float t = truth.any() ? static_cast<float>(truth.t) : infinity<float>;
-            wrong += stream.shape[i] == truth.shape && stream.t[i] == t ? 0 : 1;
+            wrong += answers.shape[i] == truth.shape && answers.t[i] == t ? 0 : 1;
         }
-        INFO(stream.size() << " rays, " << hits << " hits");
+        INFO(rays.size() << " rays, " << hits << " hits");
         CHECK(wrong == 0);
         CHECK(lost_by_reference == 0);
-        CHECK(hits > static_cast<int>(stream.size()) / 3);
+        CHECK(hits > static_cast<int>(rays.size()) / 3);
     }
 }
 
@@ -154,25 +123,26 @@ TEMPLATE_LIST_TEST_CASE(
         builder.add_material({});
         builder.add(shape, 0);
         const Scene scene = std::move(builder).build();
-        Stream stream;
+        StreamColumns rays;
         for (const Set set : ray_sets::all_sets)
             for (int j = 0; j < 4; ++j)
                 if ((set == Set::lattice) == lattice || set == Set::zeros)
-                    stream.add(ray_sets::make_ray(shape, set, random));
+                    rays.add(ray_sets::make_ray(shape, set, random));
+        rays.t_min.resize(rays.size());
 
         const StreamTracer tracer(scene, 1);
-        std::vector<std::vector<float>> found(stream.size());
+        std::vector<std::vector<float>> found(rays.size());
         for (int round = 0; round < 3; ++round) {
-            stream.trace(tracer);
-            for (std::size_t k = 0; k < stream.size(); ++k) {
-                if (stream.shape[k] == no_shape) continue;
-                found[k].push_back(stream.t[k]);
-                stream.t_min[k] = stream.t[k];
+            const RayAnswers answers(tracer, rays.view());
+            for (std::size_t k = 0; k < rays.size(); ++k) {
+                if (answers.shape[k] == no_shape) continue;
+                found[k].push_back(answers.t[k]);
+                rays.t_min[k] = answers.t[k];
             }
         }
-        for (std::size_t k = 0; k < stream.size(); ++k) {
+        for (std::size_t k = 0; k < rays.size(); ++k) {
             std::vector<float> truth;
-            for (const oracle::Hit& hit : oracle::crossings(shape, stream.get(k)))
+            for (const oracle::Hit& hit : oracle::crossings(shape, rays.get(k)))
                 if (hit.t > 0) truth.push_back(hit.t.template convert_to<float>());
             through += truth.size() == 2 ? 1 : 0;
             // If both are one float, or neighbours, there may be no second hit.

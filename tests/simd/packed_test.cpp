@@ -1,11 +1,11 @@
-#include "simd/render.hpp"
 #include "simd/stream/row_worker.hpp"
-#include "simd/stream_tracer.hpp"
 #include "simd/threads.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/shapes/shapes.hpp"
+#include "tests/simd/picture.hpp"
+#include "tests/simd/stream_columns.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -19,7 +19,11 @@ using namespace raylane::core;
 using namespace raylane::simd;
 using ray_sets::Random;
 using ray_sets::Set;
-using raylane::tests::sanitized;
+using tests::check_same;
+using tests::picture;
+using tests::RayAnswers;
+using tests::sanitized;
+using tests::StreamColumns;
 
 namespace {
 
@@ -91,78 +95,30 @@ struct Pair {
     }
 };
 
-struct Rays {
-    std::vector<float> of[6];
-    std::vector<ShapeId> leaves;
-
-    explicit Rays(const Scene& scene) {
-        Random random(8);
-        for_each_shape(std::get<Table<Sphere>>(scene.shapes()),
-                       [&](const SphereOf<double>& sphere, ShapeId id) {
-                           if (sanitized && id % 16 != 0) return;
-                           for (const Set set : ray_sets::all_sets)
-                               add(ray_sets::make_ray(to_floats(sphere), set, random),
-                                   set == Set::on_surface ? id : no_shape);
-                       });
-    }
-
-    void add(const Ray<float>& ray, ShapeId left) {
-        for (int axis = 0; axis < 3; ++axis) {
-            of[axis].push_back(ray.origin[axis]);
-            of[3 + axis].push_back(ray.direction[axis]);
-        }
-        leaves.push_back(left);
-    }
-    RayStream<float> view() const { return view(0, leaves.size()); }
-    RayStream<float> view(std::size_t first, std::size_t count) const {
-        const auto from = [&](int which) { return of[which].data() + first; };
-        return {count,   {from(0), from(1), from(2)}, {from(3), from(4), from(5)}, nullptr,
-                nullptr, leaves.data() + first};
-    }
-};
-
-struct Answers {
-    std::vector<float> t, normal[3];
-    std::vector<ShapeId> shape;
-    std::vector<std::uint8_t> entering, occluded;
-
-    Answers(const Scene& scene, const RayStream<float>& rays, Isa isa, Precision precision)
-        : t(rays.count), shape(rays.count), entering(rays.count), occluded(rays.count) {
-        for (std::vector<float>& component : normal)
-            component.resize(rays.count);
-        const StreamTracer tracer(scene, 1, isa, precision);
-        tracer.nearest(rays, {t.data(),
-                              {normal[0].data(), normal[1].data(), normal[2].data()},
-                              shape.data(),
-                              entering.data()});
-        tracer.occluded(rays, occluded.data());
-    }
-};
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+StreamColumns rays_for(const Scene& scene) {
+    Random random(8);
+    StreamColumns rays;
+    for_each_shape(std::get<Table<Sphere>>(scene.shapes()),
+                   [&](const SphereOf<double>& sphere, ShapeId id) {
+                       if (sanitized && id % 16 != 0) return;
+                       for (const Set set : ray_sets::all_sets) {
+                           rays.add(ray_sets::make_ray(to_floats(sphere), set, random));
+                           rays.leaves.push_back(set == Set::on_surface ? id : no_shape);
+                       }
+                   });
+    return rays;
 }
 
-void check_rays(const Pair& scenes, const Rays& rays, Isa isa, Precision precision) {
+void check_rays(const Pair& scenes, const StreamColumns& rays, Isa isa, Precision precision) {
     CAPTURE(std::string(name_of(isa)), std::string(name_of(precision)));
-    const Answers plain(scenes.plain, rays.view(), isa, precision);
-    const Answers packed(scenes.packed, rays.view(), isa, precision);
-    CHECK(same_bits(packed.t, plain.t));
-    for (int axis = 0; axis < 3; ++axis)
-        CHECK(same_bits(packed.normal[axis], plain.normal[axis]));
-    CHECK(packed.shape == plain.shape);
-    CHECK(packed.entering == plain.entering);
-    CHECK(packed.occluded == plain.occluded);
+    check_same(RayAnswers(StreamTracer(scenes.packed, 1, isa, precision), rays.view()),
+               RayAnswers(StreamTracer(scenes.plain, 1, isa, precision), rays.view()));
 }
 
 void check_pictures(const Pair& scenes, Engine engine, Isa isa, Precision precision) {
     CAPTURE(std::string(name_of(isa)), std::string(name_of(precision)));
-    const auto picture = [&](const Scene& scene) {
-        return render(scene, scene.settings(),
-                      {.engine = engine, .isa = isa, .precision = precision})
-            .film.pixels();
-    };
-    const std::vector<Color> plain = picture(scenes.plain), packed = picture(scenes.packed);
+    const std::vector<Color> plain = picture(scenes.plain, engine, isa, precision);
+    const std::vector<Color> packed = picture(scenes.packed, engine, isa, precision);
     REQUIRE(plain.size() == packed.size());
     CHECK(std::memcmp(plain.data(), packed.data(), plain.size() * sizeof(Color)) == 0);
 }
@@ -172,7 +128,7 @@ void check_pictures(const Pair& scenes, Engine engine, Isa isa, Precision precis
 TEST_CASE("packed spheres answer rays with the bits of plain ones") {
     for (const int radii : {3, 60, 258}) {
         const Pair scenes({.radii = radii}); // 258 radii do not fit in the palette
-        const Rays rays(scenes.plain);
+        const StreamColumns rays = rays_for(scenes.plain);
         for (const Isa isa : all_isas)
             if (is_available(isa)) check_rays(scenes, rays, isa, Precision::exact);
     }
@@ -181,7 +137,7 @@ TEST_CASE("packed spheres answer rays with the bits of plain ones") {
 TEST_CASE("packed spheres answer interleaved single rays with the bits of plain ones", "[native]") {
     // Larger than a core's cache, so that prefetching runs.
     const Pair scenes({.radii = 3, .count = sanitized ? 3000 : 150'000});
-    const Rays rays(scenes.plain);
+    const StreamColumns rays = rays_for(scenes.plain);
     constexpr std::size_t few = 500;
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
@@ -189,11 +145,9 @@ TEST_CASE("packed spheres answer interleaved single rays with the bits of plain 
             CAPTURE(std::string(name_of(isa)), std::string(name_of(precision)));
             for (std::size_t first = 0; first + few <= rays.leaves.size();
                  first += rays.leaves.size() / 8) {
-                const Answers plain(scenes.plain, rays.view(first, few), isa, precision);
-                const Answers packed(scenes.packed, rays.view(first, few), isa, precision);
-                CHECK(same_bits(packed.t, plain.t));
-                CHECK(packed.shape == plain.shape);
-                CHECK(packed.occluded == plain.occluded);
+                const RayStream<float> some = rays.view(first, few);
+                check_same(RayAnswers(StreamTracer(scenes.packed, 1, isa, precision), some),
+                           RayAnswers(StreamTracer(scenes.plain, 1, isa, precision), some));
             }
         }
     }
@@ -201,7 +155,7 @@ TEST_CASE("packed spheres answer interleaved single rays with the bits of plain 
 
 TEST_CASE("packed spheres have the crossings and lengths and insides of plain ones") {
     const Pair scenes({.radii = 20});
-    const Rays rays(scenes.plain);
+    const StreamColumns rays = rays_for(scenes.plain);
     const RayStream<float> some = rays.view(0, std::min<std::size_t>(rays.leaves.size(), 2000));
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
@@ -232,7 +186,7 @@ TEST_CASE("packed spheres have the crossings and lengths and insides of plain on
 
 TEST_CASE("packed spheres answer rays with the bits of plain ones by every precision", "[native]") {
     const Pair scenes({.radii = 20});
-    const Rays rays(scenes.plain);
+    const StreamColumns rays = rays_for(scenes.plain);
     for (const Isa isa : all_isas)
         for (const Precision precision : all_precisions)
             if (is_available(isa)) check_rays(scenes, rays, isa, precision);
@@ -248,7 +202,7 @@ TEST_CASE("packed spheres are rendered with the bits of plain ones", "[native]")
 
 TEST_CASE("solids of packed spheres equal those of plain ones", "[native]") {
     const Pair scenes({.radii = 5, .solid = true});
-    const Rays rays(scenes.plain);
+    const StreamColumns rays = rays_for(scenes.plain);
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
         check_rays(scenes, rays, isa, Precision::exact);

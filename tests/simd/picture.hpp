@@ -3,14 +3,25 @@
 #include "simd/isa.hpp"
 #include "simd/render.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace raylane::tests {
 
 /// Returns the image of a scene with its settings, row by row.
 inline std::vector<core::Color> picture(const core::Scene& scene, simd::Engine engine,
-                                        simd::Isa isa = simd::best_isa()) {
-    return simd::render(scene, scene.settings(), {.engine = engine, .isa = isa}).film.pixels();
+                                        simd::Isa isa = simd::best_isa(),
+                                        core::Precision precision = core::Precision::exact) {
+    return simd::render(scene, scene.settings(),
+                        {.engine = engine, .isa = isa, .precision = precision})
+        .film.pixels();
+}
+
+/// Returns the sRGB value that an image shows for a linear one, by IEC 61966-2-1.
+inline double shown(float linear) {
+    const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
 }
 
 } // namespace raylane::tests

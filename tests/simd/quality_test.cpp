@@ -3,6 +3,7 @@
 #include "tests/core/little_scene.hpp"
 #include "tests/random.hpp"
 #include "tests/sanitized.hpp"
+#include "tests/simd/picture.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -13,6 +14,7 @@ using namespace raylane;
 using namespace little_scene;
 using ray_sets::Random;
 using ray_sets::rounded;
+using raylane::tests::shown;
 
 namespace {
 
@@ -64,10 +66,6 @@ Film converged(const Scene& scene, int grid = 32) {
 
 /// Returns the difference of the sRGB values that two films show, in decibels.
 double psnr(const Film& a, const Film& b) {
-    const auto shown = [](float linear) {
-        const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-        return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-    };
     double sum = 0.0;
     for (std::size_t i = 0; i < a.pixels().size(); ++i)
         for (int channel = 0; channel < 3; ++channel) {

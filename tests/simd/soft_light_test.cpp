@@ -2,6 +2,7 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/random.hpp"
+#include "tests/simd/picture.hpp"
 #include "tests/simd/rounds.hpp"
 
 #include <cmath>
@@ -12,6 +13,7 @@ using namespace raylane;
 using namespace little_scene;
 using ray_sets::Random;
 using ray_sets::rounded;
+using raylane::tests::shown;
 
 namespace {
 
@@ -302,10 +304,6 @@ TEST_CASE("soft light's error falls faster than that of random samples", "[long]
 }
 
 TEST_CASE("soft light and a lens have the requested quality", "[long]") {
-    const auto shown = [](float linear) {
-        const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-        return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-    };
     // A higher quality must be compared with an image of more samples.
     const bool is_full = tests::is_full();
     for (const float lens : {0.0F, 0.1F}) {
