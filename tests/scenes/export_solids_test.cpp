@@ -66,28 +66,8 @@ namespace {
 const std::string solids = R"({"camera": {"from": [4, 5, 6], "at": [0, 0, 0]},
     "lights": [{"type": "point", "position": [30, 40, 50]}],
     "materials": {"clay": {}, "glass": {"transmission": 1}, "red": {"color": [1, 0, 0]}},
-    "objects": [
-        {"type": "difference", "material": "clay", "objects": [
-            {"type": "intersection", "objects": [
-                {"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]},
-                {"type": "sphere", "center": [0, 0, 0], "radius": 1.3, "material": "red"}]},
-            {"type": "difference", "objects": [
-                {"type": "cylinder", "base": [0, 0, 0], "axis": [0, 2, 0], "radius": 0.6},
-                {"type": "union", "objects": [
-                    {"type": "plane", "point": [0, 0.1, 0], "normal": [1, 2, 0.5]},
-                    {"type": "ellipsoid", "center": [0, 0.4, 0], "axes": [[0.3, 0, 0], [0, 0.2, 0], [0, 0, 0.5]]}]}]}]},
-        {"type": "clip", "material": "glass", "objects": [
-            {"type": "union", "objects": [
-                {"type": "cone", "base": [2, 0, 0], "axis": [0, 1, 0], "base_radius": 0.5},
-                {"type": "sphere", "center": [2, 0.4, 0], "radius": 0.4}]},
-            {"type": "plane", "point": [2, 0, 0.1], "normal": [0, 0, 1]},
-            {"type": "difference", "objects": [
-                {"type": "box", "min": [1, -1, -1], "max": [3, 2, 1]},
-                {"type": "sphere", "center": [2, 0.9, 0], "radius": 0.4}]}]},
-        {"type": "intersection", "material": "clay", "objects": [
-            {"type": "quadric", "center": [-2, 0, 1], "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -0.1]]},
-            {"type": "box", "min": [-3, -0.5, 0], "max": [-1, 0.5, 2]}]}
-    ]})";
+    "objects": [)" + tests::three_solids +
+                           "]}";
 
 } // namespace
 

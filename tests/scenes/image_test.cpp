@@ -6,6 +6,7 @@
 #include "tests/sanitized.hpp"
 #include "tests/scenes/little_memory.hpp"
 #include "tests/scenes/message_of.hpp"
+#include "tests/scenes/png_chunk.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <bit>
@@ -17,7 +18,9 @@
 using namespace raylane;
 using core::Transfer;
 using scenes::Image;
+using tests::big_endian;
 using tests::content_of;
+using tests::png_chunk;
 using tests::TemporaryDirectory;
 
 namespace {
@@ -57,21 +60,6 @@ std::string bytes(const char (&literal)[size]) {
     return {literal, size - 1};
 }
 
-std::string big_endian(std::uint32_t number) {
-    std::string text;
-    for (int shift = 24; shift >= 0; shift -= 8)
-        text += static_cast<char>(number >> shift);
-    return text;
-}
-
-std::string chunk(const std::string& type, const std::string& content) {
-    const std::string text = type + content;
-    const auto checksum =
-        ::crc32(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<uInt>(text.size()));
-    return big_endian(static_cast<std::uint32_t>(content.size())) + text +
-           big_endian(static_cast<std::uint32_t>(checksum));
-}
-
 /// Returns an RGB PNG of `rows`, each with its filter byte in front. Their size is not checked.
 std::string png_of(std::uint32_t width, std::uint32_t height, char bits, const std::string& rows) {
     uLongf size = ::compressBound(static_cast<uLong>(rows.size()));
@@ -80,8 +68,8 @@ std::string png_of(std::uint32_t width, std::uint32_t height, char bits, const s
                reinterpret_cast<const Bytef*>(rows.data()), static_cast<uLong>(rows.size()));
     compressed.resize(size);
     return "\x89PNG\r\n\x1A\n" +
-           chunk("IHDR", big_endian(width) + big_endian(height) + bits + bytes("\2\0\0\0")) +
-           chunk("IDAT", compressed) + chunk("IEND", "");
+           png_chunk("IHDR", big_endian(width) + big_endian(height) + bits + bytes("\2\0\0\0")) +
+           png_chunk("IDAT", compressed) + png_chunk("IEND", "");
 }
 
 /// 2 x 1 pixels of 16 bits: (0, 65535, 257), (1, 2, 32768).
@@ -179,9 +167,9 @@ TEST_CASE("a PNG has the resolution and texts of the options and no time stamp")
     const scenes::PictureOptions options{
         .dpi = 300.0F, .texts = {{"Software", "raylane"}, {"Title", "caf\xC3\xA9"}}};
     const std::string told = written(options);
-    CHECK(holds(told, chunk("pHYs", big_endian(11811) + big_endian(11811) + "\1")));
-    CHECK(holds(told, chunk("tEXt", bytes("Software\0raylane"))));
-    CHECK(holds(told, chunk("iTXt", bytes("Title\0\0\0\0\0caf\xC3\xA9"))));
+    CHECK(holds(told, png_chunk("pHYs", big_endian(11811) + big_endian(11811) + "\1")));
+    CHECK(holds(told, png_chunk("tEXt", bytes("Software\0raylane"))));
+    CHECK(holds(told, png_chunk("iTXt", bytes("Title\0\0\0\0\0caf\xC3\xA9"))));
     CHECK(!holds(told, "tIME"));
     CHECK(told == written(options));
 }

@@ -63,6 +63,32 @@ inline std::string with_objects(const std::string& objects) {
            objects + "]}";
 }
 
+/// Objects of the materials "clay", "glass" and "red": a difference, a union that is clipped, and
+/// an intersection with a quadric.
+inline const std::string three_solids = R"(
+        {"type": "difference", "material": "clay", "objects": [
+            {"type": "intersection", "objects": [
+                {"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]},
+                {"type": "sphere", "center": [0, 0, 0], "radius": 1.3, "material": "red"}]},
+            {"type": "difference", "objects": [
+                {"type": "cylinder", "base": [0, 0, 0], "axis": [0, 2, 0], "radius": 0.6},
+                {"type": "union", "objects": [
+                    {"type": "plane", "point": [0, 0.1, 0], "normal": [1, 2, 0.5]},
+                    {"type": "ellipsoid", "center": [0, 0.4, 0],
+                     "axes": [[0.3, 0, 0], [0, 0.2, 0], [0, 0, 0.5]]}]}]}]},
+        {"type": "clip", "material": "glass", "objects": [
+            {"type": "union", "objects": [
+                {"type": "cone", "base": [2, 0, 0], "axis": [0, 1, 0], "base_radius": 0.5},
+                {"type": "sphere", "center": [2, 0.4, 0], "radius": 0.4}]},
+            {"type": "plane", "point": [2, 0, 0.1], "normal": [0, 0, 1]},
+            {"type": "difference", "objects": [
+                {"type": "box", "min": [1, -1, -1], "max": [3, 2, 1]},
+                {"type": "sphere", "center": [2, 0.9, 0], "radius": 0.4}]}]},
+        {"type": "intersection", "material": "clay", "objects": [
+            {"type": "quadric", "center": [-2, 0, 1],
+             "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -0.1]]},
+            {"type": "box", "min": [-3, -0.5, 0], "max": [-1, 0.5, 2]}]})";
+
 /// Returns the text of an object with a shape's keys and a material.
 inline std::string object_text(const std::string& shape, const std::string& material) {
     return "{" + shape + R"(, "material": )" + material + "}";

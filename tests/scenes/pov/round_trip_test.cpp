@@ -119,34 +119,12 @@ TEST_CASE("solids and materials read back from POV-Ray's language unchanged") {
         {"type": "sphere", "center": [1, -1, 2], "radius": 0.5, "material": "bands"},
         {"type": "sphere", "center": [-1, 1.5, 2], "radius": 0.5, "material": "tint"},
         {"type": "sphere", "center": [1.5, 1.5, 2], "radius": 0.75, "material": "pane"},
-        {"type": "difference", "material": "clay", "objects": [
-            {"type": "intersection", "objects": [
-                {"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]},
-                {"type": "sphere", "center": [0, 0, 0], "radius": 1.3, "material": "red"}]},
-            {"type": "difference", "objects": [
-                {"type": "cylinder", "base": [0, 0, 0], "axis": [0, 2, 0], "radius": 0.6},
-                {"type": "union", "objects": [
-                    {"type": "plane", "point": [0, 0.1, 0], "normal": [1, 2, 0.5]},
-                    {"type": "ellipsoid", "center": [0, 0.4, 0],
-                     "axes": [[0.3, 0, 0], [0, 0.2, 0], [0, 0, 0.5]]}]}]}]},
-        {"type": "clip", "material": "glass", "objects": [
-            {"type": "union", "objects": [
-                {"type": "cone", "base": [2, 0, 0], "axis": [0, 1, 0], "base_radius": 0.5},
-                {"type": "sphere", "center": [2, 0.4, 0], "radius": 0.4}]},
-            {"type": "plane", "point": [2, 0, 0.1], "normal": [0, 0, 1]},
-            {"type": "difference", "objects": [
-                {"type": "box", "min": [1, -1, -1], "max": [3, 2, 1]},
-                {"type": "sphere", "center": [2, 0.9, 0], "radius": 0.4}]}]},
         {"type": "clip", "material": "clay", "objects": [
             {"type": "union", "objects": [
                 {"type": "sphere", "center": [0, -1, 3], "radius": 0.5},
                 {"type": "sphere", "center": [0.4, -1, 3], "radius": 0.5}]},
-            {"type": "plane", "point": [0, -1, 3], "normal": [0, 1, 0]}]},
-        {"type": "intersection", "material": "clay", "objects": [
-            {"type": "quadric", "center": [-2, 0, 1],
-             "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -0.1]]},
-            {"type": "box", "min": [-3, -0.5, 0], "max": [-1, 0.5, 2]}]}
-    ]})");
+            {"type": "plane", "point": [0, -1, 3], "normal": [0, 1, 0]}]},)" +
+                                              tests::three_solids + "]}");
     const Copy copy = by_way_of_pov(scene);
     CHECK(copy.left_out.empty());
     CHECK(copy.remarks.empty());

@@ -3,6 +3,7 @@
 #include "scenes/image/reader.hpp"
 #include "scenes/image/writer.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/png_chunk.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
 #include <nlohmann/json.hpp>
@@ -264,25 +265,6 @@ TEST_CASE("verify renders an image with its own precision") {
     CHECK(turned.out.find("first      at pixel 3, 4\n") != std::string::npos);
 }
 
-namespace {
-
-std::string big_endian(std::uint32_t number) {
-    std::string text;
-    for (int shift = 24; shift >= 0; shift -= 8)
-        text += static_cast<char>(number >> shift);
-    return text;
-}
-
-std::string chunk(const std::string& type, const std::string& content) {
-    const std::string text = type + content;
-    const auto checksum =
-        ::crc32(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<uInt>(text.size()));
-    return big_endian(static_cast<std::uint32_t>(content.size())) + text +
-           big_endian(static_cast<std::uint32_t>(checksum));
-}
-
-} // namespace
-
 TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png", {"--dpi", "300"}).code == 0);
@@ -306,26 +288,26 @@ TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
     };
     const std::string zero(1, '\0');
     CHECK(with("", header).code == 0);
-    refused("tEXt Author", chunk("tEXt", "Author" + zero + "me"), header);
+    refused("tEXt Author", png_chunk("tEXt", "Author" + zero + "me"), header);
     refused("tEXt Raw profile type exif",
-            chunk("tEXt", "Raw profile type exif" + zero + "\nexif\n0\n"), header);
-    refused("tEXt Comment", chunk("tEXt", "Comment" + zero + "other"), end);
+            png_chunk("tEXt", "Raw profile type exif" + zero + "\nexif\n0\n"), header);
+    refused("tEXt Comment", png_chunk("tEXt", "Comment" + zero + "other"), end);
     refused("iTXt XML:com.adobe.xmp",
-            chunk("iTXt", "XML:com.adobe.xmp" + std::string(5, '\0') + "<x/>"), header);
-    refused("gAMA", chunk("gAMA", big_endian(500'000)), header);
+            png_chunk("iTXt", "XML:com.adobe.xmp" + std::string(5, '\0') + "<x/>"), header);
+    refused("gAMA", png_chunk("gAMA", big_endian(500'000)), header);
     std::string chromaticities;
     for (const std::uint32_t number : {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000})
         chromaticities += big_endian(number);
-    refused("cHRM", chunk("cHRM", chromaticities), header);
-    refused("sRGB", chunk("sRGB", zero), header);
-    refused("tRNS", chunk("tRNS", std::string(6, '\0')), header);
-    refused("bKGD", chunk("bKGD", std::string(6, '\0')), header);
-    refused("eXIf", chunk("eXIf", std::string("MM\0*\0\0\0\10\0\0\0\0\0\0", 14)), header);
-    refused("acTL", chunk("acTL", big_endian(1) + big_endian(0)), header);
-    refused("fcTL", chunk("fcTL", std::string(26, '\0')) + chunk("fdAT", "0123"), end);
+    refused("cHRM", png_chunk("cHRM", chromaticities), header);
+    refused("sRGB", png_chunk("sRGB", zero), header);
+    refused("tRNS", png_chunk("tRNS", std::string(6, '\0')), header);
+    refused("bKGD", png_chunk("bKGD", std::string(6, '\0')), header);
+    refused("eXIf", png_chunk("eXIf", std::string("MM\0*\0\0\0\10\0\0\0\0\0\0", 14)), header);
+    refused("acTL", png_chunk("acTL", big_endian(1) + big_endian(0)), header);
+    refused("fcTL", png_chunk("fcTL", std::string(26, '\0')) + png_chunk("fdAT", "0123"), end);
     // Pixels that are not square.
     std::string wide = picture;
-    wide.replace(header, 12 + 9, chunk("pHYs", big_endian(2) + big_endian(1) + "\1"));
+    wide.replace(header, 12 + 9, png_chunk("pHYs", big_endian(2) + big_endian(1) + "\1"));
     workshop.write("b.png", wide);
     CHECK(verify(workshop, "b.png").err.ends_with(", got pHYs\n"));
 }
