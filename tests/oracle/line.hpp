@@ -7,10 +7,14 @@
 #include <optional>
 #include <vector>
 
-/// Exact crossings of a line with a shape. They come from other formulas than the solvers use
-/// (quadratics in cross products with cleared fractions, Cramer's rule, faces one by one), so that
-/// the two do not share a mistake. This header has the common parts. Each shape's file defines
+/// Exact crossings of a line with a shape, and the normals there. They come from other formulas than
+/// the solvers use (quadratics in cross products with cleared fractions, Cramer's rule, faces one by
+/// one), so that the two do not share a mistake. This header has the common parts. Each shape's file
+/// defines
 ///   std::vector<Hit> crossings(shape, ray)
+///   Normal normal(shape, ray, hit)
+/// The normal points towards the outside (the front) at a crossing. At an apex it is the axis
+/// towards the outside instead.
 namespace raylane::oracle {
 
 using core::Face;
@@ -48,5 +52,22 @@ std::optional<Hit> plane_crossing(const Line& line, const Vector& normal, const 
 /// enters and the last by which it leaves. At one t, the lowest face counts. A line that lies in
 /// faces enters and leaves by the other faces.
 std::vector<Hit> first_and_last(const std::vector<Hit>& on_faces);
+
+/// The vector v0 + t v1 at a root t, of any length.
+struct Normal {
+    Root t;
+    Vector v0, v1;
+
+    static Normal fixed(const Vector& v) { return {{{}, Exact(1), 0, {}}, v, {}}; }
+    int sign(int axis) const { return sign_at(t, v0[axis], v1[axis]); }
+    bool vanishes() const { return sign(0) == 0 && sign(1) == 0 && sign(2) == 0; }
+};
+Vector opposite(const Vector& v);
+
+/// Compares the absolute value of a component of the unit vector with `size`: -1 if it is less.
+int compare_size(const Normal& n, int axis, const Exact& size);
+
+/// Returns the unit vector, each component rounded to the nearest float, ties to even.
+core::Vec3f rounded(const Normal& n);
 
 } // namespace raylane::oracle

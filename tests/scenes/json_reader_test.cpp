@@ -1,5 +1,8 @@
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/json_scenes.hpp"
+
+#include <vector>
 
 using namespace raylane;
 using namespace raylane::tests;
@@ -157,4 +160,18 @@ TEST_CASE("generators are objects of a scene") {
 TEST_CASE("a file may begin with a byte order mark and end without a line break") {
     CHECK(complaint_about_text("\xEF\xBB\xBF" + with_objects("")) == "");
     CHECK(complaint_about_text(with_objects("") + "\r\n// the end") == "");
+}
+
+TEST_CASE("scene examples of the pages parse") {
+    const std::string readme = content_of(RAYLANE_SOURCE_DIR "/scenes/README.md");
+    const std::string opening = "```json\n";
+    const TemporaryDirectory directory;
+    std::vector<std::size_t> shapes;
+    for (std::size_t begin = 0; (begin = readme.find(opening, begin)) != std::string::npos;) {
+        begin += opening.size();
+        const std::string text = readme.substr(begin, readme.find("```", begin) - begin);
+        scenes::InputFile file(directory.write("my.json", text));
+        shapes.push_back(scenes::read_json(file).shape_count());
+    }
+    CHECK(shapes == std::vector<std::size_t>{2, 4});
 }

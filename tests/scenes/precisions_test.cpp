@@ -3,7 +3,7 @@
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/places.hpp"
-#include "tests/scenes/scaled_down.hpp"
+#include "tests/scenes/shared_scene.hpp"
 #include "tests/simd/rounds.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "tests/catch.hpp"
 #include "tests/places.hpp"
 #include "tests/scaled_scene.hpp"
-#include "tests/scenes/scaled_down.hpp"
+#include "tests/scenes/shared_scene.hpp"
 #include "tests/simd/rounds.hpp"
 
 #include <algorithm>

@@ -1,15 +1,105 @@
 #pragma once
 
+#include "core/numbers/vector.hpp"
 #include "core/shapes/ray.hpp"
-#include "tests/meetings/touching.hpp"
-#include "tests/oracle/ball.hpp"
-#include "tests/oracle/normal.hpp"
+#include "core/shapes/types.hpp"
+#include "tests/meetings/frame.hpp"
+#include "tests/oracle/line.hpp"
 #include "tests/placing.hpp"
+#include "tests/random.hpp"
 #include "tests/simd/nest.hpp"
-#include "tests/simd/variation.hpp"
-#include "tests/target.hpp"
 
 #include <array>
+#include <utility>
+
+/// Random shapes, and points to aim at.
+namespace raylane::ray_sets {
+
+/// Makes a shape and ways to aim at it: points on it, tangents there, and the shape's special
+/// directions.
+template <class Shape>
+struct Target;
+
+struct SurfacePoint {
+    Vec3d point;
+    Vec3d normal;
+};
+
+} // namespace raylane::ray_sets
+
+namespace raylane::oracle {
+
+/// A ball that contains a shape. Each shape's file defines
+///   Ball ball_around(shape)
+struct Ball {
+    core::Vec3d center;
+    double radius;
+};
+
+inline double length_of(const core::Vec3d& v) {
+    return core::length(v);
+}
+
+inline Ball ball(const core::Vec3d& center, double radius) {
+    constexpr double slack = 1.0 + 0x1p-20; // far more than the rounding errors here
+    return {center, radius * slack};
+}
+
+} // namespace raylane::oracle
+
+/// Shapes that touch the origin from below: with a face, an edge, a corner, a rim, an apex, or a
+/// point where their surface is level. Their numbers are small integers, so that they touch
+/// exactly.
+namespace raylane::meetings {
+
+inline float radius_of(const Frame& frame, double radius) {
+    return static_cast<float>(radius * frame.length());
+}
+
+/// Makes shapes of one kind. Shapes that are to coincide share the length `r`. Some kinds also have
+///   Shape shell(frame, r)
+/// which has its highest point at the origin, and its centre r below.
+template <class Shape>
+struct Touching;
+
+} // namespace raylane::meetings
+
+/// Changes any shape by its floats. Files of shapes overload these functions where this does not
+/// suffice.
+namespace raylane::hard_cases {
+
+using ray_sets::Random;
+
+inline core::Vec3d in_double(const core::Vec3f& v) {
+    return core::convert<double>(v);
+}
+
+/// Returns the shape, `scale` times as large.
+template <class Shape>
+Shape scaled(const Shape& shape, double scale) {
+    core::Numbers<Shape> floats = core::numbers_of(shape);
+    for (float& value : floats)
+        value = static_cast<float>(static_cast<double>(value) * scale);
+    return core::shape_of<Shape>(floats);
+}
+
+/// Returns a long, flat, slender or blunt shape: of proportions that the usual targets do not have.
+/// By default, returns the shape itself.
+template <class Shape>
+Shape extreme(const Shape& shape, Random&) {
+    return shape;
+}
+
+/// Changes the frame: swaps two coordinates.
+template <class Shape>
+void swap_axes(Shape& shape, int a, int b) {
+    core::Numbers<Shape> floats = core::numbers_of(shape);
+    for (int vector = 0; vector < core::number_count<Shape> / 3; ++vector)
+        std::swap(floats[3 * vector + a], floats[3 * vector + b]);
+    shape = core::shape_of<Shape>(floats);
+}
+
+} // namespace raylane::hard_cases
 
 /// Parts that tests need of a shape. All of them are in the shape's file in this folder:
 ///   tests::Nature                  the traits by which tests choose shapes

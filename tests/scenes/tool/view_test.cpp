@@ -1,4 +1,6 @@
+#include "scenes/tool/view/pick.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/json_scenes.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
 #include <csignal>
@@ -132,4 +134,19 @@ TEST_CASE("a window shows the image of render and follows changes of the scene")
     }
     viewer.send(SIGTERM);
     CHECK(viewer.wait().code == 128 + SIGTERM);
+}
+
+TEST_CASE("A click names the material of the object") {
+    const raylane::core::Scene scene = scene_of(R"({"image": {"width": 3, "height": 1},
+        "camera": {"type": "orthographic", "from": [0, 0, 5], "at": [0, 0, 0], "height": 2},
+        "lights": [], "materials": {"clear glass": {"transmission": 1}},
+        "objects": [{"type": "sphere", "material": "clear glass", "center": [-2, 0, 0], "radius": 1},
+                    {"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})");
+    const auto click = [&](int x) {
+        return raylane::scenes::what_is_at(scene, scene.settings(), x, 0);
+    };
+    CHECK(click(0) ==
+          "sphere 0 of material 0 (clear glass), at -2 0 1, 4 away (rounded to nearest double)");
+    CHECK(click(1).starts_with("sphere 1 of material 1, at 0 0 1, 4 away"));
+    CHECK(click(2) == "background");
 }
