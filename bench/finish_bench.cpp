@@ -5,7 +5,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <bit>
 #include <string>
 #include <vector>
 

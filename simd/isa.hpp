@@ -2,7 +2,6 @@
 
 #include "simd/kernels.hpp"
 
-#include <cstdint>
 #include <string_view>
 
 namespace raylane::simd {

@@ -1,5 +1,7 @@
 #include "simd/tiles.hpp"
 
+#include "simd/threads.hpp"
+
 #include <cmath>
 #include <numeric>
 

@@ -1,8 +1,6 @@
 #include "bench/peers/contender.hpp"
 #include "simd/stream_tracer.hpp"
 
-#include <algorithm>
-
 namespace raylane::bench {
 
 namespace {

@@ -8,7 +8,6 @@
 #include <barrier>
 #include <chrono>
 #include <thread>
-#include <utility>
 
 namespace raylane::bench {
 

@@ -5,7 +5,6 @@
 #include "core/scene/region.hpp"
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 namespace raylane::core {

@@ -3,7 +3,6 @@
 #include "core/reference/parts_near.hpp"
 #include "core/shapes/ray.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace raylane::core {

@@ -5,7 +5,6 @@
 #include "core/reference/search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 

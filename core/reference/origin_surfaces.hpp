@@ -6,7 +6,6 @@
 #include "core/shapes/shape_table.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
 

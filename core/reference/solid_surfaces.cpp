@@ -4,7 +4,6 @@
 #include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace raylane::core {

@@ -5,7 +5,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 namespace raylane::core::checks {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 
 /// Computes bounds of solids.
 namespace raylane::core {

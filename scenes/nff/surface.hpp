@@ -4,7 +4,6 @@
 
 #include <array>
 #include <map>
-#include <optional>
 
 namespace raylane::scenes {
 

@@ -4,7 +4,6 @@
 #include "scenes/pov/include_tables.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 
 namespace raylane::scenes::pov {

@@ -3,7 +3,6 @@
 #include "scenes/pov/objects.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace raylane::scenes::pov {

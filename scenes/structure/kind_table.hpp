@@ -3,7 +3,6 @@
 #include "scenes/structure/structure.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>

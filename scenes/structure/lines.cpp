@@ -4,7 +4,6 @@
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>

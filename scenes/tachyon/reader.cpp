@@ -6,7 +6,6 @@
 #include "scenes/tachyon/surroundings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 

@@ -5,7 +5,6 @@
 #include "scenes/number.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace raylane::scenes {
 
@@ -96,7 +95,7 @@ std::optional<TachyonFog> read_fog(TachyonWords& words) {
 }
 
 core::Light read_point_light(TachyonWords& words) {
-    const core::Light light{.position = words.named_vector("CENTER")};
+    core::Light light{.position = words.named_vector("CENTER")};
     if (words.named_number("RAD") > 0.0F)
         words.remark("RAD is ignored: the sphere of a light is invisible");
     scale(light, words);
@@ -112,7 +111,7 @@ core::Light read_directional_light(TachyonWords& words) {
 }
 
 core::Light read_spotlight(TachyonWords& words) {
-    const core::Light light{.position = words.named_vector("CENTER")};
+    core::Light light{.position = words.named_vector("CENTER")};
     words.named_number("RAD");
     words.named_vector("DIRECTION");
     words.named_number("FALLOFF_START");

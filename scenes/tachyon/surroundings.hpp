@@ -4,7 +4,6 @@
 #include "scenes/tachyon/shading.hpp"
 
 #include <optional>
-#include <vector>
 
 /// Contents of a Tachyon scene other than its objects.
 namespace raylane::scenes {

@@ -1,8 +1,6 @@
 #include "scenes/tachyon/vertex_array.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace raylane::scenes {
 

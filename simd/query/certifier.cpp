@@ -3,7 +3,6 @@
 #include "core/numbers/infinity.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace raylane::simd {

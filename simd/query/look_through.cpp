@@ -3,7 +3,6 @@
 #include "core/shapes/shapes.hpp"
 #include "simd/query/as_core.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace raylane::simd {

@@ -1,7 +1,6 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 
-#include <cmath>
 #include <set>
 
 using namespace little_scene;

@@ -3,9 +3,6 @@
 #include "tests/oracle.hpp"
 #include "tests/shapes/shapes.hpp"
 
-#include <array>
-#include <cmath>
-
 using namespace raylane;
 using namespace raylane::core;
 using ray_sets::Random;

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <map>
 
 using namespace raylane;
 using namespace raylane::core;

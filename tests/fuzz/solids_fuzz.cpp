@@ -1,8 +1,6 @@
 #include "tests/fuzz/shapes.hpp"
 #include "tests/scenes/library/solid_exam.hpp"
 
-#include <utility>
-
 /// Solids of solids from any bytes. Exact arithmetic decides which answers are right.
 using namespace raylane;
 using namespace raylane::fuzz;

@@ -4,7 +4,6 @@
 #include "tests/random.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace raylane::meetings {
 

@@ -4,7 +4,6 @@
 #include "tests/shapes/shapes.hpp"
 
 #include <iterator>
-#include <utility>
 #include <vector>
 
 namespace raylane::meetings {

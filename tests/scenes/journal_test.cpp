@@ -5,7 +5,6 @@
 #include "tests/scenes/json_scenes.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
-#include <atomic>
 #include <csignal>
 #include <fstream>
 #include <memory>

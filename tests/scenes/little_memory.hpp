@@ -4,7 +4,6 @@
 
 #include <fstream>
 #include <malloc.h>
-#include <new>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

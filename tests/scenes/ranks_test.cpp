@@ -9,7 +9,6 @@
 #include <condition_variable>
 #include <cstring>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <set>
 #include <thread>

@@ -6,7 +6,6 @@
 #include "tests/scenes/shared_scene.hpp"
 #include "tests/simd/rounds.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
 

@@ -6,7 +6,6 @@
 #include "tests/simd/finish_kernels.hpp"
 #include "tests/simd/rounds.hpp"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdio>

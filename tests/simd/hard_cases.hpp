@@ -4,7 +4,6 @@
 #include "tests/ray_sets.hpp"
 
 #include <cmath>
-#include <iterator>
 
 /// Shapes of all proportions and sizes, and rays in double at them: harder than ray_sets alone.
 namespace raylane::hard_cases {

@@ -7,7 +7,6 @@
 #include "tests/simd/queue_check.hpp"
 
 #include <cmath>
-#include <utility>
 
 using namespace raylane::simd;
 using raylane::ray_sets::Random;

@@ -7,7 +7,6 @@
 #include "tests/sanitized.hpp"
 #include "tests/simd/stream_columns.hpp"
 
-#include <array>
 #include <cmath>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include "tests/random.hpp"
 
 #include <cmath>
-#include <vector>
 
 using namespace raylane;
 using namespace raylane::core;

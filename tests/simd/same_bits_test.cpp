@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <string>
-#include <vector>
 
 /// A stream of rays has the same answers, to the bit, on every instruction set.
 using namespace raylane;

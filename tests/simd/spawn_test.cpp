@@ -7,9 +7,7 @@
 #include "tests/simd/spawn_tally.hpp"
 #include "tests/simd/spawn_truth.hpp"
 
-#include <array>
 #include <sstream>
-#include <string>
 
 using namespace raylane;
 using namespace raylane::core;

@@ -5,7 +5,6 @@
 #include "tests/scenes/library/ray_arrays.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 

@@ -4,7 +4,6 @@
 #include "tests/scenes/library/ray_arrays.hpp"
 #include "tests/scenes/message_of.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 

@@ -5,7 +5,6 @@
 #include "tests/scenes/structure/frames.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/message_of.hpp"
 
-#include <cmath>
 #include <string>
 
 /// Tests of bonds across the faces of a cell.

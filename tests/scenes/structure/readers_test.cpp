@@ -4,7 +4,6 @@
 #include "tests/scenes/structure/frames.hpp"
 
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 

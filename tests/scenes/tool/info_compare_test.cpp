@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-
 using namespace raylane;
 using namespace raylane::tests;
 
