@@ -1,7 +1,6 @@
 #include "scenes/generators.hpp"
 
 #include "core/numbers/elementary.hpp"
-#include "core/scene/validate.hpp"
 
 #include <array>
 #include <charconv>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/scene/region.hpp"
-#include "simd/threads.hpp"
 
 #include <cstddef>
 #include <functional>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "core/shapes/types.hpp"
 #include "scenes/format.hpp"
 #include "scenes/structure/drawing.hpp"
 #include "scenes/structure/readers.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/shapes/types.hpp"
 #include "scenes/tachyon/texture.hpp"
 
 #include <functional>

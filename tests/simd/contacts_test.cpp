@@ -1,4 +1,3 @@
-#include "simd/isa.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"

@@ -1,5 +1,4 @@
 #include "simd/stream/row_worker.hpp"
-#include "simd/threads.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/sanitized.hpp"

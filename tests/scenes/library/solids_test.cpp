@@ -1,6 +1,5 @@
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
-#include "tests/sanitized.hpp"
 #include "tests/scenes/library/solid_exam.hpp"
 #include "tests/simd/rounds.hpp"
 

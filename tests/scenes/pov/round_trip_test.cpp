@@ -1,6 +1,5 @@
 #include "scenes/export/export.hpp"
 #include "scenes/export/writers.hpp"
-#include "scenes/image/compare.hpp"
 #include "scenes/scene_file.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
