@@ -20,18 +20,22 @@ Scene scene_of(const Lens& lens) {
     return std::move(builder).build();
 }
 
-/// Returns t of all crossings of a line with the scene, in ascending order.
-std::vector<double> crossings(const Scene& scene, const Vec3d& origin, const Vec3d& direction) {
+/// Returns all crossings of a line with the scene, in ascending order.
+std::vector<Hit<double>> hits_of(const Scene& scene, const Ray<double>& ray) {
     Searcher<double> searcher(scene, Search::hierarchy);
-    const Ray<double> ray{origin, direction};
     std::vector<Hit<double>> hits;
     searcher.each(ray, {}, 1e30, [&](const Hit<double>& hit) {
         hits.push_back(hit);
         return true;
     });
     searcher.sort(ray, {}, hits);
+    return hits;
+}
+
+/// Returns their t.
+std::vector<double> crossings(const Scene& scene, const Vec3d& origin, const Vec3d& direction) {
     std::vector<double> t;
-    for (const Hit<double>& hit : hits)
+    for (const Hit<double>& hit : hits_of(scene, {origin, direction}))
         t.push_back(hit.t);
     return t;
 }
@@ -161,15 +165,8 @@ TEST_CASE("a lens may stand anywhere and cemented lenses share one surface") {
     builder.add_solid(solid_of({{0, 0, 1.5}, {0, 0, 1}, {-3, -9}, {0, 0}, 0.6, 2}),
                       builder.add_material({}));
     const Scene doublet = std::move(builder).build();
-    Searcher<double> searcher(doublet, Search::hierarchy);
     for (int i = 0; i < 50; ++i) {
-        const Ray<double> ray{{0.03 * i, 0.01 * i, -9}, {0.01, -0.02, 1}};
-        std::vector<Hit<double>> hits;
-        searcher.each(ray, {}, 1e30, [&](const Hit<double>& hit) {
-            hits.push_back(hit);
-            return true;
-        });
-        searcher.sort(ray, {}, hits);
+        const auto hits = hits_of(doublet, {{0.03 * i, 0.01 * i, -9}, {0.01, -0.02, 1}});
         REQUIRE(hits.size() == 4);
         CHECK(hits[2].joins);
         CHECK(hits[1].enters()); // enters the flint before it leaves the crown

@@ -220,13 +220,8 @@ struct Touching<core::Box> {
 
 namespace raylane::hard_cases {
 
-inline core::Box extreme(const core::Box& box, Random& r) {
-    core::Box b = box;
-    b.edge_u = core::convert<float>(core::Vec3d(in_double(b.edge_u) * r.log_uniform(1e-4, 1e3)));
-    if (r.integer(0, 1) == 0)
-        b.edge_v =
-            core::convert<float>(core::Vec3d(in_double(b.edge_u) * r.log_uniform(0.1, 10.0) +
-                                             in_double(b.edge_v) * r.log_uniform(1e-3, 1.0)));
+inline core::Box extreme(core::Box b, Random& r) {
+    stretch(b.edge_u, b.edge_v, r);
     return b;
 }
 

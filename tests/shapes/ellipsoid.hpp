@@ -206,13 +206,8 @@ struct Touching<core::Ellipsoid> {
 
 namespace raylane::hard_cases {
 
-inline core::Ellipsoid extreme(const core::Ellipsoid& ellipsoid, Random& r) {
-    core::Ellipsoid e = ellipsoid;
-    e.axis_u = core::convert<float>(core::Vec3d(in_double(e.axis_u) * r.log_uniform(1e-4, 1e3)));
-    if (r.integer(0, 1) == 0)
-        e.axis_v =
-            core::convert<float>(core::Vec3d(in_double(e.axis_u) * r.log_uniform(0.1, 10.0) +
-                                             in_double(e.axis_v) * r.log_uniform(1e-3, 1.0)));
+inline core::Ellipsoid extreme(core::Ellipsoid e, Random& r) {
+    stretch(e.axis_u, e.axis_v, r);
     return e;
 }
 

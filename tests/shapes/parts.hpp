@@ -90,6 +90,14 @@ Shape extreme(const Shape& shape, Random&) {
     return shape;
 }
 
+/// Makes a shape of edges or axes long or short, and half of them slanted.
+inline void stretch(core::Vec3f& u, core::Vec3f& v, Random& r) {
+    u = core::convert<float>(core::Vec3d(in_double(u) * r.log_uniform(1e-4, 1e3)));
+    if (r.integer(0, 1) == 0)
+        v = core::convert<float>(core::Vec3d(in_double(u) * r.log_uniform(0.1, 10.0) +
+                                             in_double(v) * r.log_uniform(1e-3, 1.0)));
+}
+
 /// Changes the frame: swaps two coordinates.
 template <class Shape>
 void swap_axes(Shape& shape, int a, int b) {

@@ -5,6 +5,7 @@
 #include "core/shapes/solve.hpp"
 #include "core/shapes/types.hpp"
 #include "simd/render.hpp"
+#include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/oracle.hpp"
 
@@ -100,6 +101,15 @@ struct Comparison {
     int wrong = 0;      ///< hits for misses, and the reverse
     double worst = 0.0; ///< difference of brightness where both hit
 };
+
+inline constexpr double invisible = 1e-5; // in brightness
+
+/// Checks that enough pixels show the shapes, and that none differs visibly.
+inline void check_right(const Comparison& ours, double least_hits) {
+    CHECK(ours.hits > least_hits);
+    CHECK(ours.wrong == 0);
+    CHECK(ours.worst < invisible);
+}
 
 /// Returns chalk's brightness in unobstructed light.
 inline double brightness(const Vec3d& normal, const Vec3d& to_light, double specular) {

@@ -13,7 +13,6 @@ namespace {
 
 constexpr int pixels = tests::sanitized ? 48 : 96;
 constexpr double visible = 0.01; // in brightness
-constexpr double invisible = 1e-5;
 
 /// Returns a scene of some shapes of chalk, under a sun.
 template <class Shape>
@@ -36,10 +35,7 @@ TEST_CASE("mmp/pbrt-v3 #265: a sphere 800000 units from the origin has no ring a
     const Scene scene =
         chalk_scene(square(pixels, perspective({796800, 0, 0}, {800000, 0, 0}, 4, {0, 0, 1})),
                     spheres, {1, 0, 0});
-    const Comparison ours = compare(scene, spheres, {-1, 0, 0});
-    CHECK(ours.hits > pixels * pixels / 2);
-    CHECK(ours.wrong == 0);
-    CHECK(ours.worst < invisible);
+    check_right(compare(scene, spheres, {-1, 0, 0}), pixels * pixels / 2);
     CHECK(compare_textbook(scene, spheres, {-1, 0, 0}, 1e-3F).worst > visible);
 }
 
@@ -52,9 +48,7 @@ TEST_CASE("mmp/pbrt-v3 #44: a sphere 10000 units from the origin does not shrink
         chalk_scene(square(pixels, perspective({10000, 10000, 10004}, {10000, 10000, 10000}, 35)),
                     spheres, {0, 0, -1});
     const Comparison ours = compare(scene, spheres, {0, 0, 1});
-    CHECK(ours.hits > pixels * pixels / 3);
-    CHECK(ours.wrong == 0);
-    CHECK(ours.worst < invisible);
+    check_right(ours, pixels * pixels / 3);
 
     int lost = 0;
     for_each_pixel(scene, [&](const Ray<double>& ray, const Color&) {
@@ -78,10 +72,7 @@ TEST_CASE("mitsuba3 #512: a unit sphere seen from 1000 units away has no rings",
     const std::vector<Sphere> spheres = {{{0, 0, 0}, 1}};
     const Scene scene = chalk_scene(square(pixels, orthographic({0, 0, 1000}, {0, 0, 0}, 2.2F)),
                                     spheres, {0, 0, -1});
-    const Comparison ours = compare(scene, spheres, {0, 0, 1});
-    CHECK(ours.hits > pixels * pixels / 2);
-    CHECK(ours.wrong == 0);
-    CHECK(ours.worst < invisible);
+    check_right(compare(scene, spheres, {0, 0, 1}), pixels * pixels / 2);
     const Comparison textbook = compare_textbook(scene, spheres, {0, 0, 1}, 1e-3F);
     CHECK(textbook.wrong > 10);
     CHECK(textbook.worst > visible);
@@ -100,10 +91,7 @@ TEST_CASE("NVIDIA/VisRTX #333: cones have no rings about the centre of projectio
     const Scene scene =
         chalk_scene(square(pixels / 2, perspective({0.1F, 0.2F, 500}, {0.1F, 0.2F, 0}, 0.4F)),
                     cones, {0, 0, -1});
-    const Comparison ours = compare(scene, cones, {0, 0, 1});
-    CHECK(ours.hits > pixels * pixels / 16);
-    CHECK(ours.wrong == 0);
-    CHECK(ours.worst < invisible);
+    check_right(compare(scene, cones, {0, 0, 1}), pixels * pixels / 16);
     const Comparison textbook = compare_textbook(scene, cones, {0, 0, 1}, 1e-3F);
     CHECK(textbook.wrong > 10);
     CHECK(textbook.worst > visible);
@@ -119,10 +107,7 @@ TEST_CASE("NVIDIA/VisRTX #73: a cylinder seen along its axis is a disc", "[long]
     const Scene scene = chalk_scene(
         square(pixels, orthographic(base - 50.0F * along, base, 5, {1, 0, 0})), cylinders, along);
     const Vec3d to_light = -normalized(convert<double>(along));
-    const Comparison ours = compare(scene, cylinders, to_light);
-    CHECK(ours.hits > pixels * pixels * 0.4);
-    CHECK(ours.wrong == 0);
-    CHECK(ours.worst < invisible);
+    check_right(compare(scene, cylinders, to_light), pixels * pixels * 0.4);
 
     // Views along random axes. With the textbook's formulas, the axis leaves some cylinders before
     // it enters.
@@ -162,11 +147,8 @@ TEST_CASE("NVIDIA/VisRTX #54: two halves of a cylinder are as bright as the whol
         const FieldBuilder builder = square(pixels, perspective(from, {0, 0, 0}, 1));
         const Scene two = chalk_scene(builder, halves, -from);
         const Vec3d to_light = normalized(convert<double>(from));
-        const Comparison ours = compare(two, halves, to_light);
         CAPTURE(view);
-        CHECK(ours.hits > pixels / 2);
-        CHECK(ours.wrong == 0);
-        CHECK(ours.worst < invisible);
+        check_right(compare(two, halves, to_light), pixels / 2);
         textbook = std::max(textbook, compare_textbook(two, halves, to_light, 1e-3F).worst);
 
         const Film by_halves = drawn(two);

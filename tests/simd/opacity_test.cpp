@@ -57,20 +57,8 @@ TEST_CASE("both engines and all instruction sets render the same transparent sur
           "[native]") {
     for (const Projection projection : {Projection::perspective, Projection::orthographic})
         for (const bool in_fog : {false, true})
-            for (const int most : {2, Settings::see_through_limit}) {
-                const Scene scene = cloud(projection, in_fog, most);
-                const std::vector<Color> vector = picture(scene, simd::Engine::vector);
-                const std::vector<Color> reference = picture(scene, simd::Engine::reference);
-                int differ = 0;
-                for (std::size_t i = 0; i < vector.size(); ++i)
-                    for (int channel = 0; channel < 3; ++channel)
-                        differ +=
-                            std::abs(vector[i][channel] - reference[i][channel]) > 1e-5F ? 1 : 0;
-                CHECK(differ == 0);
-                for (const simd::Isa isa : simd::all_isas)
-                    if (simd::is_available(isa))
-                        CHECK(picture(scene, simd::Engine::vector, isa) == vector);
-            }
+            for (const int most : {2, Settings::see_through_limit})
+                tests::check_engines_agree(cloud(projection, in_fog, most));
 }
 
 TEST_CASE("transparent panes that reflect and transmit do not outgrow a queue") {

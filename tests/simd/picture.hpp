@@ -2,6 +2,7 @@
 
 #include "simd/isa.hpp"
 #include "simd/render.hpp"
+#include "tests/catch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,19 @@ inline std::vector<core::Color> picture(const core::Scene& scene, simd::Engine e
     return simd::render(scene, scene.settings(),
                         {.engine = engine, .isa = isa, .precision = precision})
         .film.pixels();
+}
+
+/// Checks that both engines render the same image, and all instruction sets the same bits.
+inline void check_engines_agree(const core::Scene& scene) {
+    const std::vector<core::Color> vector = picture(scene, simd::Engine::vector);
+    const std::vector<core::Color> reference = picture(scene, simd::Engine::reference);
+    int differ = 0;
+    for (std::size_t i = 0; i < vector.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            differ += std::abs(vector[i][channel] - reference[i][channel]) > 1e-5F ? 1 : 0;
+    CHECK(differ == 0);
+    for (const simd::Isa isa : simd::all_isas)
+        if (simd::is_available(isa)) CHECK(picture(scene, simd::Engine::vector, isa) == vector);
 }
 
 /// Returns the sRGB value that an image shows for a linear one, by IEC 61966-2-1.

@@ -92,16 +92,7 @@ Scene blocks(std::vector<double> wavelengths = {}) {
 } // namespace
 
 TEST_CASE("both engines and all instruction sets render the same solids of solids", "[native]") {
-    const Scene scene = blocks();
-    const std::vector<Color> vector = picture(scene, simd::Engine::vector);
-    const std::vector<Color> reference = picture(scene, simd::Engine::reference);
-    int differ = 0;
-    for (std::size_t i = 0; i < vector.size(); ++i)
-        for (int channel = 0; channel < 3; ++channel)
-            differ += std::abs(vector[i][channel] - reference[i][channel]) > 1e-5F ? 1 : 0;
-    CHECK(differ == 0);
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa)) CHECK(picture(scene, simd::Engine::vector, isa) == vector);
+    tests::check_engines_agree(blocks());
 }
 
 TEST_CASE("a spectrum changes only refracted light", "[native]") {
