@@ -6,7 +6,7 @@ import pathlib
 import numpy as np
 import raylane
 import textbook
-from pictures import Picture, Set, encoded
+from pictures import Picture, Set
 
 BENCH = pathlib.Path(__file__).resolve().parents[1]
 SCENES = BENCH.parent / "scenes"
@@ -41,9 +41,9 @@ def draw_failure(failure):
     scene = raylane.load(path)
     rays = textbook.camera_rays(description)
     rgb, t, shape = textbook.draw(description, failure["textbook"])
-    drawn = {"textbook": (encoded(rgb), t.ravel(), shape.ravel())}
+    drawn = {"textbook": (raylane.Image(rgb).to_bytes(), t.ravel(), shape.ravel())}
     for precision in PRECISIONS:
-        drawn[precision] = (encoded(raylane.render(scene, precision=precision).rgb), *first_hits(scene, precision, *rays))
+        drawn[precision] = (raylane.render(scene, precision=precision).to_bytes(), *first_hits(scene, precision, *rays))
     exact, *exact_hits = drawn["exact"]
     titles = {"textbook": "textbook float, with a remedy", **PRECISIONS}
     pictures = [
@@ -64,7 +64,7 @@ def draw_scene(name, width, height):
     scene = raylane.load(SCENES / f"{name}.json")
 
     def draw(name, title, **options):
-        return Picture(name, title, encoded(raylane.render(scene, width=width, height=height, **options).rgb))
+        return Picture(name, title, raylane.render(scene, width=width, height=height, **options).to_bytes())
 
     pictures = [draw(each, f"{title}, 1 sample", precision=each, grid=1) for each, title in PRECISIONS.items()]
     pictures += [draw(f"exact-{n * n}", f"exact, {n * n} samples", grid=n) for n in (2, 4, 8)]

@@ -36,12 +36,6 @@ class Set:
         return {"name": self.name, "title": self.title, "reference": self.reference, "pictures": pictures}
 
 
-def encoded(rgb):
-    """Returns sRGB bytes."""
-    x = np.clip(rgb, 0, 1)
-    return np.rint(255 * np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)).astype(np.uint8)
-
-
 def read(path):
     try:
         image = Image.open(path)

@@ -40,8 +40,8 @@ def test_textbook_in_double_with_a_tiny_epsilon_renders_the_exact_image(failure,
     description = textbook.read(path)
     scale = max(np.abs(description["camera"][which]).max() for which in ("from", "at"))
     rgb, _, shape = textbook.draw(description, {"epsilon": 1e-9 * scale})
-    exact = raylane.render(raylane.load(path)).rgb
-    off = drawings.steps(pictures.encoded(rgb), pictures.encoded(exact))
+    exact = raylane.render(raylane.load(path)).to_bytes()
+    off = drawings.steps(raylane.Image(rgb).to_bytes(), exact)
     assert off > 10000 if fails_in_double(failure) else off <= 0.001 * shape.size
 
 
