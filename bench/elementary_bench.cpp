@@ -91,8 +91,7 @@ void add(const Case& c) {
                                  [c](benchmark::State& state) { one_by_one(state, c, c.library); });
     benchmark::RegisterBenchmark((name + "/scalar").c_str(),
                                  [c](benchmark::State& state) { one_by_one(state, c, c.ours); });
-    for (const simd::Isa isa : simd::all_isas) {
-        if (!simd::is_available(isa)) continue;
+    for (const simd::Isa isa : simd::available_isas()) {
         const Function function = unit_of(isa).*c.unit;
         benchmark::RegisterBenchmark(
             (name + "/" + simd::kernels_of(isa).name).c_str(),

@@ -105,14 +105,13 @@ void find(benchmark::State& state, simd::Isa isa, bool single) {
 
 template <class Shape, bool hard>
 void add() {
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa))
-            for (const bool single : {true, false})
-                benchmark::RegisterBenchmark(
-                    ("methods/" + benchmark_name<Shape>() + (hard ? "/hard/" : "/random/") +
-                     (single ? "embree_single/" : "embree_16/") + std::string(simd::name_of(isa)))
-                        .c_str(),
-                    [=](benchmark::State& state) { find<Shape, hard>(state, isa, single); });
+    for (const simd::Isa isa : simd::available_isas())
+        for (const bool single : {true, false})
+            benchmark::RegisterBenchmark(
+                ("methods/" + benchmark_name<Shape>() + (hard ? "/hard/" : "/random/") +
+                 (single ? "embree_single/" : "embree_16/") + std::string(simd::name_of(isa)))
+                    .c_str(),
+                [=](benchmark::State& state) { find<Shape, hard>(state, isa, single); });
 }
 
 const bool registered = [] {

@@ -114,8 +114,7 @@ void finish(benchmark::State& state, const simd::Kernels& kernels, bool one_shap
 template <class Shape>
 void add_kind() {
     const std::string name(name_of(kind_of<Shape>));
-    for (const simd::Isa isa : simd::all_isas) {
-        if (!simd::is_available(isa)) continue;
+    for (const simd::Isa isa : simd::available_isas()) {
         const simd::Kernels& kernels = simd::kernels_of(isa);
         for (const bool one_shape : {true, false})
             benchmark::RegisterBenchmark(

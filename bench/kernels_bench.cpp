@@ -118,8 +118,7 @@ template <class Shape>
 void add_kind() {
     const std::string name(name_of(kind_of<Shape>));
     benchmark::RegisterBenchmark((name + "/scalar").c_str(), scalar<Shape>);
-    for (const simd::Isa isa : simd::all_isas) {
-        if (!simd::is_available(isa)) continue;
+    for (const simd::Isa isa : simd::available_isas()) {
         const simd::Kernels& kernels = simd::kernels_of(isa);
         benchmark::RegisterBenchmark(
             (name + "/bounds/" + kernels.name).c_str(),

@@ -41,14 +41,13 @@ void find(benchmark::State& state, simd::Isa isa, core::Precision precision) {
 
 template <class Shape, bool hard>
 void add() {
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa))
-            for (const core::Precision precision : core::all_precisions)
-                benchmark::RegisterBenchmark(
-                    ("methods/" + benchmark_name<Shape>() + (hard ? "/hard/" : "/random/") +
-                     std::string(name_of(precision)) + "/" + std::string(simd::name_of(isa)))
-                        .c_str(),
-                    [=](benchmark::State& state) { find<Shape, hard>(state, isa, precision); });
+    for (const simd::Isa isa : simd::available_isas())
+        for (const core::Precision precision : core::all_precisions)
+            benchmark::RegisterBenchmark(
+                ("methods/" + benchmark_name<Shape>() + (hard ? "/hard/" : "/random/") +
+                 std::string(name_of(precision)) + "/" + std::string(simd::name_of(isa)))
+                    .c_str(),
+                [=](benchmark::State& state) { find<Shape, hard>(state, isa, precision); });
 }
 
 const bool registered = [] {

@@ -47,8 +47,7 @@ void add(const std::string& name, const MakeScene& make_scene, simd::RenderOptio
 
 void add_renderings(const std::string& name, const MakeScene& make_scene) {
     simd::RenderOptions options;
-    for (const simd::Isa isa : simd::all_isas) {
-        if (!simd::is_available(isa)) continue;
+    for (const simd::Isa isa : simd::available_isas()) {
         options.isa = isa;
         add(name + "/" + simd::kernels_of(isa).name, make_scene, options);
     }

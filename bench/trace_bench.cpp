@@ -142,8 +142,7 @@ const bool registered = [] {
         for (const int count : {10'000, 100'000, 1'000'000})
             for (const bool shadows : {false, true})
                 for (const core::Precision precision : core::all_precisions)
-                    for (const simd::Isa isa : simd::all_isas) {
-                        if (!simd::is_available(isa)) continue;
+                    for (const simd::Isa isa : simd::available_isas()) {
                         const std::string name =
                             "trace/" + std::string(mix_names[static_cast<int>(mix)]) + "/" +
                             std::to_string(count) + (shadows ? "/occluded/" : "/nearest/") +

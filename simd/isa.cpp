@@ -7,6 +7,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace raylane::simd {
 
@@ -18,21 +19,20 @@ bool is_available(Isa isa) {
     return is_built(isa) && processor_runs(isa);
 }
 
-Isa narrowest_isa() {
-    const auto* first = std::find_if(std::begin(all_isas), std::end(all_isas), is_available);
-    if (first != std::end(all_isas)) return *first;
-    std::string built;
-    for (const Isa isa : built_isas)
-        built += (built.empty() ? "" : ", ") + std::string(name_of(isa));
-    throw std::runtime_error(
-        "the processor must support one of the instruction sets that raylane was built for: " +
-        built);
-}
-
-Isa best_isa() {
-    const Isa narrowest = narrowest_isa();
-    const auto widest = std::find_if(std::rbegin(all_isas), std::rend(all_isas), is_available);
-    return widest != std::rend(all_isas) ? *widest : narrowest;
+std::span<const Isa> available_isas() {
+    static const std::vector<Isa> available = [] {
+        std::vector<Isa> isas;
+        std::copy_if(std::begin(all_isas), std::end(all_isas), std::back_inserter(isas),
+                     is_available);
+        if (!isas.empty()) return isas;
+        std::string built;
+        for (const Isa isa : built_isas)
+            built += (built.empty() ? "" : ", ") + std::string(name_of(isa));
+        throw std::runtime_error(
+            "the processor must support one of the instruction sets that raylane was built for: " +
+            built);
+    }();
+    return available;
 }
 
 } // namespace raylane::simd

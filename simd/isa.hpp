@@ -2,6 +2,8 @@
 
 #include "simd/kernels.hpp"
 
+#include <cstddef>
+#include <span>
 #include <string_view>
 
 namespace raylane::simd {
@@ -16,12 +18,19 @@ bool is_built(Isa isa);
 /// Every AArch64 processor has neon. In WebAssembly, sse42 stands for WebAssembly SIMD.
 bool is_available(Isa isa);
 
-/// Returns the widest available instruction set. Throws std::runtime_error if none is available.
-Isa best_isa();
+/// Returns the available ones of all_isas, at least one. Throws std::runtime_error if none is
+/// available.
+std::span<const Isa> available_isas();
 
-/// Returns the first available one of all_isas, with which the others are compared. Throws as
-/// best_isa().
-Isa narrowest_isa();
+/// Returns the widest available instruction set. Throws the same.
+inline Isa best_isa() {
+    return available_isas().back();
+}
+
+/// Returns the first available one, with which the others are compared. Throws the same.
+inline Isa narrowest_isa() {
+    return available_isas().front();
+}
 
 /// Returns the name that users see.
 inline constexpr std::string_view name_of(Isa isa) {

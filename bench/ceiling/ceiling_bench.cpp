@@ -93,13 +93,12 @@ void find(benchmark::State& state, simd::Isa isa) {
 
 template <class Shape, bool hard>
 void add() {
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa))
-            benchmark::RegisterBenchmark(
-                ("methods/" + benchmark_name<Shape>() + (hard ? "/hard/" : "/random/") +
-                 "ceiling/" + std::string(simd::name_of(isa)))
-                    .c_str(),
-                [=](benchmark::State& state) { find<Shape, hard>(state, isa); });
+    for (const simd::Isa isa : simd::available_isas())
+        benchmark::RegisterBenchmark(
+            ("methods/" + benchmark_name<Shape>() + (hard ? "/hard/" : "/random/") + "ceiling/" +
+             std::string(simd::name_of(isa)))
+                .c_str(),
+            [=](benchmark::State& state) { find<Shape, hard>(state, isa); });
 }
 
 const bool registered = [] {

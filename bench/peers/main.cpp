@@ -32,8 +32,8 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
     Arguments arguments;
     std::vector<std::string> sets = arguments.wanted, isas;
     sets.insert(sets.end(), {"crossings", "build", "picture"});
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa)) isas.emplace_back(name_of(isa));
+    for (const simd::Isa isa : simd::available_isas())
+        isas.emplace_back(name_of(isa));
     app.add_option("SCENE", arguments.scenes,
                    "Scenes: spheres/N, sticks/N, or a file. Default: spheres/10000.");
     app.add_option("--rays", arguments.wanted,

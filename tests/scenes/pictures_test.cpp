@@ -65,8 +65,7 @@ void check(const std::filesystem::path& path) {
         }
     CHECK(differing * 10000 <= settings.width * settings.height);
 
-    for (const simd::Isa isa : simd::all_isas) {
-        if (!simd::is_available(isa)) continue;
+    for (const simd::Isa isa : simd::available_isas()) {
         const simd::RenderOptions options{.isa = isa, .threads = 1};
         CAPTURE(simd::name_of(isa));
         CHECK(picture_of(scene, settings, options).pixels() == film.pixels());

@@ -66,8 +66,7 @@ void check(const std::filesystem::path& path, core::Precision precision) {
     if (core::is_single(precision) || scene.solids().any())
         CHECK((film.pixels() == exact.pixels()) == scene.solids().any());
 
-    for (const simd::Isa isa : simd::all_isas) {
-        if (!simd::is_available(isa)) continue;
+    for (const simd::Isa isa : simd::available_isas()) {
         for (const auto& [tile, threads] : {std::pair(8, 1), {32, 3}, {64, 2}}) {
             options.isa = isa;
             options.tile = tile;

@@ -178,10 +178,8 @@ TEST_CASE("alpha has the same bits for all tiles and threads and instruction set
         for (const int tile : {8, 24, 64}) {
             CHECK(same(drawn(scene, {.tile = tile, .threads = 3}), film));
         }
-        for (const simd::Isa isa : simd::all_isas)
-            if (simd::is_available(isa)) {
-                CHECK(same(drawn(scene, {.isa = isa}), film));
-            }
+        for (const simd::Isa isa : simd::available_isas())
+            CHECK(same(drawn(scene, {.isa = isa}), film));
         const simd::RenderOptions options{.crop = Region{7, 3, 30, 33}};
         CHECK(same(drawn(scene, options), film.cropped(*options.crop)));
         if (quality == 0.0F)

@@ -114,8 +114,8 @@ bool is_confirmed(const Attempt<Shape>& attempt) {
 template <class Shape>
 Summit<Shape> highest(bool slack, int climbs, std::uint64_t seed) {
     std::vector<ScaledFilters> filters;
-    for (const Isa isa : all_isas)
-        if (is_available(isa)) filters.push_back(scaled_filters_of(isa));
+    for (const Isa isa : available_isas())
+        filters.push_back(scaled_filters_of(isa));
     Random random(seed);
     Summit<Shape> highest;
     for (int i = 0; i < climbs; ++i) {

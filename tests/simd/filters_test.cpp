@@ -96,8 +96,7 @@ TEMPLATE_TEST_CASE("what the filters say of a ray is so", "", RAYLANE_ALL_SHAPES
     Random random(23);
     for (int round = 0; round < rounds(); ++round) {
         const Round<TestType> trial(random);
-        for (const Isa isa : all_isas) {
-            if (!is_available(isa)) continue;
+        for (const Isa isa : available_isas()) {
             CAPTURE(static_cast<int>(isa), round);
             check_round(checks_of(isa), trial);
         }
@@ -109,8 +108,7 @@ TEST_CASE("a plane may be met beyond the largest float") {
     const Ray<double> ray{{0, 1e10, 0}, {1, -1e-30, 0}};
     Block<Plane> block;
     block.set(0, ground, 0);
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         Stream stream;
         stream.add(Doubled(ray));
         const FilterStream view = stream.view();
@@ -133,8 +131,7 @@ TEST_CASE("bounds and obstacles agree for rays that leave a sphere along its nor
             const ray_sets::SurfacePoint start = T::surface(sphere, random);
             stream.add(Doubled(Ray<double>{start.point, start.normal}));
         }
-        for (const Isa isa : all_isas) {
-            if (!is_available(isa)) continue;
+        for (const Isa isa : available_isas()) {
             checks_of(isa).bound_rays(Kind::sphere, view_of(block), 0, stream.view());
             for (std::size_t i = 0; i < 16; ++i) {
                 possible += stream.answer(i).possible ? 1 : 0;

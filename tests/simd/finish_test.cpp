@@ -241,8 +241,7 @@ void check_all(Rays& rays, const Tables& tables, bool adverse, Random& random, S
                Way way = Way::once) {
     const SceneView scene = view_of(tables);
     std::optional<Rays> before;
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         CAPTURE(std::string(name_of(isa)));
         const FinishKernels kernels = finish_kernels_of(isa);
         const Found found = rays.view(random);

@@ -114,8 +114,7 @@ void check_frustum(const Kernels& kernels, const Coherence& coherence, int plane
 } // namespace
 
 TEST_CASE("reordering rays to a light does not change their answers") {
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         check_light(kernels_of(isa), true, 100);
         for (const std::size_t strays : {100, 30, 20, 5, 0})
             check_light(kernels_of(isa), false, strays);
@@ -123,8 +122,7 @@ TEST_CASE("reordering rays to a light does not change their answers") {
 }
 
 TEST_CASE("rays see the same in a frustum as alone") {
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         for (const Coherence& coherence : {
                  Coherence{{4.0F, -20.0F, 2.0F}, false, false, false, false}, // from the camera
                  Coherence{{4.0F, -20.0F, 2.0F}, false, false, false, true},  // off a mirror

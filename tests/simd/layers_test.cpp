@@ -100,12 +100,11 @@ TEST_CASE("layers have the same bits for all threads and engines and instruction
     CHECK(same(layers, layers_of(scene, options)));
     options.engine = simd::Engine::reference;
     CHECK(same(layers, layers_of(scene, options)));
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa)) {
-            options = {};
-            options.isa = isa;
-            CHECK(same(layers, layers_of(scene, options)));
-        }
+    for (const simd::Isa isa : simd::available_isas()) {
+        options = {};
+        options.isa = isa;
+        CHECK(same(layers, layers_of(scene, options)));
+    }
     CHECK(simd::render(scene, scene.settings(), {}).layers.width == 0); // not requested
 }
 

@@ -92,8 +92,8 @@ void check(int& hits) {
             round.add(point, any_direction(shape, random),
                       {true, hit.face, random.integer(0, 1) == 0});
         }
-        for (const simd::Isa isa : simd::all_isas)
-            if (simd::is_available(isa)) hits += round.check(simd::kernels_of(isa));
+        for (const simd::Isa isa : simd::available_isas())
+            hits += round.check(simd::kernels_of(isa));
     }
 }
 

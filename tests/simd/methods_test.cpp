@@ -37,8 +37,8 @@ void check() {
         const Shape shape = ray_sets::Target<Shape>::make(random, lattice);
         tests::MethodRound<precision, Shape> round(shape);
         add_rays(round, shape, lattice, random);
-        for (const simd::Isa isa : simd::all_isas)
-            if (simd::is_available(isa)) hits += round.check(simd::kernels_of(isa));
+        for (const simd::Isa isa : simd::available_isas())
+            hits += round.check(simd::kernels_of(isa));
     }
     CHECK(hits > 3 * rounds);
 }

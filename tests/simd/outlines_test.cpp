@@ -152,10 +152,8 @@ TEST_CASE("lines have the same bits for all tiles and threads and instruction se
     for (const int tile : {8, 24, 64}) {
         CHECK(drawn(scene, {.tile = tile, .threads = 3}).pixels() == film.pixels());
     }
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa)) {
-            CHECK(drawn(scene, {.isa = isa}).pixels() == film.pixels());
-        }
+    for (const simd::Isa isa : simd::available_isas())
+        CHECK(drawn(scene, {.isa = isa}).pixels() == film.pixels());
 }
 
 TEST_CASE("invalid outlines are refused") {

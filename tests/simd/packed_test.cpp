@@ -128,8 +128,8 @@ TEST_CASE("packed spheres answer rays with the bits of plain ones") {
     for (const int radii : {3, 60, 258}) {
         const Pair scenes({.radii = radii}); // 258 radii do not fit in the palette
         const StreamColumns rays = rays_for(scenes.plain);
-        for (const Isa isa : all_isas)
-            if (is_available(isa)) check_rays(scenes, rays, isa, Precision::exact);
+        for (const Isa isa : available_isas())
+            check_rays(scenes, rays, isa, Precision::exact);
     }
 }
 
@@ -138,8 +138,7 @@ TEST_CASE("packed spheres answer interleaved single rays with the bits of plain 
     const Pair scenes({.radii = 3, .count = sanitized ? 3000 : 150'000});
     const StreamColumns rays = rays_for(scenes.plain);
     constexpr std::size_t few = 500;
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         for (const Precision precision : {Precision::exact, Precision::robust}) {
             CAPTURE(std::string(name_of(isa)), std::string(name_of(precision)));
             for (std::size_t first = 0; first + few <= rays.leaves.size();
@@ -156,8 +155,7 @@ TEST_CASE("packed spheres have the crossings and lengths and insides of plain on
     const Pair scenes({.radii = 20});
     const StreamColumns rays = rays_for(scenes.plain);
     const RayStream<float> some = rays.view(0, std::min<std::size_t>(rays.leaves.size(), 2000));
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         CAPTURE(std::string(name_of(isa)));
         const StreamTracer plain(scenes.plain, 1, isa), packed(scenes.packed, 1, isa);
         CrossingCounters counters{};
@@ -186,24 +184,23 @@ TEST_CASE("packed spheres have the crossings and lengths and insides of plain on
 TEST_CASE("packed spheres answer rays with the bits of plain ones by every precision", "[native]") {
     const Pair scenes({.radii = 20});
     const StreamColumns rays = rays_for(scenes.plain);
-    for (const Isa isa : all_isas)
+    for (const Isa isa : available_isas())
         for (const Precision precision : all_precisions)
-            if (is_available(isa)) check_rays(scenes, rays, isa, precision);
+            check_rays(scenes, rays, isa, precision);
 }
 
 TEST_CASE("packed spheres are rendered with the bits of plain ones", "[native]") {
     const Pair scenes({.radii = 20});
-    for (const Isa isa : all_isas)
+    for (const Isa isa : available_isas())
         for (const Precision precision : all_precisions)
-            if (is_available(isa)) check_pictures(scenes, Engine::vector, isa, precision);
+            check_pictures(scenes, Engine::vector, isa, precision);
     check_pictures(scenes, Engine::reference, best_isa(), Precision::exact);
 }
 
 TEST_CASE("solids of packed spheres equal those of plain ones", "[native]") {
     const Pair scenes({.radii = 5, .solid = true});
     const StreamColumns rays = rays_for(scenes.plain);
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         check_rays(scenes, rays, isa, Precision::exact);
         check_pictures(scenes, Engine::vector, isa, Precision::exact);
     }

@@ -28,8 +28,8 @@ inline void check_engines_agree(const core::Scene& scene) {
         for (int channel = 0; channel < 3; ++channel)
             differ += std::abs(vector[i][channel] - reference[i][channel]) > 1e-5F ? 1 : 0;
     CHECK(differ == 0);
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa)) CHECK(picture(scene, simd::Engine::vector, isa) == vector);
+    for (const simd::Isa isa : simd::available_isas())
+        CHECK(picture(scene, simd::Engine::vector, isa) == vector);
 }
 
 /// Returns the sRGB value that an image shows for a linear one, by IEC 61966-2-1.

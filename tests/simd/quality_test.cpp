@@ -164,8 +164,7 @@ TEST_CASE("an image of a quality does not depend on threads or tiles or instruct
             CHECK(rendering.film.pixels() == expected.film.pixels());
             CHECK(rendering.counters.primary == expected.counters.primary);
         }
-    for (const simd::Isa isa : simd::all_isas) {
-        if (!simd::is_available(isa)) continue;
+    for (const simd::Isa isa : simd::available_isas()) {
         options.isa = isa;
         CHECK(rendered(scene, 38.0F, options).film.pixels() == expected.film.pixels());
     }

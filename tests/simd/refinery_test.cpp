@@ -180,8 +180,7 @@ void check_rounds(int of_each, int count) {
     for (int i = 0; i < count; ++i) {
         Round round(of_each, random);
         std::optional<Finding> first;
-        for (const Isa isa : all_isas) {
-            if (!is_available(isa)) continue;
+        for (const Isa isa : available_isas()) {
             const Kernels& kernels = kernels_of(isa);
             CAPTURE(i, std::string(kernels.name));
             if (first) {

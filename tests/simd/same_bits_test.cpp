@@ -59,8 +59,7 @@ void check(bool lattice) {
     const RayAnswers expected(StreamTracer(scene, 1, narrowest_isa()), rays.view());
     const auto nothing = std::count(expected.shape.begin(), expected.shape.end(), no_shape);
     CHECK(2 * static_cast<std::size_t>(nothing) < expected.shape.size());
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         CAPTURE(std::string(name_of(isa)), lattice);
         check_same(RayAnswers(StreamTracer(scene, 1, isa), rays.view()), expected);
     }

@@ -35,8 +35,7 @@ Film picture(const Scene& scene, simd::Engine engine, simd::Isa isa = simd::best
 /// Calls visit(film) with the image of each instruction set, and with the reference's.
 template <class Visit>
 void for_each_picture(const Scene& scene, const Visit& visit) {
-    for (const simd::Isa isa : simd::all_isas) {
-        if (!simd::is_available(isa)) continue;
+    for (const simd::Isa isa : simd::available_isas()) {
         CAPTURE(std::string(simd::name_of(isa)));
         visit(picture(scene, simd::Engine::vector, isa));
     }

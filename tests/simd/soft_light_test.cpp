@@ -220,8 +220,7 @@ TEST_CASE("soft light does not depend on threads or tiles or instruction sets", 
                 options.threads = 3;
                 CHECK(rendered(scene, options).film.pixels() == expected.film.pixels());
             }
-            for (const simd::Isa isa : simd::all_isas) {
-                if (!simd::is_available(isa)) continue;
+            for (const simd::Isa isa : simd::available_isas()) {
                 options.isa = isa;
                 CHECK(rendered(scene, options).film.pixels() == expected.film.pixels());
             }

@@ -240,8 +240,8 @@ TEST_CASE("both engines render the same cut crowd", "[native]") {
     const std::vector<Color> seen = picture(scene, simd::Engine::vector);
     CAPTURE(way, place);
     CHECK(picture(scene, simd::Engine::reference) == seen);
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa)) CHECK(picture(scene, simd::Engine::vector, isa) == seen);
+    for (const simd::Isa isa : simd::available_isas())
+        CHECK(picture(scene, simd::Engine::vector, isa) == seen);
 }
 
 TEST_CASE("rays that see more cuts than they can store lose none") {

@@ -370,10 +370,7 @@ class Spawning {
 TEMPLATE_TEST_CASE("spawned rays meet the next surface and not the one that they leave", "[long]",
                    RAYLANE_ALL_SHAPES) {
     constexpr Kind kind = core::kind_of<TestType>;
-    std::vector<Isa> isas;
-    for (const Isa isa : all_isas)
-        if (is_available(isa)) isas.push_back(isa);
-    if (isas.empty()) return;
+    const auto isas = available_isas();
     Random random(20261100 + static_cast<int>(kind));
     Tally tally;
     for (int round = 0; round < rounds(); ++round) {

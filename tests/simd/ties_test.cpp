@@ -58,8 +58,7 @@ void check_same(const Scene& scene) {
     const Film expected = simd::render(scene, scene.settings(), options).film;
     options.engine = simd::Engine::vector;
     for (const Precision precision : all_precisions)
-        for (const simd::Isa isa : simd::all_isas) {
-            if (!simd::is_available(isa)) continue;
+        for (const simd::Isa isa : simd::available_isas()) {
             for (const int tile : {8, 64}) {
                 options.precision = precision;
                 options.isa = isa;

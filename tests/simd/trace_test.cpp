@@ -126,8 +126,7 @@ TEST_CASE("all traversals find crossings whose squares are too large for float")
         y[i] = 5e19F + 1e17F * static_cast<float>(i);
     const RayStream<float> rays{
         count, {x.data(), y.data(), zero.data()}, {one.data(), zero.data(), zero.data()}};
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         const StreamTracer tracer(scene, 1, isa);
         std::vector<ShapeId> shape(count);
         std::vector<std::uint8_t> occluded(count);
@@ -141,16 +140,14 @@ TEST_CASE("all traversals find crossings whose squares are too large for float")
 }
 
 TEST_CASE("the hierarchy loses no hit") {
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         check(kernels_of(isa), false);
         check(kernels_of(isa), true);
     }
 }
 
 TEST_CASE("no traversal finds the shape that a ray leaves") {
-    for (const Isa isa : all_isas) {
-        if (!is_available(isa)) continue;
+    for (const Isa isa : available_isas()) {
         check_departures(kernels_of(isa), false);
         check_departures(kernels_of(isa), true);
     }

@@ -41,13 +41,6 @@ void append(const Number& number) {
     bytes.append(raw, sizeof number);
 }
 
-std::vector<simd::Isa> available() {
-    std::vector<simd::Isa> isas;
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa)) isas.push_back(isa);
-    return isas;
-}
-
 } // namespace
 
 extern "C" {
@@ -59,7 +52,7 @@ EMSCRIPTEN_KEEPALIVE const char* lanes_error() {
 /// Returns the names of the instruction sets, one a line.
 EMSCRIPTEN_KEEPALIVE const char* lanes_isas() {
     bytes.clear();
-    for (const simd::Isa isa : available())
+    for (const simd::Isa isa : simd::available_isas())
         bytes.append(simd::name_of(isa)).append("\n");
     return bytes.c_str();
 }
@@ -87,8 +80,8 @@ EMSCRIPTEN_KEEPALIVE const float* lanes_draw(int isa, int width, int height, int
         settings.height = height;
         settings.grid = grid;
         settings.quality = 0.0F;
-        const simd::Rendering rendering =
-            simd::render(*scene, settings, {.isa = available()[static_cast<std::size_t>(isa)]});
+        const simd::Rendering rendering = simd::render(
+            *scene, settings, {.isa = simd::available_isas()[static_cast<std::size_t>(isa)]});
         floats.clear();
         for (const core::Color& pixel : rendering.film.pixels())
             floats.insert(floats.end(), {pixel.x, pixel.y, pixel.z});
@@ -108,7 +101,8 @@ EMSCRIPTEN_KEEPALIVE const char* lanes_trace(int isa, const float* rays, std::si
             component.resize(count);
         std::vector<core::ShapeId> shape(count);
         std::vector<std::uint8_t> entering(count), face(count);
-        const simd::StreamTracer tracer(*scene, 1, available()[static_cast<std::size_t>(isa)]);
+        const simd::StreamTracer tracer(*scene, 1,
+                                        simd::available_isas()[static_cast<std::size_t>(isa)]);
         simd::RayStream<float> stream{};
         stream.count = count;
         simd::HitStream hits{};

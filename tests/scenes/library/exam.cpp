@@ -225,9 +225,7 @@ void Exam::check(Questions& questions, std::size_t i, const Answers& answers, Ta
 /// several.
 void Exam::check_others(const Rays& rays, const Answers& answers, Ways ways, Tally& tally) const {
     static std::size_t turn = 0;
-    std::vector<simd::Isa> isas;
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa)) isas.push_back(isa);
+    const auto isas = simd::available_isas();
     const std::size_t only = turn++ % (2 * isas.size());
     std::size_t way = 0;
     for (const simd::Isa isa : isas)
