@@ -63,7 +63,6 @@ struct Rays {
 };
 
 struct Situation {
-    std::string name;
     Scene scene;
     Rays rays;
 };
@@ -163,7 +162,7 @@ constexpr int ray_count = 4000;
 
 /// Spheres in a cube of half side `size` around `middle`. Rays go through it in any direction, or
 /// start on surfaces.
-Situation heap(const std::string& name, int count, float size, const Vec3& middle, float distance) {
+Situation heap(int count, float size, const Vec3& middle, float distance) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -187,11 +186,11 @@ Situation heap(const std::string& name, int count, float size, const Vec3& middl
                              ? random.cube(1.0F)
                              : (1.0F / from) * (target - origin + random.cube(radius)));
     }
-    return {name, builder.build(), rays};
+    return {builder.build(), rays};
 }
 
 /// Triangles on the plane y = slope x, and rays parallel to it, `above` higher.
-Situation floor_of(const std::string& name, int side, float slope, float above, bool any_way) {
+Situation floor_of(int side, float slope, float above, bool any_way) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -211,11 +210,11 @@ Situation floor_of(const std::string& name, int side, float slope, float above, 
         rays.add({x - 2.0F * dx, slope * (x - 2.0F * dx) + above, z - 2.0F * dz},
                  {dx, slope * dx, dz});
     }
-    return {name, builder.build(), rays};
+    return {builder.build(), rays};
 }
 
 /// Open cylinders end to end, and rays along their surface, `outside` it.
-Situation pipes(const std::string& name, int count, int rows, float outside, bool tilted) {
+Situation pipes(int count, int rows, float outside, bool tilted) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -232,11 +231,11 @@ Situation pipes(const std::string& name, int count, int rows, float outside, boo
                   i % 2 == 0 ? 0.0F : 0.125F + outside, -1.0F},
                  {0, tilted ? 1e-7F * random.any() : 0.0F, 1});
     }
-    return {name, builder.build(), rays};
+    return {builder.build(), rays};
 }
 
 /// Concentric spheres: all the same, or with radii an ulp apart.
-Situation shells(const std::string& name, int count, bool identical) {
+Situation shells(int count, bool identical) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -250,11 +249,11 @@ Situation shells(const std::string& name, int count, bool identical) {
         const Vec3 origin = random.cube(3.0F);
         rays.add(origin, random.cube(0.8F) - origin);
     }
-    return {name, builder.build(), rays};
+    return {builder.build(), rays};
 }
 
 /// Spheres in a row that touch a line, and rays along it.
-Situation row_of_spheres(const std::string& name, int count, float above) {
+Situation row_of_spheres(int count, float above) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -263,11 +262,11 @@ Situation row_of_spheres(const std::string& name, int count, float above) {
     Rays rays;
     for (int i = 0; i < ray_count / 4; ++i)
         rays.add({-1.0F - random.uniform(0.0F, 1.0F), 0.5F + above, 0}, {1, 0, 0});
-    return {name, builder.build(), rays};
+    return {builder.build(), rays};
 }
 
 /// Shapes whose fronts lie in one plane, on top of each other.
-Situation stack(const std::string& name, int count) {
+Situation stack(int count) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -278,11 +277,11 @@ Situation stack(const std::string& name, int count) {
     Rays rays;
     for (int i = 0; i < ray_count / 4; ++i)
         rays.add({random.any(), random.any(), 3}, {0.3F * random.any(), 0.3F * random.any(), -1});
-    return {name, builder.build(), rays};
+    return {builder.build(), rays};
 }
 
 /// Triangles around one corner, and rays at it.
-Situation fan(const std::string& name, int count) {
+Situation fan(int count) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -297,11 +296,11 @@ Situation fan(const std::string& name, int count) {
         const Vec3 way{std::round(4 * random.any()), std::round(4 * random.any()), -4};
         rays.add((i % 2 == 0 ? -1.0F : -1.25F) * way, way);
     }
-    return {name, builder.build(), rays};
+    return {builder.build(), rays};
 }
 
 /// Boxes stacked face on face. Rays go along faces, along edges, and in any direction.
-Situation crates(const std::string& name, int side) {
+Situation crates(int side) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -323,11 +322,11 @@ Situation crates(const std::string& name, int side) {
         default:
             rays.add({whole(), whole(), whole()}, random.cube(1.0F));
         }
-    return {name, builder.build(), rays};
+    return {builder.build(), rays};
 }
 
 /// Shapes and rays of sizes far apart.
-Situation sizes(const std::string& name, float large, float small) {
+Situation sizes(float large, float small) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -343,10 +342,10 @@ Situation sizes(const std::string& name, float large, float small) {
         const Vec3 target = random.cube(i % 4 < 2 ? large : small);
         rays.add(origin, (i % 8 < 4 ? 1.0F : 1.0F / large) * (target - origin));
     }
-    return {name, builder.build(), rays};
+    return {builder.build(), rays};
 }
 
-using Make = std::function<Situation(const std::string&)>;
+using Make = std::function<Situation()>;
 
 std::vector<std::pair<std::string, Make>> all_situations() {
     std::vector<std::pair<std::string, Make>> all;
@@ -358,29 +357,25 @@ std::vector<std::pair<std::string, Make>> all_situations() {
             char name[100];
             std::snprintf(name, sizeof name, "heap/size:%g/away:%g", static_cast<double>(size),
                           static_cast<double>(distance));
-            add(name, [=](const std::string& n) { return heap(n, 10'000, size, {}, distance); });
+            add(name, [=] { return heap(10'000, size, {}, distance); });
         }
     for (const float offset : {1e1F, 1e3F, 1e5F, 1e6F}) {
         const std::string name = "heap/offset:" + std::to_string(static_cast<int>(offset));
-        add(name, [=](const std::string& n) {
-            return heap(n, 10'000, 1.0F, {offset, -0.7F * offset, 0.3F * offset}, 3.0F);
+        add(name, [=] {
+            return heap(10'000, 1.0F, {offset, -0.7F * offset, 0.3F * offset}, 3.0F);
         });
     }
     for (const float distance : {0.0F, 3.0F})
         add(distance == 0.0F ? "molecule/from_surfaces" : "molecule/any",
-            [=](const std::string& n) { return heap(n, 200'000, 1e-6F, {}, distance); });
+            [=] { return heap(200'000, 1e-6F, {}, distance); });
     for (const int side : {32, 128, 512}) {
         const std::string triangles = std::to_string(2 * side * side);
-        add("floor/" + triangles + "/above",
-            [=](const std::string& n) { return floor_of(n, side, 0.0F, 1e-7F, false); });
+        add("floor/" + triangles + "/above", [=] { return floor_of(side, 0.0F, 1e-7F, false); });
         add("floor/" + triangles + "/above_any_way",
-            [=](const std::string& n) { return floor_of(n, side, 0.0F, 1e-7F, true); });
-        add("floor/" + triangles + "/within",
-            [=](const std::string& n) { return floor_of(n, side, 0.0F, 0.0F, true); });
-        add("slope/" + triangles + "/above",
-            [=](const std::string& n) { return floor_of(n, side, 0.3F, 1e-7F, true); });
-        add("slope/" + triangles + "/within",
-            [=](const std::string& n) { return floor_of(n, side, 0.3F, 0.0F, true); });
+            [=] { return floor_of(side, 0.0F, 1e-7F, true); });
+        add("floor/" + triangles + "/within", [=] { return floor_of(side, 0.0F, 0.0F, true); });
+        add("slope/" + triangles + "/above", [=] { return floor_of(side, 0.3F, 1e-7F, true); });
+        add("slope/" + triangles + "/within", [=] { return floor_of(side, 0.3F, 0.0F, true); });
     }
     for (const int count : {4096, 262'144}) {
         const std::string cylinders = std::to_string(count);
@@ -388,22 +383,20 @@ std::vector<std::pair<std::string, Make>> all_situations() {
             for (const float outside : {0.0F, 1e-7F})
                 add("pipes/" + cylinders + "/rows:" + std::to_string(rows) +
                         (outside == 0.0F ? "/along" : "/above"),
-                    [=](const std::string& n) { return pipes(n, count, rows, outside, false); });
-        add("pipes/" + cylinders + "/rows:64/tilted",
-            [=](const std::string& n) { return pipes(n, count, 64, 0.0F, true); });
+                    [=] { return pipes(count, rows, outside, false); });
+        add("pipes/" + cylinders + "/rows:64/tilted", [=] { return pipes(count, 64, 0.0F, true); });
     }
-    add("shells/65536/identical", [](const std::string& n) { return shells(n, 65'536, true); });
-    add("shells/1000/ulps_apart", [](const std::string& n) { return shells(n, 1000, false); });
-    add("row/10000/touching", [](const std::string& n) { return row_of_spheres(n, 10'000, 0.0F); });
-    add("row/10000/above", [](const std::string& n) { return row_of_spheres(n, 10'000, 1e-7F); });
+    add("shells/65536/identical", [] { return shells(65'536, true); });
+    add("shells/1000/ulps_apart", [] { return shells(1000, false); });
+    add("row/10000/touching", [] { return row_of_spheres(10'000, 0.0F); });
+    add("row/10000/above", [] { return row_of_spheres(10'000, 1e-7F); });
     for (const int count : {10, 100, 1000})
-        add("stack/" + std::to_string(count),
-            [=](const std::string& n) { return stack(n, count); });
+        add("stack/" + std::to_string(count), [=] { return stack(count); });
     for (const int count : {100, 1000})
-        add("fan/" + std::to_string(count), [=](const std::string& n) { return fan(n, count); });
-    add("crates/8000", [](const std::string& n) { return crates(n, 20); });
-    add("sizes/1e30/1e-30", [](const std::string& n) { return sizes(n, 1e30F, 1e-30F); });
-    add("sizes/1e9/1e-9", [](const std::string& n) { return sizes(n, 1e9F, 1e-9F); });
+        add("fan/" + std::to_string(count), [=] { return fan(count); });
+    add("crates/8000", [] { return crates(20); });
+    add("sizes/1e30/1e-30", [] { return sizes(1e30F, 1e-30F); });
+    add("sizes/1e9/1e-9", [] { return sizes(1e9F, 1e-9F); });
     return all;
 }
 
@@ -420,7 +413,7 @@ int main(int argc, char** argv) {
         for (int i = 1; i < argc; ++i)
             wanted = wanted || name.find(argv[i]) != std::string::npos;
         if (!wanted) continue;
-        const Situation situation = make(name);
+        const Situation situation = make();
         const Times exact = raylane_times(situation, Precision::exact),
                     robust = raylane_times(situation, Precision::robust),
                     embree = embree_times(situation);
