@@ -19,12 +19,11 @@ struct Column {
     enum class Is { species, position, radius, property, other };
     Is is;
     int count;
-    char type; ///< S, R, I or L
     std::string name;
 };
 
 std::vector<Column> usual_columns() {
-    return {{Column::Is::species, 1, 'S', "species"}, {Column::Is::position, 3, 'R', "pos"}};
+    return {{Column::Is::species, 1, "species"}, {Column::Is::position, 3, "pos"}};
 }
 
 /// The key=value pairs of a comment, perhaps with blanks around "=". Values may be in quotes, or in
@@ -173,7 +172,7 @@ class XyzReader : public FrameReader {
                 lines_.fail(
                     "Properties must be a list of NAME:TYPE:COUNT with type S, R, I or L, got \"" +
                     printable(lines_.text()) + "\"");
-            Column column{Column::Is::other, count, type[0], std::string(name)};
+            Column column{Column::Is::other, count, std::string(name)};
             const std::string known = in_lower_case(name);
             if (count == 1 && (known == "species" || known == "element" || known == "z"))
                 column.is = Column::Is::species;
