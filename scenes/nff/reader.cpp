@@ -23,9 +23,6 @@ using core::Visible;
 /// A larger count of vertices is treated as an error.
 constexpr int most_vertices = 10'000'000;
 
-/// After this many bytes of a file, the number of shapes in the rest is estimated.
-constexpr std::uint64_t sample_size = 1 << 20;
-
 class Reader {
   public:
     Reader(InputFile& file, core::Workers* workers, const OnRemark& on_remark)
@@ -61,7 +58,6 @@ class Reader {
     void add_polygon(const std::vector<Triangle>& triangles) {
         builder_.add_polygon<Triangle>(triangles, material(Visible::both));
     }
-    void reserve_rest();
 
     void require_no_objects() const;
     void begin_objects();
@@ -78,7 +74,7 @@ class Reader {
     NffFill fill_;
     std::optional<core::MaterialIndex> both_sides_, inside_; // fill_'s materials
 
-    bool reserved_ = false;
+    ShapeReserve reserve_;
 
     std::vector<Vec3f> vertices_;
     std::vector<Vec3f> normals_;
@@ -94,7 +90,7 @@ core::Scene Reader::read() {
         } catch (const InvalidValue& invalid) {
             fields_.refuse(invalid);
         }
-        if (!reserved_ && fields_.bytes_passed() >= sample_size) reserve_rest();
+        reserve_.update(builder_, fields_.bytes_passed(), file_);
     }
     return build();
 }
@@ -226,18 +222,6 @@ void Reader::read_polygon(bool with_normals) {
             triangles_.push_back({v[a], v[b], v[c]});
         add_polygon(triangles_);
     }
-}
-
-/// Reserves memory for the rest of the file, assuming that it continues as it began, so that shapes
-/// are not copied as their number grows.
-void Reader::reserve_rest() {
-    reserved_ = true;
-    const std::uint64_t passed = fields_.bytes_passed();
-    if (file_.size() <= passed) return;
-    constexpr double margin = 17.0 / 16.0;
-    const double rest =
-        margin * static_cast<double>(file_.size() - passed) / static_cast<double>(passed);
-    builder_.reserve(static_cast<std::size_t>(rest * static_cast<double>(builder_.shape_count())));
 }
 
 void Reader::require_no_objects() const {

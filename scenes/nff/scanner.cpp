@@ -106,4 +106,16 @@ bool NffScanner::refill(const char*& keep_from) {
     return end_ != position_;
 }
 
+void ShapeReserve::update(core::SceneBuilder& builder, std::uint64_t passed,
+                          const InputFile& file) {
+    constexpr std::uint64_t sample_size = 1 << 20;
+    if (is_reserved_ || passed < sample_size) return;
+    is_reserved_ = true;
+    if (file.size() <= passed) return;
+    constexpr double margin = 17.0 / 16.0;
+    const double rest =
+        margin * static_cast<double>(file.size() - passed) / static_cast<double>(passed);
+    builder.reserve(static_cast<std::size_t>(rest * static_cast<double>(builder.shape_count())));
+}
+
 } // namespace raylane::scenes

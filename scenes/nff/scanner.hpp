@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/numbers/vector.hpp"
+#include "core/scene/scene.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/input_file.hpp"
 #include "scenes/number.hpp"
@@ -49,6 +49,17 @@ class NffScanner {
     std::uint64_t line_begins_at_ = 0; // offset in the file
     std::uint64_t line_ = 1;
     std::uint64_t word_line_ = 1;
+};
+
+/// Reserves memory for the shapes in the rest of a file, assuming that it continues as it began, so
+/// that shapes are not copied as their number grows.
+class ShapeReserve {
+  public:
+    /// To be called after each shape or so. Acts once, after 1 MiB. `passed`: bytes of the file.
+    void update(core::SceneBuilder& builder, std::uint64_t passed, const InputFile& file);
+
+  private:
+    bool is_reserved_ = false;
 };
 
 /// The numbers of a statement's fields. `Fields` has take(), the next word, and refuse(field,

@@ -15,9 +15,6 @@ namespace {
 
 using core::InvalidValue;
 
-/// After this many bytes of a file, the number of shapes in the rest is estimated.
-constexpr std::uint64_t sample_size = 1 << 20;
-
 class Reader {
   public:
     Reader(InputFile& file, core::Workers* workers, const OnRemark& on_remark,
@@ -36,7 +33,6 @@ class Reader {
     void read_statement();
     void read_resolution();
     void read_sky_light();
-    void reserve_rest();
     void add_lights();
     core::Scene build();
 
@@ -49,7 +45,7 @@ class Reader {
     TachyonCamera camera_;
     std::optional<TachyonFog> fog_;
     std::vector<core::Light> lights_;
-    bool reserved_ = false;
+    ShapeReserve reserve_;
 };
 
 core::Scene Reader::read() {
@@ -64,7 +60,7 @@ core::Scene Reader::read() {
         } catch (const InvalidValue& invalid) {
             words_.refuse(invalid);
         }
-        if (!reserved_ && words_.bytes_passed() >= sample_size) reserve_rest();
+        reserve_.update(builder_, words_.bytes_passed(), file_);
     }
     return build();
 }
@@ -117,17 +113,6 @@ void Reader::read_sky_light() {
     const core::Color color = words_.named_triple("COLOR");
     if (!over_.sky) shading_.sky = color;
     if (!over_.sky_samples) shading_.sky_samples = samples;
-}
-
-/// Reserves memory for the rest of the file, assuming that it continues as it began.
-void Reader::reserve_rest() {
-    reserved_ = true;
-    const std::uint64_t passed = words_.bytes_passed();
-    if (file_.size() <= passed) return;
-    constexpr double margin = 17.0 / 16.0;
-    const double rest =
-        margin * static_cast<double>(file_.size() - passed) / static_cast<double>(passed);
-    builder_.reserve(static_cast<std::size_t>(rest * static_cast<double>(builder_.shape_count())));
 }
 
 /// Adds the lights. The sky gives light if shadows are rendered; all other lights are scaled by
