@@ -9,19 +9,6 @@
 
 namespace raylane::core {
 
-namespace {
-
-template <class Value>
-void validate_in(const std::string& place, const Value& value) {
-    try {
-        validate(value);
-    } catch (const InvalidValue& invalid) {
-        throw InvalidValue(place + "/" + invalid.field, invalid.expectation);
-    }
-}
-
-} // namespace
-
 std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id) {
     std::size_t rank = id;
     for (const IdRange& group : groups) {
