@@ -31,6 +31,22 @@ raylane_status add(raylane_builder* builder, const CShape* shapes, std::size_t c
 
 } // namespace
 
+raylane_material raylane_default_material(void) {
+    return converted<raylane_material>(Material{});
+}
+raylane_light raylane_default_light(void) {
+    return converted<raylane_light>(Light{});
+}
+raylane_fog raylane_default_fog(void) {
+    return converted<raylane_fog>(Fog{});
+}
+raylane_camera raylane_default_camera(void) {
+    return converted<raylane_camera>(Camera{});
+}
+raylane_settings raylane_default_settings(void) {
+    return converted<raylane_settings>(Settings{});
+}
+
 raylane_status raylane_builder_create(raylane_builder** builder) {
     return guarded([&] {
         raylane_builder*& to = checked("builder", builder);
@@ -47,32 +63,38 @@ raylane_status raylane_add_material(raylane_builder* builder, const raylane_mate
                                     uint32_t* index) {
     return guarded([&] {
         const MaterialIndex added =
-            checked("builder", builder).builder.add_material(from_c(checked("material", material)));
+            checked("builder", builder)
+                .builder.add_material(converted<Material>(checked("material", material)));
         if (index != nullptr) *index = added;
     });
 }
 
 raylane_status raylane_add_light(raylane_builder* builder, const raylane_light* light) {
-    return guarded(
-        [&] { checked("builder", builder).builder.add_light(from_c(checked("light", light))); });
+    return guarded([&] {
+        checked("builder", builder).builder.add_light(converted<Light>(checked("light", light)));
+    });
 }
 
 raylane_status raylane_set_fog(raylane_builder* builder, const raylane_fog* fog) {
-    return guarded([&] { checked("builder", builder).builder.fog = from_c(checked("fog", fog)); });
+    return guarded(
+        [&] { checked("builder", builder).builder.fog = converted<Fog>(checked("fog", fog)); });
 }
 
 raylane_status raylane_set_camera(raylane_builder* builder, const raylane_camera* camera) {
-    return guarded(
-        [&] { checked("builder", builder).builder.camera = from_c(checked("camera", camera)); });
+    return guarded([&] {
+        checked("builder", builder).builder.camera = converted<Camera>(checked("camera", camera));
+    });
 }
 
 raylane_status raylane_set_background(raylane_builder* builder, raylane_vec3 color) {
-    return guarded([&] { checked("builder", builder).builder.background = from_c(color); });
+    return guarded(
+        [&] { checked("builder", builder).builder.background = converted<Color>(color); });
 }
 
 raylane_status raylane_set_settings(raylane_builder* builder, const raylane_settings* settings) {
     return guarded([&] {
-        checked("builder", builder).builder.settings = from_c(checked("settings", settings));
+        checked("builder", builder).builder.settings =
+            converted<Settings>(checked("settings", settings));
     });
 }
 

@@ -25,7 +25,7 @@ raylane_status raylane_render(const raylane_scene* scene, const raylane_settings
         const Scene& drawn = checked("scene", scene).scene;
         RenderOptions options;
         if (settings != nullptr) {
-            options.settings = from_c(*settings);
+            options.settings = converted<Settings>(*settings);
             options.settings->alpha = drawn.settings().alpha;
         }
         options.threads = threads;

@@ -56,10 +56,10 @@ void raylane_scene_bounds(const raylane_scene* scene, raylane_vec3* lower, rayla
     constexpr float infinity = std::numeric_limits<float>::infinity();
     Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     if (scene != nullptr) bounds = scene->scene.bounds();
-    if (lower != nullptr) *lower = to_c(bounds.lower);
-    if (upper != nullptr) *upper = to_c(bounds.upper);
+    if (lower != nullptr) *lower = converted<raylane_vec3>(bounds.lower);
+    if (upper != nullptr) *upper = converted<raylane_vec3>(bounds.upper);
 }
 
 raylane_settings raylane_scene_settings(const raylane_scene* scene) {
-    return to_c(scene != nullptr ? scene->scene.settings() : Settings{});
+    return converted<raylane_settings>(scene != nullptr ? scene->scene.settings() : Settings{});
 }
