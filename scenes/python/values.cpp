@@ -1,5 +1,7 @@
 #include "values.hpp"
 
+#include "core/scene/fields.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <limits>
@@ -11,55 +13,9 @@ namespace raylane::python {
 
 namespace {
 
-template <class Enum>
-struct Names;
-template <>
-struct Names<PatternKind> {
-    static constexpr std::array names = {"solid", "checker", "stripes", "gradient", "back_plane"};
-};
-template <>
-struct Names<Reflection> {
-    static constexpr std::array names = {"constant", "schlick", "dielectric"};
-};
-template <>
-struct Names<Visible> {
-    static constexpr std::array names = {"both", "outside", "inside"};
-};
-template <>
-struct Names<LightKind> {
-    static constexpr std::array names = {"point",  "directional", "sky",
-                                         "sphere", "disc",        "rectangle"};
-};
-template <>
-struct Names<FogKind> {
-    static constexpr std::array names = {"none", "linear_z", "linear", "exponential"};
-};
-template <>
-struct Names<Projection> {
-    static constexpr std::array names = {"perspective", "orthographic"};
-};
-template <>
-struct Names<Transfer> {
-    static constexpr std::array names = {"srgb", "linear"};
-};
-template <>
-struct Names<SamplePattern> {
-    static constexpr std::array names = {"regular", "stratified"};
-};
-template <>
-struct Names<PixelFilter> {
-    static constexpr std::array names = {"box", "gaussian", "blackman_harris"};
-};
-template <>
-struct Names<Precision> {
-    static constexpr std::array names = {"fast", "robust", "exact", "double"};
-};
+using core::fields::Field, core::fields::for_each_field, core::fields::Words;
 
-/// Three bits of a checker's axes, as a text such as "xz" in Python.
-struct Axes {
-    std::uint8_t& bits;
-    int shift;
-};
+constexpr const char* precision_words[] = {"fast", "robust", "exact", "double"};
 
 /// Returns Python's repr() of a value on one line, truncated to about 80 bytes.
 std::string shown(const py::handle& value) {
@@ -82,14 +38,21 @@ std::string shown(const py::handle& value) {
     throw InvalidValue(field, "must be " + what + ", got " + shown(got));
 }
 
+/// Returns a word of JSON as in Python, where names have no hyphens.
+std::string word_in_python(std::string word) {
+    std::replace(word.begin(), word.end(), '-', '_');
+    return word;
+}
+
 template <class Enum>
-Enum enum_from(const py::handle& from, const std::string& field) {
+Enum enum_from(const py::handle& from, const std::string& field, Words words) {
     std::string all;
     const bool is_text = PyUnicode_Check(from.ptr()) != 0;
-    for (std::size_t i = 0; i < Names<Enum>::names.size(); ++i) {
-        if (is_text && PyUnicode_CompareWithASCIIString(from.ptr(), Names<Enum>::names[i]) == 0)
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string word = word_in_python(words[i]);
+        if (is_text && PyUnicode_CompareWithASCIIString(from.ptr(), word.c_str()) == 0)
             return static_cast<Enum>(i);
-        all += (i == 0 ? "\"" : ", \"") + std::string(Names<Enum>::names[i]) + "\"";
+        all += (i == 0 ? "\"" : ", \"") + word + "\"";
     }
     refuse(field, "one of " + all, from);
 }
@@ -145,105 +108,13 @@ void take(const py::handle& from, const std::string& field, Vec3& to) {
 void take(const py::handle& from, const std::string& field, std::array<double, 3>& to) {
     to = three<double>(from, field);
 }
-template <class Enum>
-requires std::is_enum_v<Enum>
-void take(const py::handle& from, const std::string& field, Enum& to) {
-    to = enum_from<Enum>(from, field);
-}
-void take(const py::handle& from, const std::string& field, const Axes& to) {
-    to.bits = static_cast<std::uint8_t>(to.bits & ~(7 << to.shift));
+/// Reads the bits of a checker's axes from a text such as "xz".
+void take_axes(const py::handle& from, const std::string& field, int first_bit, std::uint8_t& to) {
+    to = static_cast<std::uint8_t>(to & ~(7 << first_bit));
     for (const char axis : cast<std::string>(from, field, "a text as \"xz\"")) {
         if (axis < 'x' || axis > 'z') refuse(field, "a text as \"xz\"", from);
-        to.bits = static_cast<std::uint8_t>(to.bits | 1 << (axis - 'x' + to.shift));
+        to = static_cast<std::uint8_t>(to | 1 << (axis - 'x' + first_bit));
     }
-}
-
-/// Calls visit(name in Python, field) for each field of a value.
-template <class Visit, class Of>
-void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Sellmeier> {
-    visit("B", of.B);
-    visit("C", of.C);
-}
-template <class Visit, class Of>
-void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Light> {
-    visit("kind", of.kind);
-    visit("position", of.position);
-    visit("direction", of.direction);
-    visit("color", of.color);
-    visit("radius", of.radius);
-    visit("edge_u", of.edge_u);
-    visit("edge_v", of.edge_v);
-    visit("ground", of.ground);
-    visit("reach", of.reach);
-}
-template <class Visit, class Of>
-void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Fog> {
-    visit("kind", of.kind);
-    visit("color", of.color);
-    visit("start", of.start);
-    visit("end", of.end);
-    visit("density", of.density);
-}
-template <class Visit, class Of>
-void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Camera> {
-    visit("projection", of.projection);
-    visit("position", of.from);
-    visit("at", of.at);
-    visit("up", of.up);
-    visit("field_of_view", of.field_of_view);
-    visit("height", of.height);
-    visit("lens_radius", of.lens_radius);
-    visit("focus_distance", of.focus_distance);
-}
-template <class Visit, class Of>
-void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Outline> {
-    visit("width", of.width);
-    visit("color", of.color);
-    visit("creases", of.creases);
-}
-template <class Visit, class Of>
-void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Settings> {
-    visit("width", of.width);
-    visit("height", of.height);
-    visit("grid", of.grid);
-    visit("samples", of.samples);
-    visit("quality", of.quality);
-    visit("filter", of.filter);
-    visit("light_samples", of.light_samples);
-    visit("transfer", of.transfer);
-    visit("alpha", of.alpha);
-    visit("max_depth", of.max_depth);
-    visit("min_weight", of.min_weight);
-    visit("max_see_through", of.max_see_through);
-    visit("outline", of.outline);
-}
-template <class Visit, class Of>
-void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Pattern> {
-    visit("kind", of.kind);
-    visit("colors", of.colors);
-    visit("size", of.size);
-    auto& axes = const_cast<std::uint8_t&>(of.axes); // NOLINT: a const one is only read
-    visit("axes", Axes{axes, 0});
-    visit("upper_edges", Axes{axes, 3});
-    visit("direction", of.direction);
-    visit("start", of.from);
-    visit("end", of.to);
-}
-template <class Visit, class Of>
-void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Material> {
-    visit("color", of.pattern);
-    visit("ambient", of.ambient);
-    visit("diffuse", of.diffuse);
-    visit("specular", of.specular);
-    visit("exponent", of.exponent);
-    visit("reflection", of.reflection);
-    visit("reflectivity", of.reflectivity);
-    visit("transmission", of.transmission);
-    visit("index", of.index);
-    visit("glass", of.glass);
-    visit("absorption", of.absorption);
-    visit("visible", of.visible);
-    visit("opacity", of.opacity);
 }
 
 template <class Value>
@@ -274,11 +145,18 @@ void take(const py::handle& from, const std::string& field, Pattern& to) {
 }
 template <class Value>
 void take_fields(const py::handle& from, const std::string& prefix, Value& to) {
-    fields(
-        [&](const char* name, auto&& field) {
-            if (!py::hasattr(from, name))
-                throw InvalidValue(prefix + name, "is missing in " + shown(from));
-            take(from.attr(name), prefix + name, field);
+    for_each_field(
+        [&]<class Member>(const Field& field, Member& member) {
+            const std::string name = prefix + field.python();
+            if (!py::hasattr(from, field.python()))
+                throw InvalidValue(name, "is missing in " + shown(from));
+            const py::object value = from.attr(field.python());
+            if constexpr (std::is_enum_v<Member>)
+                member = enum_from<Member>(value, name, field.valid.words);
+            else if constexpr (std::is_same_v<Member, std::uint8_t>)
+                take_axes(value, name, field.spelling.first_bit, member);
+            else
+                take(value, name, member);
         },
         to);
 }
@@ -294,8 +172,9 @@ template <class Value>
 Value value_from(const py::handle& from, const char* type, const std::string& name) {
     Value value;
     bool is_other = true; // true if `from` has no field of Value
-    fields([&](const char* of, const auto&) { is_other = is_other && !py::hasattr(from, of); },
-           value);
+    for_each_field([&](const Field& of,
+                       const auto&) { is_other = is_other && !py::hasattr(from, of.python()); },
+                   value);
     if (is_other) refuse(name, std::string("a ") + type, from);
     take_fields(from, name + "/", value);
     return value;
@@ -326,14 +205,10 @@ py::object give(const std::array<double, 3>& v) {
 py::object give(const Color (&colors)[2]) {
     return py::make_tuple(to_python(colors[0]), to_python(colors[1]));
 }
-template <class Enum>
-requires std::is_enum_v<Enum> py::object give(Enum value) {
-    return py::str(Names<Enum>::names.at(static_cast<std::size_t>(value)));
-}
-py::object give(const Axes& axes) {
+py::object give_axes(std::uint8_t bits, int first_bit) {
     std::string text;
     for (int axis = 0; axis < 3; ++axis)
-        if ((axes.bits >> (axis + axes.shift) & 1) != 0) text += static_cast<char>('x' + axis);
+        if ((bits >> (axis + first_bit) & 1) != 0) text += static_cast<char>('x' + axis);
     return py::str(text);
 }
 template <class Value>
@@ -351,7 +226,19 @@ py::object give(const Pattern& pattern) {
 template <class Value>
 py::object give_fields(const char* name, const Value& value) {
     py::dict all;
-    fields([&](const char* field, const auto& of) { all[field] = give(of); }, value);
+    for_each_field(
+        [&]<class Member>(const Field& field, const Member& member) {
+            py::object object;
+            if constexpr (std::is_enum_v<Member>)
+                object =
+                    py::str(word_in_python(field.valid.words[static_cast<std::size_t>(member)]));
+            else if constexpr (std::is_same_v<Member, std::uint8_t>)
+                object = give_axes(member, field.spelling.first_bit);
+            else
+                object = give(member);
+            all[field.python()] = object;
+        },
+        value);
     return module_of_values().attr(name)(**all);
 }
 
@@ -429,10 +316,10 @@ std::size_t count_from(const py::handle& count, const std::string& field) {
     return whole_from<std::size_t>(count, field, 0, std::numeric_limits<std::size_t>::max());
 }
 Precision precision_from(const py::handle& precision) {
-    return enum_from<Precision>(precision, "precision");
+    return enum_from<Precision>(precision, "precision", precision_words);
 }
 Transfer transfer_from(const py::handle& transfer) {
-    return enum_from<Transfer>(transfer, "transfer");
+    return enum_from<Transfer>(transfer, "transfer", core::fields::transfer_words);
 }
 MaterialIndex one_material(const py::object& index, const char* field) {
     // The largest value means "no material" and is not a valid index.

@@ -4,6 +4,7 @@ import copy
 import dataclasses
 import pickle
 import threading
+import typing
 import warnings
 
 import numpy as np
@@ -62,6 +63,33 @@ def test_what_is_set_is_there():
     assert (scene.fog, scene.camera, scene.background, scene.settings) == (fog, camera, background, settings)
     # The builder is new.
     assert len(builder) == 0 and builder.camera is None
+
+
+def test_classes_have_the_defaults_and_words_of_files():
+    text = """{"camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "materials": {"m": {}}, "objects": [],
+        "lights": [{"type": "point", "position": [0, 0, 9]}]}"""
+    scene = raylane.parse(text, "a.json", lambda remark: None)
+    assert scene.materials == [raylane.Material()]
+    assert scene.lights == [raylane.Light(position=(0.0, 0.0, 9.0))]
+    assert (scene.fog, scene.camera, scene.settings) == (raylane.Fog(), raylane.Camera(), raylane.Settings())
+    checks = 0
+    for kind in (raylane.Material, raylane.Pattern, raylane.Light, raylane.Fog, raylane.Camera, raylane.Settings):
+        for name, hint in typing.get_type_hints(kind).items():
+            if typing.get_origin(hint) is not typing.Literal:
+                continue
+            wrong, builder = kind(**{name: "?"}), SceneBuilder()
+            with pytest.raises(InvalidValue) as error:
+                if kind is raylane.Light:
+                    builder.add_light(wrong)
+                elif kind in (raylane.Material, raylane.Pattern):
+                    builder.add_material(wrong if kind is raylane.Material else raylane.Material(color=wrong))
+                else:
+                    setattr(builder, kind.__name__.lower(), wrong)
+                    builder.build()
+            words = ", ".join(f'"{word}"' for word in typing.get_args(hint))
+            assert error.value.expectation == f"must be one of {words}, got '?'"
+            checks += 1
+    assert checks == 9
 
 
 def test_arrays_of_all_kinds(random):
