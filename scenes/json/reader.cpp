@@ -2,6 +2,7 @@
 
 #include "core/scene/validate.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/json/fields.hpp"
 #include "scenes/json/inclusion.hpp"
 #include "scenes/json/items.hpp"
 #include "scenes/json/late_parameters.hpp"
@@ -92,7 +93,7 @@ class SceneReader {
     /// Notes a root key that is missing because of an error.
     void miss(std::string_view key);
     void include(const JsonValue& value);
-    void take_settings(const JsonValue& value, void (*read)(const JsonValue&, core::Settings&));
+    void take_settings(std::string_view group, const JsonValue& value);
     void take_outline(const JsonValue& value);
     void take_camera(const JsonValue& value);
     void take_background(const JsonValue& value);
@@ -159,12 +160,8 @@ void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocu
         read_parameter(name, value, parameters_);
     else if (key.name == "include")
         include(value);
-    else if (key.name == "image")
-        take_settings(value, read_image);
-    else if (key.name == "sampling")
-        take_settings(value, read_sampling);
-    else if (key.name == "limits")
-        take_settings(value, read_limits);
+    else if (key.name == "image" || key.name == "sampling" || key.name == "limits")
+        take_settings(key.name, value);
     else if (key.name == "outline")
         take_outline(value);
     else if (key.name == "camera")
@@ -208,10 +205,9 @@ void SceneReader::include(const JsonValue& value) {
 }
 
 // The file groups by purpose the settings that core keeps in one struct. The names are the same.
-void SceneReader::take_settings(const JsonValue& value,
-                                void (*read)(const JsonValue&, core::Settings&)) {
+void SceneReader::take_settings(std::string_view group, const JsonValue& value) {
     core::Settings settings = builder_.settings;
-    read(value, settings);
+    read_only_fields(value, settings, group);
     checked(value, [&] { core::validate(settings); });
     builder_.settings = settings;
 }

@@ -1,11 +1,11 @@
 #include "scenes/json/surroundings.hpp"
 
+#include "scenes/json/fields.hpp"
+
 #include <cmath>
 
 namespace raylane::scenes {
 
-using core::FogKind;
-using core::LightKind;
 using core::Projection;
 
 namespace {
@@ -74,46 +74,9 @@ void read_parameter(std::string_view name, const JsonValue& value, Parameters& p
     }
 }
 
-void read_image(const JsonValue& value, core::Settings& settings) {
-    value.allow_only({"width", "height", "transfer", "alpha"});
-    if (const auto width = value.find("width")) settings.width = width->integer();
-    if (const auto height = value.find("height")) settings.height = height->integer();
-    if (const auto transfer = value.find("transfer"))
-        settings.transfer = transfer->choice<core::Transfer>(
-            {{"srgb", core::Transfer::srgb}, {"linear", core::Transfer::linear}});
-    if (const auto alpha = value.find("alpha")) settings.alpha = alpha->boolean();
-}
-
-void read_sampling(const JsonValue& value, core::Settings& settings) {
-    value.allow_only({"grid", "pattern", "quality", "filter", "light_samples"});
-    if (const auto filter = value.find("filter"))
-        settings.filter = filter->choice<core::PixelFilter>(
-            {{"box", core::PixelFilter::box},
-             {"gaussian", core::PixelFilter::gaussian},
-             {"blackman-harris", core::PixelFilter::blackman_harris}});
-    if (const auto quality = value.find("quality")) settings.quality = quality->number();
-    if (const auto samples = value.find("light_samples"))
-        settings.light_samples = samples->integer();
-    if (const auto grid = value.find("grid")) settings.grid = grid->integer();
-    if (const auto pattern = value.find("pattern"))
-        settings.samples =
-            pattern->choice<core::SamplePattern>({{"regular", core::SamplePattern::regular},
-                                                  {"stratified", core::SamplePattern::stratified}});
-}
-
-void read_limits(const JsonValue& value, core::Settings& settings) {
-    value.allow_only({"max_depth", "min_weight", "max_see_through"});
-    if (const auto depth = value.find("max_depth")) settings.max_depth = depth->integer();
-    if (const auto weight = value.find("min_weight")) settings.min_weight = weight->number();
-    if (const auto most = value.find("max_see_through")) settings.max_see_through = most->integer();
-}
-
 core::Outline read_outline(const JsonValue& value) {
-    value.allow_only({"width", "color", "creases"});
     core::Outline outline;
-    outline.width = value.at("width").number();
-    if (const auto color = value.find("color")) outline.color = color->color();
-    if (const auto creases = value.find("creases")) outline.creases = creases->number();
+    read_only_fields(value, outline);
     return outline;
 }
 
@@ -123,102 +86,36 @@ core::Camera read_camera(const JsonValue& value, core::Staging& staging) {
         staging.framing = value.choice<core::Framing>({{"auto", {}}});
         return camera;
     }
-    std::optional<Projection> projection = Projection::perspective;
-    if (const auto type = value.find("type"))
-        projection =
-            type->choice<std::optional<Projection>>({{"perspective", Projection::perspective},
-                                                     {"orthographic", Projection::orthographic},
-                                                     {"auto", std::nullopt}});
-    if (!projection) {
-        staging.framing = read_framing(value);
-        if (const auto cue = value.find("depth_cue"))
-            staging.depth_cue = number_between(*cue, 0.0F, 0.99F, "from 0 to 0.99");
-        return camera;
+    if (const auto type = value.find("type")) {
+        const std::size_t kind = read_word(*type, core::fields::projection, "auto");
+        if (kind == std::size(core::fields::projection_words)) {
+            staging.framing = read_framing(value);
+            if (const auto cue = value.find("depth_cue"))
+                staging.depth_cue = number_between(*cue, 0.0F, 0.99F, "from 0 to 0.99");
+            return camera;
+        }
+        camera.projection = static_cast<Projection>(kind);
     }
-    camera.projection = *projection;
-    if (camera.projection == Projection::perspective) {
-        value.allow_only(
-            {"type", "from", "at", "up", "field_of_view", "lens_radius", "focus_distance"});
-        if (const auto angle = value.find("field_of_view")) camera.field_of_view = angle->number();
-    } else {
-        value.allow_only({"type", "from", "at", "up", "height", "lens_radius", "focus_distance"});
-        camera.height = value.at("height").number();
-    }
-    camera.from = value.at("from").vector();
-    camera.at = value.at("at").vector();
-    if (const auto up = value.find("up")) camera.up = up->vector();
-    if (const auto radius = value.find("lens_radius")) camera.lens_radius = radius->number();
-    if (const auto focus = value.find("focus_distance")) camera.focus_distance = focus->number();
+    read_only_fields(value, camera);
     return camera;
 }
 
 core::Fog read_fog(const JsonValue& value) {
-    core::Fog fog;
-    fog.kind = value.at("type").choice<FogKind>({{"linear-z", FogKind::linear_z},
-                                                 {"linear", FogKind::linear},
-                                                 {"exponential", FogKind::exponential}});
-    if (fog.kind == FogKind::exponential) {
-        value.allow_only({"type", "color", "density"});
-        fog.density = value.at("density").number();
-    } else {
-        value.allow_only({"type", "color", "start", "end"});
-        fog.start = value.at("start").number();
-        fog.end = value.at("end").number();
-    }
-    if (const auto color = value.find("color")) fog.color = color->color();
+    core::Fog fog{
+        .kind = static_cast<core::FogKind>(read_word(value.at("type"), core::fields::fog_kind))};
+    read_only_fields(value, fog);
     return fog;
 }
 
 std::optional<core::Light> read_light(const JsonValue& value) {
-    const auto kind =
-        value.at("type").choice<std::optional<LightKind>>({{"point", LightKind::point},
-                                                           {"directional", LightKind::directional},
-                                                           {"sky", LightKind::sky},
-                                                           {"sphere", LightKind::sphere},
-                                                           {"disc", LightKind::disc},
-                                                           {"rectangle", LightKind::rectangle},
-                                                           {"camera", std::nullopt}});
-    if (!kind) {
+    const std::size_t kind = read_word(value.at("type"), core::fields::light_kind, "camera");
+    if (kind == std::size(core::fields::light_words)) {
         value.allow_only({"type"});
         return std::nullopt;
     }
-    core::Light light{.kind = *kind};
-    if (const auto color = value.find("color")) light.color = color->color();
-    switch (light.kind) {
-    case LightKind::point:
-        value.allow_only({"type", "position", "color"});
-        light.position = value.at("position").vector();
-        break;
-    case LightKind::directional:
-        value.allow_only({"type", "direction", "color"});
-        light.direction = value.at("direction").vector();
-        break;
-    case LightKind::sky: {
-        value.allow_only({"type", "direction", "color", "ground", "reach"});
-        if (const auto direction = value.find("direction")) light.direction = direction->vector();
-        const auto ground = value.find("ground");
-        light.ground = ground ? ground->color() : light.color;
-        if (const auto reach = value.find("reach")) light.reach = reach->number();
-        break;
-    }
-    case LightKind::sphere:
-        value.allow_only({"type", "position", "radius", "color"});
-        light.position = value.at("position").vector();
-        light.radius = value.at("radius").number();
-        break;
-    case LightKind::disc:
-        value.allow_only({"type", "position", "direction", "radius", "color"});
-        light.position = value.at("position").vector();
-        light.direction = value.at("direction").vector();
-        light.radius = value.at("radius").number();
-        break;
-    case LightKind::rectangle:
-        value.allow_only({"type", "position", "edge_u", "edge_v", "color"});
-        light.position = value.at("position").vector();
-        light.edge_u = value.at("edge_u").vector();
-        light.edge_v = value.at("edge_v").vector();
-        break;
-    }
+    core::Light light{.kind = static_cast<core::LightKind>(kind)};
+    read_only_fields(value, light);
+    if (light.kind == core::LightKind::sky && !value.find("ground")) light.ground = light.color;
     return light;
 }
 

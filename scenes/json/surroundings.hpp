@@ -11,9 +11,6 @@ namespace raylane::scenes {
 
 /// Adds a parameter, or marks it as invalid.
 void read_parameter(std::string_view name, const JsonValue& value, Parameters& parameters);
-void read_image(const JsonValue& value, core::Settings& settings);
-void read_sampling(const JsonValue& value, core::Settings& settings);
-void read_limits(const JsonValue& value, core::Settings& settings);
 core::Outline read_outline(const JsonValue& value);
 /// Reads a camera. If it finds its place by itself, sets `staging` instead.
 core::Camera read_camera(const JsonValue& value, core::Staging& staging);
