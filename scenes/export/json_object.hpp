@@ -19,19 +19,19 @@ class JsonObject {
     JsonObject(const JsonObject&) = delete;
     JsonObject& operator=(const JsonObject&) = delete;
 
-    TextFile& key(const char* name) {
+    TextFile& key(std::string_view name) {
         if (!std::exchange(first_, false)) file_ << separator_;
         return file_ << "\"" << name << "\": ";
     }
-    void text(const char* name, std::string_view value) { key(name) << "\"" << value << "\""; }
-    void number(const char* name, auto value) { key(name) << value; }
+    void text(std::string_view name, std::string_view value) { key(name) << "\"" << value << "\""; }
+    void number(std::string_view name, auto value) { key(name) << value; }
     template <class Real>
-    void vector(const char* name, const core::Vec3<Real>& value) {
+    void vector(std::string_view name, const core::Vec3<Real>& value) {
         key(name) << "[";
         file_.list(value, ", ") << "]";
     }
     template <class Real>
-    void vectors(const char* name, std::initializer_list<core::Vec3<Real>> values) {
+    void vectors(std::string_view name, std::initializer_list<core::Vec3<Real>> values) {
         key(name) << "[";
         bool first = true;
         for (const core::Vec3<Real>& value : values) {

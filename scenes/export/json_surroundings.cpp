@@ -1,96 +1,91 @@
 #include "scenes/export/json_surroundings.hpp"
 
-#include "core/scene/pattern.hpp"
+#include "core/scene/fields.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <concepts>
 #include <cstddef>
-#include <limits>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace raylane::scenes {
 
 namespace {
 
-void write_pattern(JsonObject& material, TextFile& file, const core::Pattern& pattern) {
-    using core::PatternKind;
-    if (pattern.kind == PatternKind::solid) {
-        material.vector("color", pattern.colors[0]);
-        return;
-    }
-    material.key("pattern");
-    JsonObject object(file);
-    if (pattern.kind == PatternKind::back_plane) {
-        object.text("type", "back-plane");
-        return;
-    }
-    object.text("type", pattern.kind == PatternKind::checker   ? "checker"
-                        : pattern.kind == PatternKind::stripes ? "stripes"
-                                                               : "gradient");
-    object.vectors("colors", {pattern.colors[0], pattern.colors[1]});
-    if (pattern.kind == PatternKind::checker) {
-        object.number("size", pattern.size);
-        std::string axes, upper_edges;
-        for (int axis = 0; axis < 3; ++axis) {
-            if ((pattern.axes >> axis & 1) != 0) axes += "xyz"[axis];
-            if (core::holds_upper_edge(pattern, axis)) upper_edges += "xyz"[axis];
-        }
-        object.text("axes", axes);
-        if (!upper_edges.empty()) object.text("upper_edges", upper_edges);
-    } else if (pattern.kind == PatternKind::stripes) {
-        object.number("width", pattern.size);
-        object.vector("direction", pattern.direction);
+using core::fields::Field;
+
+template <class Of>
+void write_fields(JsonObject& object, const Of& of, const char* group = "");
+
+void write_axes(JsonObject& object, const Field& field, std::uint8_t bits) {
+    std::string axes;
+    for (int axis = 0; axis < 3; ++axis)
+        if ((bits >> (axis + field.spelling.first_bit) & 1) != 0) axes += "xyz"[axis];
+    if (!axes.empty()) object.text(field.key(), axes);
+}
+
+void write_field(JsonObject& object, const Field& field, const core::Pattern& pattern) {
+    if (pattern.kind == core::PatternKind::solid) return object.vector("color", pattern.colors[0]);
+    JsonObject inner(object.key(field.key()));
+    write_fields(inner, pattern);
+}
+
+template <class Value>
+void write_field(JsonObject& object, const Field& field, const Value& value) {
+    if constexpr (std::is_enum_v<Value>) {
+        object.text(field.key(), field.valid.words[static_cast<std::size_t>(value)]);
+    } else if constexpr (std::is_same_v<Value, std::uint8_t>) {
+        write_axes(object, field, value);
+    } else if constexpr (std::is_same_v<Value, bool>) {
+        object.key(field.key()) << (value ? "true" : "false");
+    } else if constexpr (std::is_same_v<Value, core::Vec3f>) {
+        object.vector(field.key(), value);
+    } else if constexpr (std::is_same_v<Value, std::array<core::Color, 2>>) {
+        object.vectors(field.key(), {value[0], value[1]});
+    } else if constexpr (std::is_same_v<Value, std::array<double, 3>>) {
+        object.vector(field.key(), core::Vec3d(value[0], value[1], value[2]));
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+        object.number(field.key(), value);
     } else {
-        object.vector("from", pattern.from);
-        object.vector("to", pattern.to);
+        JsonObject inner(object.key(field.key()));
+        write_fields(inner, value);
     }
 }
 
-void write_material(TextFile& file, const core::Material& material) {
-    JsonObject object(file);
-    write_pattern(object, file, material.pattern);
-    object.number("ambient", material.ambient);
-    object.number("diffuse", material.diffuse);
-    object.number("specular", material.specular);
-    object.number("exponent", material.exponent);
-    if (material.reflection == core::Reflection::constant)
-        object.number("reflectivity", material.reflectivity);
-    else
-        object.text("reflection",
-                    material.reflection == core::Reflection::schlick ? "schlick" : "dielectric");
-    object.number("transmission", material.transmission);
-    if (material.is_see_through()) object.number("opacity", material.opacity);
-    if (material.glass.any()) {
-        TextFile& glass = object.key("glass");
-        const char* before = "{\"B\": [";
-        for (const auto* numbers : {&material.glass.B, &material.glass.C}) {
-            glass << before << (*numbers)[0] << ", " << (*numbers)[1] << ", " << (*numbers)[2];
-            before = "], \"C\": [";
-        }
-        glass << "]}";
-    } else {
-        object.number("index", material.index);
-    }
-    object.vector("absorption", material.absorption);
-    if (material.visible != core::Visible::both)
-        object.text("visible", material.visible == core::Visible::outside ? "outside" : "inside");
+/// Returns true if a key of a material is not the alternative to another one.
+bool is_wanted(const core::Material& material, std::string_view name) {
+    const bool is_constant = material.reflection == core::Reflection::constant;
+    return name != (is_constant ? "reflection" : "reflectivity") &&
+           name != (material.glass.any() ? "index" : "glass");
+}
+/// The color of a light comes last.
+bool is_wanted(const core::Light&, std::string_view name) {
+    return name != "color";
+}
+bool is_wanted(const auto&, std::string_view) {
+    return true;
 }
 
-void write_camera(JsonObject& object, const core::Camera& camera) {
-    const bool perspective = camera.projection == core::Projection::perspective;
-    object.text("type", perspective ? "perspective" : "orthographic");
-    object.vector("from", camera.from);
-    object.vector("at", camera.at);
-    object.vector("up", camera.up);
-    if (perspective)
-        object.number("field_of_view", camera.field_of_view);
-    else
-        object.number("height", camera.height);
-    if (camera.lens_radius > 0.0F) object.number("lens_radius", camera.lens_radius);
-    if (camera.focus_distance > 0.0F) object.number("focus_distance", camera.focus_distance);
+/// Writes the fields of a struct's kind. `group`: only fields of this group.
+template <class Of>
+void write_fields(JsonObject& object, const Of& of, const char* group) {
+    const Of usual{};
+    core::fields::for_each_field(
+        [&, kind = core::fields::kind_of(of)]<class Value>(const Field& field, const Value& value,
+                                                           const Value& usual_value) {
+            if (!field.is_in(group, kind) || !is_wanted(of, field.name)) return;
+            if constexpr (std::equality_comparable<Value>)
+                if (field.spelling.sparse && value == usual_value) return;
+            write_field(object, field, value);
+        },
+        of, usual);
 }
 
 void write_framing(JsonObject& object, const core::Framing& framing, float depth_cue) {
@@ -108,57 +103,26 @@ void write_framing(JsonObject& object, const core::Framing& framing, float depth
 
 } // namespace
 
-void write_settings(JsonObject& root, TextFile& file, const core::Settings& settings) {
-    root.key("image");
-    {
-        JsonObject image(file);
-        image.number("width", settings.width);
-        image.number("height", settings.height);
-        image.text("transfer", settings.transfer == core::Transfer::srgb ? "srgb" : "linear");
-        if (settings.alpha) image.key("alpha") << "true";
-    }
-    root.key("sampling");
-    {
-        JsonObject sampling(file);
-        sampling.number("grid", settings.grid);
-        sampling.text("pattern",
-                      settings.samples == core::SamplePattern::regular ? "regular" : "stratified");
-        if (settings.filter != core::PixelFilter::box)
-            sampling.text("filter", settings.filter == core::PixelFilter::gaussian
-                                        ? "gaussian"
-                                        : "blackman-harris");
-        if (settings.light_samples != core::Settings{}.light_samples)
-            sampling.number("light_samples", settings.light_samples);
-        if (settings.quality != 0.0F) sampling.number("quality", settings.quality);
-    }
-    root.key("limits");
-    {
-        JsonObject limits(file);
-        limits.number("max_depth", settings.max_depth);
-        limits.number("min_weight", settings.min_weight);
-        if (settings.max_see_through != core::Settings::see_through_limit)
-            limits.number("max_see_through", settings.max_see_through);
+void write_settings(JsonObject& root, const core::Settings& settings) {
+    for (const char* group : {"image", "sampling", "limits"}) {
+        JsonObject object(root.key(group));
+        write_fields(object, settings, group);
     }
     // Keeps the color and creases of a disabled outline, for users who enable it.
     const core::Outline &outline = settings.outline, usual{};
     if (outline.any() || outline.color != usual.color || outline.creases != usual.creases) {
-        root.key("outline");
-        JsonObject object(file);
-        object.number("width", outline.width);
-        object.vector("color", outline.color);
-        object.number("creases", outline.creases);
+        JsonObject object(root.key("outline"));
+        write_fields(object, outline);
     }
 }
 
-void write_surroundings(JsonObject& root, TextFile& file, const core::Scene& scene,
-                        const core::Staging& staging) {
-    root.key("camera");
+void write_surroundings(JsonObject& root, const core::Scene& scene, const core::Staging& staging) {
     {
-        JsonObject object(file);
+        JsonObject object(root.key("camera"));
         if (staging.framing)
             write_framing(object, *staging.framing, staging.depth_cue);
         else
-            write_camera(object, scene.camera());
+            write_fields(object, scene.camera());
     }
     root.vector("background", scene.background());
     if (!scene.wavelengths().empty()) {
@@ -170,18 +134,8 @@ void write_surroundings(JsonObject& root, TextFile& file, const core::Scene& sce
     }
     const core::Fog& fog = scene.fog();
     if (fog.kind != core::FogKind::none && !(staging.depth_cue > 0.0F)) {
-        root.key("fog");
-        JsonObject object(file);
-        object.text("type", fog.kind == core::FogKind::linear_z ? "linear-z"
-                            : fog.kind == core::FogKind::linear ? "linear"
-                                                                : "exponential");
-        object.vector("color", fog.color);
-        if (fog.kind == core::FogKind::exponential) {
-            object.number("density", fog.density);
-        } else {
-            object.number("start", fog.start);
-            object.number("end", fog.end);
-        }
+        JsonObject object(root.key("fog"));
+        write_fields(object, fog);
     }
 }
 
@@ -194,40 +148,7 @@ void write_lights(JsonObject& root, TextFile& file, const core::Scene& scene,
         const core::Light& light = scene.lights()[i];
         file << std::exchange(separator, ",\n");
         JsonObject object(file);
-        switch (light.kind) {
-        case core::LightKind::point:
-            object.text("type", "point");
-            object.vector("position", light.position);
-            break;
-        case core::LightKind::directional:
-            object.text("type", "directional");
-            object.vector("direction", light.direction);
-            break;
-        case core::LightKind::sky:
-            object.text("type", "sky");
-            object.vector("direction", light.direction);
-            object.vector("ground", light.ground);
-            if (light.reach < std::numeric_limits<float>::infinity())
-                object.number("reach", light.reach);
-            break;
-        case core::LightKind::sphere:
-            object.text("type", "sphere");
-            object.vector("position", light.position);
-            object.number("radius", light.radius);
-            break;
-        case core::LightKind::disc:
-            object.text("type", "disc");
-            object.vector("position", light.position);
-            object.vector("direction", light.direction);
-            object.number("radius", light.radius);
-            break;
-        case core::LightKind::rectangle:
-            object.text("type", "rectangle");
-            object.vector("position", light.position);
-            object.vector("edge_u", light.edge_u);
-            object.vector("edge_v", light.edge_v);
-            break;
-        }
+        write_fields(object, light);
         object.vector("color", light.color);
     }
     if (staging.lights) file << separator << R"({"type": "camera"})";
@@ -275,7 +196,8 @@ void write_materials(JsonObject& root, TextFile& file, const core::Scene& scene,
     for (std::size_t i = 0; i < scene.materials().size(); ++i) {
         file << std::exchange(separator, ",\n") << names[static_cast<core::MaterialIndex>(i)]
              << ": ";
-        write_material(file, scene.materials()[i]);
+        JsonObject object(file);
+        write_fields(object, scene.materials()[i]);
     }
     file << "}";
 }

@@ -8,11 +8,10 @@
 
 namespace raylane::scenes {
 
-void write_settings(JsonObject& root, TextFile& file, const core::Settings& settings);
+void write_settings(JsonObject& root, const core::Settings& settings);
 /// Writes camera, background, spectrum and fog. If camera and fog follow from `staging`, writes the
 /// staging instead, from which the reader derives them.
-void write_surroundings(JsonObject& root, TextFile& file, const core::Scene& scene,
-                        const core::Staging& staging);
+void write_surroundings(JsonObject& root, const core::Scene& scene, const core::Staging& staging);
 /// Writes the lights. If `staging` has the camera's own lights, omits these for the reader to add.
 void write_lights(JsonObject& root, TextFile& file, const core::Scene& scene,
                   const core::Staging& staging);

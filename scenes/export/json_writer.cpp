@@ -9,8 +9,8 @@ namespace {
 
 void write_all_but_objects(JsonObject& root, TextFile& file, const core::Scene& scene,
                            const core::Staging& staging, const MaterialNames& names) {
-    write_settings(root, file, scene.settings());
-    write_surroundings(root, file, scene, staging);
+    write_settings(root, scene.settings());
+    write_surroundings(root, scene, staging);
     write_lights(root, file, scene, staging);
     write_materials(root, file, scene, names);
 }
@@ -37,14 +37,14 @@ void write_json_without_objects(TextFile& file, const core::Scene& scene) {
 
 void write_json_settings(TextFile& file, const core::Settings& settings) {
     JsonObject root(file);
-    write_settings(root, file, settings);
+    write_settings(root, settings);
 }
 
 void write_json_without_shapes(TextFile& file, const core::Scene& scene) {
     JsonObject root(file, ",\n");
     file << "\n";
     const MaterialNames names = MaterialNames::numbers(scene);
-    write_surroundings(root, file, scene, {});
+    write_surroundings(root, scene, {});
     write_lights(root, file, scene, {});
     write_materials(root, file, scene, names);
     write_solids(root, file, scene, names);

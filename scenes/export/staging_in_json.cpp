@@ -1,11 +1,14 @@
 #include "scenes/export/staging_in_json.hpp"
 
+#include "core/scene/fields.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 namespace raylane::scenes {
 
@@ -20,26 +23,23 @@ bool is_same(const core::Vec3f& a, const core::Vec3f& b) {
     return is_same(a.x, b.x) && is_same(a.y, b.y) && is_same(a.z, b.z);
 }
 
-/// Compares only the numbers that a file holds for the projection: the angle or the height.
-bool is_same(const core::Camera& a, const core::Camera& b) {
-    const bool perspective = a.projection == core::Projection::perspective;
-    return a.projection == b.projection && is_same(a.from, b.from) && is_same(a.at, b.at) &&
-           is_same(a.up, b.up) &&
-           (perspective ? is_same(a.field_of_view, b.field_of_view)
-                        : is_same(a.height, b.height)) &&
-           is_same(a.lens_radius, b.lens_radius) && is_same(a.focus_distance, b.focus_distance);
+template <class Enum>
+requires std::is_enum_v<Enum>
+bool is_same(Enum a, Enum b) {
+    return a == b;
 }
 
-bool is_same(const core::Fog& a, const core::Fog& b) {
-    return a.kind == b.kind && is_same(a.color, b.color) && is_same(a.start, b.start) &&
-           is_same(a.end, b.end) && is_same(a.density, b.density);
-}
-
-bool is_same(const core::Light& a, const core::Light& b) {
-    return a.kind == b.kind && is_same(a.position, b.position) &&
-           is_same(a.direction, b.direction) && is_same(a.color, b.color) &&
-           is_same(a.radius, b.radius) && is_same(a.edge_u, b.edge_u) &&
-           is_same(a.edge_v, b.edge_v) && is_same(a.ground, b.ground) && is_same(a.reach, b.reach);
+/// Compares only the numbers that a file holds for the struct's kind.
+template <class Of>
+bool is_same_in_files(const Of& a, const Of& b) {
+    bool same = true;
+    core::fields::for_each_field(
+        [&, kind = core::fields::kind_of(a)](const core::fields::Field& field, const auto& one,
+                                             const auto& other) {
+            if ((field.use.used & kind) != 0) same = same && is_same(one, other);
+        },
+        a, b);
+    return same;
 }
 
 std::span<const core::Light> brought_lights(const core::Scene& scene) {
@@ -76,13 +76,15 @@ core::Staging staging_in_json(const core::Scene& scene) {
             said.framing->field_of_view = core::Framing{}.field_of_view;
         view = found_by(scene, said);
     }
-    if (!view || !is_same(view->camera, scene.camera())) {
+    if (!view || !is_same_in_files(view->camera, scene.camera())) {
         said.framing.reset();
         if (said.lights) view = found_by(scene, said);
     }
     const bool is_cue_read = said.framing && said.depth_cue <= 0.99F;
-    if (!is_cue_read || !is_same(view->fog, scene.fog())) said.depth_cue = 0.0F;
-    const auto same = [](const core::Light& a, const core::Light& b) { return is_same(a, b); };
+    if (!is_cue_read || !is_same_in_files(view->fog, scene.fog())) said.depth_cue = 0.0F;
+    const auto same = [](const core::Light& a, const core::Light& b) {
+        return is_same_in_files(a, b);
+    };
     const std::span<const core::Light> brought = brought_lights(scene);
     said.lights = said.lights && std::equal(view->lights.begin(), view->lights.end(),
                                             brought.begin(), brought.end(), same);
