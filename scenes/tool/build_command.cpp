@@ -1,40 +1,36 @@
 #include "scenes/errors.hpp"
 #include "scenes/export/export.hpp"
-#include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/loading.hpp"
-#include "scenes/tool/output_name.hpp"
-#include "scenes/tool/scene_arguments.hpp"
+#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/scene_options.hpp"
 
 #include <cstdio>
-#include <memory>
 #include <string>
-#include <utility>
 
 namespace raylane::scenes {
 
 namespace {
 
-struct BuildArguments {
-    Argument scene, output, threads;
-    SceneArguments scene_arguments;
+struct BuildArguments : OptionTable {
+    Option<std::string> scene = {*this, "SCENE", file_argument(), any_scene};
+    Option<std::string> output = {
+        *this, "-o,--output",
+        file_name().otherwise("the scene's name with .rl, in the current folder"),
+        "Output file, .rl."};
+    ThreadsOption threads{*this};
+    SceneArguments scene_arguments{*this};
 };
 
 int build(const BuildArguments& arguments) {
-    const std::string& scene = file_argument("SCENE", *arguments.scene);
-    const std::string output = arguments.output ? file_argument("--output", *arguments.output)
-                                                : default_output(scene, ".rl");
-    require_other_than_scene("--output", output, scene);
+    const std::string output = arguments.output.value_or(default_output(*arguments.scene, ".rl"));
+    require_other_than_scene("--output", output, *arguments.scene);
     if (!output.ends_with(".rl"))
         throw BadInput("--output", "", "must end in .rl, got \"" + printable(output) + '"');
-    const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();
-    const ViewChange change = arguments.scene_arguments.view.change();
-    core::Scene loaded = load_with_progress(scene, arguments.scene_arguments.load_options(),
-                                            verbosity, threads_argument(arguments.threads));
-    const core::Settings settings = loaded.settings();
-    const core::Scene built = seen(std::move(loaded), change, settings);
+    const core::Scene built =
+        load_seen(*arguments.scene, arguments.scene_arguments, arguments.threads.count());
     export_scene(output, built);
-    if (verbosity == Verbosity::verbose)
+    if (arguments.scene_arguments.verbosity.verbose)
         std::fprintf(stderr, "%s: %zu shapes, %.1f bytes each\n", printable(output, 4096).c_str(),
                      built.shape_count(),
                      built.shape_count() == 0 ? 0.0
@@ -46,21 +42,14 @@ int build(const BuildArguments& arguments) {
 } // namespace
 
 Command add_build_command(CLI::App& app) {
-    CLI::App& command =
-        add_command(app, "build", "Build a large scene once, for many renders",
-                    "raylane build scenes/lattice.json -o lattice.rl",
-                    "All commands accept the output as a scene, without reading and building it "
-                    "again. They map it into memory, once for all processes of a host.");
-    auto arguments = std::make_shared<BuildArguments>();
-    add_positional(command, "SCENE", arguments->scene,
-                   "Scene or atoms, in any format that render reads; - is standard input.");
-    add_option(command, "-o,--output", arguments->output,
-               "Output file, .rl. Default: the scene's name with .rl, in the current folder.",
-               "FILE");
-    add_option(command, "--threads", arguments->threads,
-               "Number of threads. Default: all processors.", "N");
-    arguments->scene_arguments.add_to(command);
-    return {&command, [arguments] { return build(*arguments); }};
+    return add_command<BuildArguments>(
+        app,
+        {.name = "build",
+         .help = "Build a large scene once, for many renders",
+         .example = "raylane build scenes/lattice.json -o lattice.rl",
+         .details = "All commands accept the output as a scene, without reading and building it "
+                    "again. They map it into memory, once for all processes of a host."},
+        build);
 }
 
 } // namespace raylane::scenes

@@ -1,13 +1,17 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "scenes/tool/options/option.hpp"
 
 #include <array>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
+
+namespace CLI {
+class App;
+}
 
 /// The commands of the raylane tool. Each add_..._command() adds one to the command line. Its
 /// result runs the command and returns the exit code: 0 done, 1 a comparison that differs. Errors
@@ -28,25 +32,27 @@ struct Command {
     bool by_ranks = false; ///< the ranks of a job run it together
 };
 
-/// A value on the command line, which the command validates; nothing if it is not given.
-using Argument = std::optional<std::string>;
+/// The help of a command, besides that of its options.
+struct CommandText {
+    std::string name;
+    std::string help; ///< one line
+    std::string example;
+    std::string details = {}; ///< any number of lines, before the example
+};
 
-/// Adds a command with a help text of one line, an example and, before it, details of any number of
-/// lines. Defined apart, so that the commands' sources do not compile CLI11's classes, which takes
-/// seconds.
-CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& help,
-                      const std::string& example, const std::string& details = "");
-/// Sets the options that add(command) adds from `text`, which has the form of a command line.
-/// Returns false if `text` is not a list of such options. Required options may be missing.
-bool take_options(const std::string& text, const std::function<void(CLI::App& command)>& add);
+/// Adds a command with the options of a table.
+CLI::App& add_command(CLI::App& app, const CommandText& text, const OptionTable& table);
 
-/// Adds an option with a value. `type` is the name of the value in the help.
-CLI::Option* add_option(CLI::App& command, const std::string& names, Argument& value,
-                        const std::string& help, const std::string& type);
-/// Adds a required argument.
-void add_positional(CLI::App& command, const std::string& name, Argument& value,
-                    const std::string& help);
-void add_flag(CLI::App& command, const std::string& name, bool& value, const std::string& help);
+/// Adds a command with the options of `Arguments`, an OptionTable. `run` gets them parsed.
+template <class Arguments>
+Command add_command(CLI::App& app, const CommandText& text,
+                    const std::function<int(const Arguments&)>& run) {
+    auto arguments = std::make_shared<Arguments>();
+    return {&add_command(app, text, *arguments), [=] {
+                arguments->parse();
+                return run(*arguments);
+            }};
+}
 
 Command add_render_command(CLI::App& app);
 Command add_info_command(CLI::App& app);

@@ -1,25 +1,31 @@
 #include "scenes/image/compare.hpp"
 #include "scenes/image/exr.hpp"
 #include "scenes/image/writer.hpp"
-#include "scenes/tool/arguments.hpp"
+#include "scenes/number.hpp"
 #include "scenes/tool/command.hpp"
-#include "scenes/tool/picture_arguments.hpp"
+#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/render_options.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <memory>
 #include <optional>
 
 namespace raylane::scenes {
 
 namespace {
 
-struct CompareArguments {
-    Argument a, b, tolerance = "0", difference;
-    bool json = false;
+struct CompareArguments : OptionTable {
+    Option<std::string> a = {*this, "A", file_argument(), "First image, PNG, EXR, HDR or PFM."};
+    Option<std::string> b = {*this, "B", file_argument(), "Second image, of the same size."};
+    Option<float> tolerance = {*this, "--tolerance",
+                               number(0.0F, std::numeric_limits<float>::max(), "T").initially(0.0F),
+                               "Largest difference of a component that is ignored; 1 is white."};
+    Option<std::string> difference = {*this, "--diff", file_name(),
+                                      "Write an image of the differences, amplified to white."};
+    Flag json = {*this, "--json", flag(), "Print the result as JSON."};
 };
 
 /// JSON has no infinity.
@@ -49,21 +55,18 @@ void print(const Comparison& comparison, float tolerance) {
                 static_cast<long long>(comparison.pixels), static_cast<double>(tolerance));
 }
 
-int compare(const CompareArguments& arguments) {
-    const float tolerance = number_argument("--tolerance", *arguments.tolerance, 0.0F,
-                                            std::numeric_limits<float>::max());
-    const std::string& name_of_a = file_argument("A", *arguments.a);
-    const std::string& name_of_b = file_argument("B", *arguments.b);
+int compare_files(const CompareArguments& arguments) {
+    const float tolerance = *arguments.tolerance;
     std::optional<OutputFile> output;
     if (arguments.difference) {
-        const std::string& name = file_argument("--diff", *arguments.difference);
-        require_other_file("--diff", name, "A", name_of_a);
-        require_other_file("--diff", name, "B", name_of_b);
+        const std::string& name = *arguments.difference;
+        require_other_file("--diff", name, "A", *arguments.a);
+        require_other_file("--diff", name, "B", *arguments.b);
         require_other_output("--diff", name, "standard output, which receives the result", "-");
         output.emplace(name, exr_of);
         require_writable("--diff", output->format());
     }
-    const Image a = read_image(name_of_a), b = read_image(name_of_b);
+    const Image a = read_image(*arguments.a), b = read_image(*arguments.b);
     const Comparison comparison = scenes::compare(a, b, tolerance);
     if (output) output->commit(difference_image(a, b), core::Transfer::linear);
     if (arguments.json)
@@ -76,18 +79,12 @@ int compare(const CompareArguments& arguments) {
 } // namespace
 
 Command add_compare_command(CLI::App& app) {
-    CLI::App& command =
-        add_command(app, "compare", "Compare two images; exit code 1 if they differ",
-                    "raylane compare before.png after.png --diff difference.png");
-    auto arguments = std::make_shared<CompareArguments>();
-    add_positional(command, "A", arguments->a, "First image, PNG, EXR, HDR or PFM.");
-    add_positional(command, "B", arguments->b, "Second image, of the same size.");
-    add_option(command, "--tolerance", arguments->tolerance,
-               "Largest difference of a component that is ignored; 1 is white. Default: 0.", "T");
-    add_option(command, "--diff", arguments->difference,
-               "Write an image of the differences, amplified to white.", "FILE");
-    add_flag(command, "--json", arguments->json, "Print the result as JSON.");
-    return {&command, [arguments] { return compare(*arguments); }};
+    return add_command<CompareArguments>(
+        app,
+        {.name = "compare",
+         .help = "Compare two images; exit code 1 if they differ",
+         .example = "raylane compare before.png after.png --diff difference.png"},
+        compare_files);
 }
 
 } // namespace raylane::scenes

@@ -1,12 +1,10 @@
 #include "scenes/atomic_file.hpp"
-#include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/manual.hpp"
 #include "scenes/tool/pages.hpp"
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,11 +20,25 @@ const CLI::App& command_named(const CLI::App& app, const std::string& name) {
     choices.reserve(commands.size());
     for (const CLI::App* command : commands) // the names outlive `choices`
         choices.emplace_back(command->get_name(), command);
-    return *choice_argument<const CLI::App*>("COMMAND", name, choices);
+    return *choice_named<const CLI::App*>("COMMAND", name, choices);
 }
 
-struct ManualArguments {
-    Argument command, folder;
+struct HelpArguments : OptionTable {
+    Option<std::string> topic = {*this, "TOPIC", word("").otherwise("list the pages"),
+                                 "Page or command."};
+};
+
+struct ManualArguments : OptionTable {
+    Option<std::string> command = {*this, "COMMAND", word("").otherwise("the whole tool"),
+                                   "Command."};
+    Option<std::string> folder = {*this, "--all", file_name("FOLDER").without({"COMMAND"}),
+                                  "Write the pages of all commands into a folder, named "
+                                  "raylane.1, raylane-render.1, ..."};
+};
+
+struct CompletionArguments : OptionTable {
+    Option<bool> shell = {*this, "SHELL", choice<bool>({{"bash", true}}).required(),
+                          "Shell: bash."};
 };
 
 void write_pages(const CLI::App& app, const std::filesystem::path& folder) {
@@ -43,8 +55,7 @@ void write_pages(const CLI::App& app, const std::filesystem::path& folder) {
 
 int print_manual(const CLI::App& app, const ManualArguments& arguments) {
     if (arguments.folder) {
-        if (arguments.command) throw BadInput("--all", "", "goes without COMMAND");
-        write_pages(app, file_argument("--all", *arguments.folder));
+        write_pages(app, *arguments.folder);
         return 0;
     }
     const CLI::App& of = arguments.command ? command_named(app, *arguments.command) : app;
@@ -65,8 +76,8 @@ void list_topics() {
     std::fputs("raylane COMMAND --help lists the options of a command.\n", stdout);
 }
 
-int print_help(const CLI::App& app, const std::optional<std::string>& topic) {
-    if (!topic) {
+int print_help(const CLI::App& app, const HelpArguments& arguments) {
+    if (!arguments.topic) {
         list_topics();
         return 0;
     }
@@ -76,30 +87,28 @@ int print_help(const CLI::App& app, const std::optional<std::string>& topic) {
     const std::vector<const CLI::App*> commands = commands_of(app);
     for (const CLI::App* command : commands) // whose names outlive this
         choices.emplace_back(command->get_name(), command->help("raylane"));
-    std::fputs(choice_argument<std::string>("TOPIC", *topic, choices).c_str(), stdout);
+    std::fputs(choice_named<std::string>("TOPIC", *arguments.topic, choices).c_str(), stdout);
     return 0;
 }
 
 } // namespace
 
 Command add_help_command(CLI::App& app) {
-    CLI::App& command =
-        add_command(app, "help", "Print a page of the documentation", "raylane help scenes");
-    auto topic = std::make_shared<Argument>();
-    add_option(command, "TOPIC", *topic, "Page or command. Default: list the pages.", "");
-    return {&command, [&app, topic] { return print_help(app, *topic); }};
+    return add_command<HelpArguments>(
+        app,
+        {.name = "help",
+         .help = "Print a page of the documentation",
+         .example = "raylane help scenes"},
+        [&app](const HelpArguments& arguments) { return print_help(app, arguments); });
 }
 
 Command add_manual_command(CLI::App& app) {
-    CLI::App& command = add_command(app, "manual", "Print a manual page, in the format of man",
-                                    "raylane manual render | man -l -");
-    auto arguments = std::make_shared<ManualArguments>();
-    add_option(command, "COMMAND", arguments->command, "Command. Default: the whole tool.", "");
-    add_option(
-        command, "--all", arguments->folder,
-        "Write the pages of all commands into a folder, named raylane.1, raylane-render.1, ...",
-        "FOLDER");
-    return {&command, [&app, arguments] { return print_manual(app, *arguments); }};
+    return add_command<ManualArguments>(
+        app,
+        {.name = "manual",
+         .help = "Print a manual page, in the format of man",
+         .example = "raylane manual render | man -l -"},
+        [&app](const ManualArguments& arguments) { return print_manual(app, arguments); });
 }
 
 void name_commands(CLI::App& app) {
@@ -113,15 +122,14 @@ void name_commands(CLI::App& app) {
 }
 
 Command add_completion_command(CLI::App& app) {
-    CLI::App& command = add_command(app, "completion", "Print a completion script for bash",
-                                    "source <(raylane completion bash)");
-    auto shell = std::make_shared<Argument>();
-    add_option(command, "SHELL", *shell, "Shell: bash.", "bash")->required();
-    return {&command, [&app, shell] {
-                choice_argument<bool>("SHELL", **shell, {{"bash", true}});
-                std::fputs(completion_script(app).c_str(), stdout);
-                return 0;
-            }};
+    return add_command<CompletionArguments>(app,
+                                            {.name = "completion",
+                                             .help = "Print a completion script for bash",
+                                             .example = "source <(raylane completion bash)"},
+                                            [&app](const CompletionArguments&) {
+                                                std::fputs(completion_script(app).c_str(), stdout);
+                                                return 0;
+                                            });
 }
 
 } // namespace raylane::scenes

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "scenes/tool/frame_arguments.hpp"
+#include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/scene_source.hpp"
-#include "scenes/tool/verbosity.hpp"
-#include "scenes/tool/view_arguments.hpp"
 #include "simd/render.hpp"
 
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenes/tool/film_strip.hpp"
-#include "scenes/tool/scene_arguments.hpp"
+#include "scenes/tool/options/render_options.hpp"
 
 #include <functional>
 #include <optional>
@@ -12,14 +12,12 @@ namespace raylane::scenes {
 /// Returns a function from the number of a picture to the name of its file, according to --output.
 /// `is_one`: there is a single picture, whose name needs no number. Both functions throw BadInput
 /// for the name of the scene's file.
-std::function<std::string(std::size_t)> picture_names(const std::string& scene,
-                                                      const Argument& output, bool is_one);
+std::function<std::string(std::size_t)>
+picture_names(const std::string& scene, const std::optional<std::string>& output, bool is_one);
 
 /// Returns the pictures that the command line requests, if there may be several. The caller sets
 /// how they are drawn. Scenes are made with `threads` threads. Throws BadInput.
-std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
-                                       const SceneArguments& scene_arguments,
-                                       const std::string& scene, const Argument& output,
-                                       int threads, Verbosity verbosity);
+std::optional<FilmStrip> film_strip_of(const RenderArguments& arguments, int threads,
+                                       Verbosity verbosity);
 
 } // namespace raylane::scenes

@@ -1,17 +1,13 @@
 #include "core/scene/features.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
-#include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
-#include "scenes/tool/drawing_arguments.hpp"
 #include "scenes/tool/loading.hpp"
-#include "scenes/tool/scene_arguments.hpp"
+#include "scenes/tool/options/scene_options.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <memory>
-#include <utility>
 
 namespace raylane::scenes {
 
@@ -19,10 +15,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct InfoArguments {
-    Argument scene;
-    SceneArguments scene_arguments;
-    bool json = false;
+struct InfoArguments : OptionTable {
+    Option<std::string> scene = {*this, "SCENE", file_argument(), any_scene};
+    Flag json = {*this, "--json", flag(), "Print JSON."};
+    SceneArguments scene_arguments{*this};
 };
 
 const char* text_of(core::FogKind kind) {
@@ -136,12 +132,8 @@ void print(const Json& info) {
 }
 
 int info(const InfoArguments& arguments) {
-    const std::string& scene = file_argument("SCENE", *arguments.scene);
-    const SceneArguments& how = arguments.scene_arguments;
-    const ViewChange change = how.view.change();
-    core::Scene loaded = load_with_progress(scene, how.load_options(), how.verbosity.verbosity());
-    const core::Settings settings = loaded.settings();
-    const Json info = info_of(scene, seen(std::move(loaded), change, settings));
+    const Json info =
+        info_of(*arguments.scene, load_seen(*arguments.scene, arguments.scene_arguments));
     if (arguments.json)
         std::printf("%s\n", info.dump(2).c_str());
     else
@@ -152,15 +144,11 @@ int info(const InfoArguments& arguments) {
 } // namespace
 
 Command add_info_command(CLI::App& app) {
-    CLI::App& command =
-        add_command(app, "info", "Print the contents and needed features of a scene",
-                    "raylane info scenes/birthday.json");
-    auto arguments = std::make_shared<InfoArguments>();
-    add_positional(command, "SCENE", arguments->scene,
-                   "Scene or atoms, in any format that render reads.");
-    add_flag(command, "--json", arguments->json, "Print JSON.");
-    arguments->scene_arguments.add_to(command);
-    return {&command, [arguments] { return info(*arguments); }};
+    return add_command<InfoArguments>(app,
+                                      {.name = "info",
+                                       .help = "Print the contents and needed features of a scene",
+                                       .example = "raylane info scenes/birthday.json"},
+                                      info);
 }
 
 } // namespace raylane::scenes

@@ -2,7 +2,7 @@
 
 #include "core/scene/scene.hpp"
 #include "scenes/scene_file.hpp"
-#include "scenes/tool/verbosity.hpp"
+#include "scenes/tool/options/scene_options.hpp"
 
 #include <filesystem>
 
@@ -12,5 +12,9 @@ namespace raylane::scenes {
 /// Remarks on the file go to standard error, unless `verbosity` is quiet.
 core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions options,
                                Verbosity verbosity, int threads = 0);
+
+/// Does the same with the options of a command, and returns the scene with the view that they
+/// request.
+core::Scene load_seen(const std::string& scene, const SceneArguments& options, int threads = 0);
 
 } // namespace raylane::scenes

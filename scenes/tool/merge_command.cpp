@@ -2,13 +2,12 @@
 #include "scenes/image/exr.hpp"
 #include "scenes/image/writer.hpp"
 #include "scenes/number.hpp"
-#include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
+#include "scenes/tool/image_texts.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
-#include "scenes/tool/picture_texts.hpp"
-#include "scenes/tool/ray_tiers.hpp"
+#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/render_options.hpp"
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,9 +16,12 @@ namespace raylane::scenes {
 
 namespace {
 
-struct MergeArguments {
-    std::vector<std::string> parts;
-    Argument output, bits, dpi;
+struct MergeArguments : OptionTable {
+    ListOption<std::string> parts = {*this, "PARTS", file_argument(),
+                                     "All parts of one image, in any order."};
+    Option<std::string> output = {*this, "-o,--output", file_name().required(),
+                                  "Image, in any format that render writes."};
+    EncodingArguments encoding{*this, "8 (PNG), 32 (EXR), same as the parts"};
 };
 
 /// Combines the parts of one picture, one after the other.
@@ -29,7 +31,7 @@ class Merger {
 
     void add(const std::string& name) {
         ExrPicture picture = read_own_exr(name);
-        const PicturePart part = part_of(name, picture.texts);
+        const ImagePart part = part_of(name, picture.texts);
         if (text_in(name, picture.texts, "Pixels") != fingerprint_of(picture.film))
             throw BadInput(name, "", "has pixels that differ from its Pixels attribute");
         if (!first_) begin(name, picture);
@@ -75,7 +77,7 @@ class Merger {
                            "must be all parts, 1 to " + std::to_string(has_.size()) +
                                "; missing: " + printable(missing, 200));
         // Same order as in the files that render writes.
-        PictureTexts texts;
+        ImageTexts texts;
         for (const char* key : {"Title", "Software", "Comment", "Film", "Scene", "Options"})
             if (has_text(texts_, key)) texts.emplace_back(key, text_in(first_name_, texts_, key));
         texts.emplace_back("Pixels", fingerprint_of(first_->film));
@@ -86,21 +88,21 @@ class Merger {
     core::Transfer transfer() const { return settings_.transfer; }
 
   private:
-    static PicturePart part_of(const std::string& name, const PictureTexts& texts) {
+    static ImagePart part_of(const std::string& name, const ImageTexts& texts) {
         if (!has_text(texts, "Part")) throw BadInput(name, "", "must be written by render --part");
         const std::string& text = text_in(name, texts, "Part");
-        const std::optional<PicturePart> part = picture_part_of(text.substr(0, text.find(' ')));
+        const std::optional<ImagePart> part = image_part_of(text.substr(0, text.find(' ')));
         if (!part || tile_of(texts) == 0)
             throw BadInput(name, "", "has a malformed \"Part\" attribute");
         return *part;
     }
     /// Returns the text, or an empty one if it is missing. Only parts of a film have Film, and
     /// parts drawn by older versions have no Options.
-    static std::string optional_text(const char* key, const PictureTexts& texts) {
+    static std::string optional_text(const char* key, const ImageTexts& texts) {
         return has_text(texts, key) ? text_in("", texts, key) : "";
     }
     /// Returns the side of a tile in pixels, or 0 if the text has no valid one.
-    static int tile_of(const PictureTexts& texts) {
+    static int tile_of(const ImageTexts& texts) {
         const std::string& text = text_in("", texts, "Part");
         const int side = to_int(text.substr(text.rfind(' ') + 1)).value_or(0);
         return side >= 8 && side <= 64 ? side : 0;
@@ -119,14 +121,12 @@ class Merger {
     }
 
     void begin(const std::string& name, const ExrPicture& picture) {
-        RenderArguments arguments = arguments_of(name, picture.texts, name);
-        arguments.isa.reset(); // nothing is drawn here, and parts may come from other processors
-        settings_ = Overrides(arguments).applied_to({});
-        const PictureChoice choice(arguments.picture);
-        require_fit(name, picture, choice.alpha);
-        choice.apply_to(settings_);
-        simd::RenderOptions options = options_of(arguments);
-        choice.apply_to(options, settings_);
+        const auto arguments = recorded_arguments(name, picture.texts, name);
+        settings_ = arguments->settings_of({});
+        require_fit(name, picture, arguments->picture.alpha.is_given());
+        // Nothing is rendered here, and parts may come from other processors.
+        simd::RenderOptions options = arguments->render_options(/*with_isa=*/false);
+        arguments->picture.apply_to(options, settings_);
         options.tile = tile_of(picture.texts);
         options.layers = picture.layers.has_value();
         crop_ = options.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
@@ -160,7 +160,7 @@ class Merger {
     PictureFormat output_;
     std::optional<ExrPicture> first_; // the first part; the others are copied into it
     std::string first_name_;
-    PictureTexts texts_; // of part 1
+    ImageTexts texts_; // of part 1
     core::Settings settings_;
     core::Region crop_{};
     std::optional<simd::TileGrid> grid_;
@@ -169,23 +169,19 @@ class Merger {
 };
 
 int merge(const MergeArguments& arguments) {
-    const std::string& name = file_argument("--output", *arguments.output);
-    for (const std::string& part : arguments.parts)
-        require_other_file("--output", name, "PARTS", part);
-    PictureArguments how;
-    how.bits = arguments.bits;
-    how.dpi = arguments.dpi;
-    PictureChoice choice(how);
-    OutputFile output(name, exr_of);
-    choice.require_fit(output.format());
-    if (output.format() == PictureFormat::exr && choice.bits == 0)
-        choice.bits = 32; // the parts have floats
+    for (const std::string& part : *arguments.parts)
+        require_other_file("--output", *arguments.output, "PARTS", part);
+    OutputFile output(*arguments.output, exr_of);
+    require_writable("--output", output.format());
+    arguments.encoding.require_fit(output.format());
+    const int floats = output.format() == PictureFormat::exr ? 32 : 0; // same as the parts
+    const int bits = arguments.encoding.bits.value_or(floats);
     Merger merger(output.format());
-    for (const std::string& part : arguments.parts)
-        merger.add(file_argument("PARTS", part));
+    for (const std::string& part : *arguments.parts)
+        merger.add(part);
     const core::Transfer transfer = merger.transfer();
     const ExrPicture picture = merger.take();
-    output.commit(picture.film, {transfer, choice.bits, choice.dpi, picture.texts},
+    output.commit(picture.film, {transfer, bits, arguments.encoding.dpi.value(), picture.texts},
                   picture.layers ? &*picture.layers : nullptr);
     return 0;
 }
@@ -193,23 +189,13 @@ int merge(const MergeArguments& arguments) {
 } // namespace
 
 Command add_merge_command(CLI::App& app) {
-    CLI::App& command = add_command(app, "merge", "Merge the parts written by render --part",
-                                    "raylane merge part-*.exr -o out.png",
-                                    "The merged image has the same bits as one rendered at once.");
-    auto arguments = std::make_shared<MergeArguments>();
-    command.add_option("PARTS", arguments->parts, "All parts of one image, in any order.")
-        ->required()
-        ->type_name("");
-    add_option(command, "-o,--output", arguments->output,
-               "Image, in any format that render writes.", "FILE")
-        ->required();
-    add_option(command, "--bits", arguments->bits,
-               "Bits per channel: 8 or 16 (PNG), 16 (half) or 32 (float) (EXR). Default: 8 (PNG), "
-               "32 (EXR), same as the parts.",
-               "N");
-    add_option(command, "--dpi", arguments->dpi,
-               "Print resolution stored in PNG or EXR, in pixels per inch. Default: none.", "N");
-    return {&command, [arguments] { return merge(*arguments); }};
+    return add_command<MergeArguments>(
+        app,
+        {.name = "merge",
+         .help = "Merge the parts written by render --part",
+         .example = "raylane merge part-*.exr -o out.png",
+         .details = "The merged image has the same bits as one rendered at once."},
+        merge);
 }
 
 } // namespace raylane::scenes

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/tool/verbosity.hpp"
+#include "scenes/tool/options/scene_options.hpp"
 #include "simd/render.hpp"
 
 #include <chrono>

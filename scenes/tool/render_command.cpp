@@ -1,20 +1,20 @@
 #include "scenes/atomic_file.hpp"
 #include "scenes/image/exr.hpp"
 #include "scenes/library/raylane/version.h"
-#include "scenes/tool/arguments.hpp"
+#include "scenes/number.hpp"
 #include "scenes/tool/command.hpp"
-#include "scenes/tool/film_strip.hpp"
+#include "scenes/tool/film_strip_arguments.hpp"
+#include "scenes/tool/image_texts.hpp"
 #include "scenes/tool/interrupt.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
 #include "scenes/tool/journal/resumable.hpp"
 #include "scenes/tool/loading.hpp"
-#include "scenes/tool/output_name.hpp"
-#include "scenes/tool/picture_texts.hpp"
+#include "scenes/tool/options/command_line.hpp"
+#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/render_options.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/job.hpp"
 #include "scenes/tool/ranks/shared_scene.hpp"
-#include "scenes/tool/ray_tiers.hpp"
-#include "scenes/tool/render_arguments.hpp"
 #include "simd/render.hpp"
 
 #include <nlohmann/json.hpp>
@@ -22,7 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -65,10 +65,9 @@ struct Work {
 
 struct Files {
     explicit Files(const RenderArguments& arguments)
-        : scene(file_argument("SCENE", *arguments.scene)), output(output_of(arguments)) {
+        : scene(*arguments.scene), output(output_of(arguments)), stats(arguments.stats.value()) {
         require_other_than_scene("--output", output, scene);
-        if (!arguments.stats) return;
-        stats = file_argument("--stats", *arguments.stats);
+        if (!stats) return;
         require_other_than_scene("--stats", *stats, scene);
         require_other_output("--stats", *stats, "--output", output);
     }
@@ -79,14 +78,14 @@ struct Files {
 
   private:
     std::string output_of(const RenderArguments& arguments) const {
-        if (arguments.frames.is_one()) return picture_names(scene, arguments.output, true)(0);
-        return arguments.output ? file_argument("--output", *arguments.output)
-                                : default_output(scene, ".png");
+        if (arguments.frames.is_one())
+            return picture_names(scene, arguments.output.value(), true)(0);
+        return arguments.output.value_or(default_output(scene, ".png"));
     }
 };
 
-std::string isa_in_use(const std::string& engine) {
-    return engine == "vector" ? std::string(simd::name_of(simd::best_isa())) : "none";
+std::string_view isa_in_use(const simd::RenderOptions& options) {
+    return options.engine == simd::Engine::vector ? simd::name_of(options.isa) : "none";
 }
 
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,
@@ -97,8 +96,8 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
     const simd::EngineCounters& counters = work.counters;
     return {{"version", RAYLANE_VERSION},
             {"scene", printable(*arguments.scene, 4096)},
-            {"engine", *arguments.engine},
-            {"isa", arguments.isa.value_or(isa_in_use(*arguments.engine))},
+            {"engine", arguments.engine.text()},
+            {"isa", isa_in_use(options)},
             {"precision", core::name_of(options.precision)},
             {"threads", options.threads},
             {"ranks", work.ranks},
@@ -135,98 +134,43 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"left_to_the_reference", {{"rays", counters.doubtful}, {"paths", counters.followed}}}};
 }
 
-/// The maximum length of an option in a picture's texts; selections may be long.
-constexpr std::size_t longest_text = std::size_t{1} << 20;
-
-/// Puts a text between quotes and escapes quotes of the same kind in it.
-std::string between_quotes(const std::string& text, char quote) {
-    std::string result(1, quote);
-    for (const char c : text) {
-        if (c == quote) result += '\\';
-        result += c;
-    }
-    return result + quote;
-}
-
-/// Returns an option's value in the form that take_options() reads back unchanged. Tabs become
-/// blanks, which separate words equally.
-std::string as_word(const std::string& value) {
-    std::string text = value;
-    std::replace(text.begin(), text.end(), '\t', ' ');
-    text = printable(text, longest_text);
-    constexpr std::string_view quotes = "\"'`";
-    if (text.find_first_of(" \\" + std::string(quotes)) == std::string::npos) return text;
-    // Quotes that the value does not contain come first, because shells read these as well.
-    std::vector<std::string> ways;
-    for (const bool has_any : {false, true})
-        for (const char quote : quotes)
-            if ((text.find(quote) != std::string::npos) == has_any)
-                ways.push_back(between_quotes(text, quote));
-    ways.push_back(text);
-    const auto is_read_as_it_is = [&](const std::string& word) {
-        Argument read;
-        return take_options(
-                   "--value " + word,
-                   [&](CLI::App& command) { add_option(command, "--value", read, "", ""); }) &&
-               read == text;
-    };
-    const auto way = std::find_if(ways.begin(), ways.end(), is_read_as_it_is);
-    // A backslash at the end would escape the closing quote, so a blank separates them.
-    return way != ways.end() ? *way : between_quotes(text + ' ', '"');
-}
-
-/// Returns the other options that draw the picture again, for its texts.
-std::string text_of(const RenderArguments& arguments, const simd::RenderOptions& options,
-                    const core::Settings& settings) {
-    std::string text;
-    if (*arguments.engine != "vector") text += " --engine " + *arguments.engine;
-    if (options.precision != core::Precision::exact) {
-        text += " --precision " + std::string(core::name_of(options.precision)) + " --tile " +
-                std::to_string(simd::tile_of(settings, options));
-        if (*arguments.engine == "vector")
-            text += " --isa " + std::string(simd::name_of(options.isa));
-    }
-    auto given = arguments.scene_arguments.given();
-    for (auto& each : arguments.frames.given())
-        given.push_back(std::move(each));
-    for (const auto& [name, value] : given) {
-        text += " " + name;
-        if (!value.empty()) text += " " + as_word(value);
-    }
-    return text;
+/// Returns the encoding and the texts of an image, which name the options that render it again.
+PictureOptions picture_options(const RenderArguments& arguments, const Rendered& rendered,
+                               int bits) {
+    PictureOptions options{
+        rendered.settings.transfer, bits, arguments.picture.encoding.dpi.value(), {}};
+    if (*arguments.scene != "-")
+        options.texts.emplace_back(
+            "Title", printable(std::filesystem::path(*arguments.scene).filename().string(), 4096));
+    options.texts.emplace_back("Software", "raylane " RAYLANE_VERSION);
+    options.texts.emplace_back("Comment", text_of(arguments.recorded(rendered)));
+    return options;
 }
 
 /// Throws BadInput unless a part is written as EXR with 32 bits: it must keep the floats of the
 /// whole picture.
-void require_fit(const std::optional<PicturePart>& part, const PictureChoice& picture,
-                 PictureFormat format) {
+void require_fit(const std::optional<ImagePart>& part, int bits, PictureFormat format) {
     if (!part) return;
     if (format != PictureFormat::exr)
         throw BadInput("--part", "", "goes with an output that ends in .exr");
-    if (picture.bits != 32) throw BadInput("--part", "", "goes with --bits 32");
+    if (bits != 32) throw BadInput("--part", "", "goes with --bits 32");
 }
 
 /// Returns the share of a film's pictures for this rank of a part. The ranks of a part take turns,
 /// as the parts do.
-FilmStrip::Share share_of(const Job& job, const PicturePart& part) {
+FilmStrip::Share share_of(const Job& job, const ImagePart& part) {
     return {part.number - 1 + part.count * static_cast<std::size_t>(job.rank()),
             part.count * static_cast<std::size_t>(job.size())};
 }
 
 int render(const RenderArguments& arguments) {
-    const Overrides overrides(arguments);
-    simd::RenderOptions options = options_of(arguments);
-    options.precision = precision_argument(*arguments.precision);
-    PictureChoice picture(arguments.picture);
-    const std::optional<PicturePart> part_asked = part_argument(arguments.part);
-    std::optional<PicturePart> part_of_tiles;
-    const LoadOptions load_options = arguments.scene_arguments.load_options(true);
+    simd::RenderOptions options = arguments.render_options();
+    const PictureArguments& picture = arguments.picture;
+    int bits = picture.encoding.bits.value_or(0);
+    const std::optional<ImagePart>& part_asked = arguments.part.value();
+    std::optional<ImagePart> part_of_tiles;
+    const LoadOptions load_options = arguments.scene_arguments.load_options();
     const ViewChange change = arguments.scene_arguments.view.change();
-    const auto settings_of = [&](const core::Settings& own) {
-        core::Settings settings = overrides.applied_to(own);
-        picture.apply_to(settings);
-        return settings;
-    };
     const Files files(arguments);
     const Verbosity asked = arguments.scene_arguments.verbosity.verbosity();
 
@@ -246,10 +190,9 @@ int render(const RenderArguments& arguments) {
     const auto write = [&](ResumableRendering& drawing, OutputFile& output,
                            const simd::Rendering& rendering, const core::Settings& settings,
                            const core::Settings& own, const std::string& fingerprint) {
+        // The images of a sequence may have different sizes.
         PictureOptions how =
-            picture.options(files.scene, settings, own, text_of(arguments, options, settings),
-                            // The pictures of a film may have different sizes.
-                            !strip || arguments.size);
+            picture_options(arguments, {settings, own, options, !strip || arguments.size}, bits);
         if (place) how.texts.emplace_back("Film", std::to_string(*place));
         if (part_of_tiles)
             how.texts.emplace_back("Part", part_of_tiles->text() + " of tiles of " +
@@ -259,19 +202,13 @@ int render(const RenderArguments& arguments) {
         std::string pixels = fingerprint_of(rendering.film);
         how.texts.emplace_back("Pixels", pixels);
         how.texts.emplace_back("Rays", RayTiers(rendering.counters).text());
-        drawing.write(output, rendering.film, how, picture.layers ? &rendering.layers : nullptr);
+        drawing.write(output, rendering.film, how,
+                      picture.layers.is_given() ? &rendering.layers : nullptr);
         return pixels;
-    };
-    const auto film = [&](int threads) {
-        std::optional<FilmStrip> asked_for =
-            film_strip_of(arguments.frames, arguments.scene_arguments, files.scene,
-                          arguments.output, threads, verbosity);
-        if (asked_for) asked_for->settings = settings_of;
-        return asked_for;
     };
     if (files.scene == "-") job.share_standard_input();
     job.together([&] {
-        if (!is_frame) strip = film(options.threads);
+        if (!is_frame) strip = film_strip_of(arguments, options.threads, verbosity);
         if (files.stats && strip)
             throw BadInput(
                 "--stats", "",
@@ -281,13 +218,13 @@ int render(const RenderArguments& arguments) {
         picture.require_fit(writable.format());
     });
     if (strip) {
-        strip->share = share_of(job, part_asked.value_or(PicturePart{1, 1}));
+        strip->share = share_of(job, part_asked.value_or(ImagePart{1, 1}));
         strip->draw = [&](const core::Scene& scene, std::size_t at, const std::string& name,
                           simd::Progress& progress) {
             place = at;
             OutputFile output(name, exr_of);
             output.be_durable(); // a resumed film takes existing files as complete
-            const core::Settings settings = settings_of(scene.settings());
+            const core::Settings settings = arguments.settings_of(scene.settings());
             picture.apply_to(options, settings);
             const std::string fingerprint = fingerprint_of(scene);
             ResumableRendering drawing = resumable(name, scene, settings, fingerprint);
@@ -302,7 +239,7 @@ int render(const RenderArguments& arguments) {
         return 0;
     }
     part_of_tiles = part_asked;
-    if (part_of_tiles && picture.bits == 0) picture.bits = 32;
+    if (part_of_tiles && bits == 0) bits = 32;
     std::optional<OutputFile> output;
     std::optional<AtomicFile> stats;
     std::optional<core::Scene> loaded;
@@ -312,7 +249,7 @@ int render(const RenderArguments& arguments) {
     job.together([&] {
         if (!job.is_first()) return;
         output.emplace(files.output, exr_of);
-        require_fit(part_of_tiles, picture, output->format());
+        require_fit(part_of_tiles, bits, output->format());
         picture.require_fit(output->format());
         if (files.stats) stats.emplace(*files.stats);
     });
@@ -320,12 +257,12 @@ int render(const RenderArguments& arguments) {
     if (is_frame) place = 0;
     loaded = load_together(job, files.scene, threads_to_load, [&](int threads) {
         if (!is_frame) return load_with_progress(files.scene, load_options, verbosity, threads);
-        Shot shot = first_shot(*film(threads));
+        Shot shot = first_shot(*film_strip_of(arguments, threads, verbosity));
         name = std::move(shot.name);
         return std::move(shot.scene);
     });
     job.together([&] {
-        settings = settings_of(loaded->settings());
+        settings = arguments.settings_of(loaded->settings());
         if (!is_frame) loaded = seen(*std::move(loaded), change, settings);
         // The number in the frame's file name is known only now.
         if (output && name != files.output) {
@@ -336,7 +273,9 @@ int render(const RenderArguments& arguments) {
         fingerprint = fingerprint_of(*loaded);
     });
     const core::Scene& scene = *loaded;
-    job.require_same(fingerprint + text_of(arguments, options, settings), "the scene");
+    job.require_same(fingerprint +
+                         text_of(arguments.recorded({settings, scene.settings(), options, true})),
+                     "the scene");
     const core::Region part =
         options.crop.value_or(core::Region{0, 0, settings.width, settings.height});
     if (output) output->reserve(part.x1 - part.x0, part.y1 - part.y0);
@@ -369,8 +308,8 @@ int render(const RenderArguments& arguments) {
     }
     drawing.end_if_signalled();
     if (verbosity == Verbosity::verbose)
-        std::fprintf(stderr, "%s engine, %s, %s precision, %d threads\n", arguments.engine->c_str(),
-                     arguments.isa.value_or(isa_in_use(*arguments.engine)).c_str(),
+        std::fprintf(stderr, "%s engine, %s, %s precision, %d threads\n",
+                     arguments.engine.text().c_str(), std::string(isa_in_use(options)).c_str(),
                      std::string(core::name_of(options.precision)).c_str(), options.threads);
     if (verbosity == Verbosity::verbose || (verbosity == Verbosity::normal && is_terminal()))
         std::fprintf(stderr, "%s: %d x %d pixels, %.8g samples each, in %s, %srays/s\n",
@@ -384,13 +323,15 @@ int render(const RenderArguments& arguments) {
 } // namespace
 
 Command add_render_command(CLI::App& app) {
-    CLI::App& command =
-        add_command(app, "render", "Render an image of a scene",
-                    "raylane render scenes/birthday.json -o birthday.png --size 1000x1000 "
-                    "--spp 16");
-    auto arguments = std::make_shared<RenderArguments>();
-    arguments->add_to(command);
-    return {&command, [arguments] { return render(*arguments); }, true};
+    Command command =
+        add_command<RenderArguments>(app,
+                                     {.name = "render",
+                                      .help = "Render an image of a scene",
+                                      .example = "raylane render scenes/birthday.json -o "
+                                                 "birthday.png --size 1000x1000 --spp 16"},
+                                     render);
+    command.by_ranks = true;
+    return command;
 }
 
 } // namespace raylane::scenes

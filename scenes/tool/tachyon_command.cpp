@@ -1,11 +1,13 @@
 #include "scenes/image/writer.hpp"
 #include "scenes/library/raylane/version.h"
-#include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/loading.hpp"
+#include "scenes/tool/options/files.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "simd/render.hpp"
 #include "simd/threads.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <functional>
@@ -54,7 +56,7 @@ Example: raylane tachyon vmdscene.dat -aasamples 12 -format TARGA -o vmdscene.tg
 
 /// The parsed command line of tachyon.
 struct TachyonArguments {
-    Argument scene;
+    std::optional<std::string> scene;
     std::string output = "outfile.tga";
     std::optional<PictureFormat> format;
     std::optional<std::pair<int, int>> size;
@@ -76,8 +78,8 @@ class TachyonOptions {
 
     /// Returns the next value of the current option.
     const std::string& value();
-    int whole(int least) { return whole_argument(option_, value(), least, most); }
-    float number(float largest) { return number_argument(option_, value(), 0.0F, largest); }
+    int whole(int least) { return scenes::whole(least, most).parse(option_, value()); }
+    float number(float largest) { return scenes::number(0.0F, largest).parse(option_, value()); }
 
     void add_shading_options();
     void add_output_options();
@@ -133,23 +135,23 @@ void TachyonOptions::add_shading_options() {
 }
 
 void TachyonOptions::add_output_options() {
-    options_["-o"] = [this] { arguments_.output = file_argument("-o", value()); };
+    options_["-o"] = [this] { arguments_.output = file_name().parse("-o", value()); };
     options_["-format"] = [this] {
-        arguments_.format = choice_argument<PictureFormat>(option_, value(),
-                                                           {{"TARGA", PictureFormat::tga},
-                                                            {"PNG", PictureFormat::png},
-                                                            {"BMP", PictureFormat::bmp},
-                                                            {"PPM", PictureFormat::ppm}});
+        arguments_.format = choice_named<PictureFormat>(option_, value(),
+                                                        {{"TARGA", PictureFormat::tga},
+                                                         {"PNG", PictureFormat::png},
+                                                         {"BMP", PictureFormat::bmp},
+                                                         {"PPM", PictureFormat::ppm}});
     };
     options_["-res"] = [this] {
-        const int width = whole_argument(option_, value(), 1, core::Settings::max_size);
-        const int height = whole_argument(option_, value(), 1, core::Settings::max_size);
-        arguments_.size =
-            size_argument(option_, std::to_string(width) + "x" + std::to_string(height));
+        const Values<int> side = scenes::whole(1, core::Settings::max_size);
+        const int width = side.parse(option_, value()), height = side.parse(option_, value());
+        const Values<std::pair<int, int>> size = image_size();
+        arguments_.size = size.parse(option_, size.text({width, height}));
     };
     options_["-aasamples"] = [this] { arguments_.samples = whole(0); };
     options_["-numthreads"] = [this] {
-        arguments_.threads = whole_argument(option_, value(), 1, simd::max_threads);
+        arguments_.threads = scenes::whole(1, simd::max_threads).parse(option_, value());
     };
     options_["-help"] = options_["--help"] =
         options_["-h"] = [this] { arguments_.wants_help = true; };
@@ -211,7 +213,7 @@ int draw(const std::vector<std::string>& words) {
     }
     if (!arguments.scene)
         throw BadInput("tachyon", "", "must be given a scene; see raylane tachyon -help");
-    const std::string& scene_name = file_argument("SCENE", *arguments.scene);
+    const std::string scene_name = file_name().parse("SCENE", *arguments.scene);
     require_other_than_scene("-o", arguments.output, scene_name);
     OutputFile output(arguments.output, format_of(arguments));
     for (const std::string& option : arguments.without_effect)

@@ -1,14 +1,12 @@
-#include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
 #include "scenes/tool/loading.hpp"
-#include "scenes/tool/output_name.hpp"
+#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/job.hpp"
 #include "scenes/tool/ranks/shared_scene.hpp"
 #include "scenes/tool/ranks/shared_work.hpp"
-#include "scenes/tool/render_arguments.hpp"
-#include "scenes/tool/scene_arguments.hpp"
 #include "scenes/tool/trace/ordered_output.hpp"
 #include "scenes/tool/trace/ray_file.hpp"
 #include "simd/render.hpp"
@@ -23,10 +21,23 @@ namespace raylane::scenes {
 
 namespace {
 
-struct TraceArguments {
-    Argument scene, rays, output, threads, precision = "exact";
-    bool occluded = false;
-    SceneArguments scene_arguments;
+struct TraceArguments : OptionTable {
+    Option<std::string> scene = {*this, "SCENE", file_argument(), any_scene};
+    Option<std::string> rays = {
+        *this, "RAYS", file_argument(),
+        "Rays, a NumPy file (.npy) of float32 or float64. Shape (n, 6): origins and "
+        "directions; (n, 8): t_min and t_max as well. - is standard input, which must be "
+        "a regular file."};
+    Option<std::string> output = {
+        *this, "-o,--output", file_name().otherwise("RAYS-hits.npy"),
+        "Hits, a NumPy file with a record per ray: t, normal, shape, entering and face."};
+    Flag occluded = {*this, "--occluded", flag(),
+                     "Write only whether each ray hits a shape, a bool per ray."};
+    Option<core::Precision> precision = {*this, "--precision",
+                                         precisions().initially(core::Precision::exact),
+                                         "Arithmetic of intersections, same as in render."};
+    ThreadsOption threads{*this};
+    SceneArguments scene_arguments{*this};
 };
 
 /// Answers the rays of a file, piece by piece.
@@ -161,13 +172,10 @@ void answer_all(const Answers& answers, Job& job, int threads, simd::Progress& p
 }
 
 int trace(const TraceArguments& arguments) {
-    const core::Precision precision = precision_argument(*arguments.precision);
-    int threads = threads_argument(arguments.threads);
+    int threads = arguments.threads.count();
     const LoadOptions load_options = arguments.scene_arguments.load_options();
-    const std::string scene_file = file_argument("SCENE", *arguments.scene);
-    const std::string ray_file = file_argument("RAYS", *arguments.rays);
-    const std::string output = arguments.output ? file_argument("--output", *arguments.output)
-                                                : default_output(ray_file, "-hits.npy");
+    const std::string &scene_file = *arguments.scene, &ray_file = *arguments.rays;
+    const std::string output = arguments.output.value_or(default_output(ray_file, "-hits.npy"));
     require_other_than_scene("--output", output, scene_file);
     require_other_file("--output", output, "RAYS", ray_file);
     if (ray_file == "-" && scene_file == "-")
@@ -192,7 +200,7 @@ int trace(const TraceArguments& arguments) {
         return load_with_progress(scene_file, load_options, verbosity, with);
     });
     job.together([&] {
-        answers.emplace(*scene, *rays, precision, arguments.occluded);
+        answers.emplace(*scene, *rays, *arguments.precision, arguments.occluded.is_given());
         fingerprint = fingerprint_of(*scene);
         if (file) file->write(npy_head(answers->type(), rays->count()));
     });
@@ -223,28 +231,14 @@ int trace(const TraceArguments& arguments) {
 } // namespace
 
 Command add_trace_command(CLI::App& app) {
-    CLI::App& command = add_command(app, "trace", "Intersect rays from a file with a scene",
-                                    "raylane trace scenes/birthday.json rays.npy -o hits.npy");
-    auto arguments = std::make_shared<TraceArguments>();
-    add_positional(command, "SCENE", arguments->scene,
-                   "Scene or atoms, in any format that render reads.");
-    add_positional(
-        command, "RAYS", arguments->rays,
-        "Rays, a NumPy file (.npy) of float32 or float64. Shape (n, 6): origins and directions; "
-        "(n, 8): t_min and t_max as well. - is standard input, which must be a regular file.");
-    add_option(command, "-o,--output", arguments->output,
-               "Hits, a NumPy file with a record per ray: t, normal, shape, entering and face. "
-               "Default: RAYS-hits.npy.",
-               "FILE");
-    add_flag(command, "--occluded", arguments->occluded,
-             "Write only whether each ray hits a shape, a bool per ray.");
-    add_option(command, "--precision", arguments->precision,
-               "Arithmetic of intersections, same as in render. Default: exact.",
-               "fast|robust|exact|double");
-    add_option(command, "--threads", arguments->threads,
-               "Number of threads. Default: all processors.", "N");
-    arguments->scene_arguments.add_to(command);
-    return {&command, [arguments] { return trace(*arguments); }, true};
+    Command command = add_command<TraceArguments>(
+        app,
+        {.name = "trace",
+         .help = "Intersect rays from a file with a scene",
+         .example = "raylane trace scenes/birthday.json rays.npy -o hits.npy"},
+        trace);
+    command.by_ranks = true;
+    return command;
 }
 
 } // namespace raylane::scenes

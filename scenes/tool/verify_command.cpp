@@ -3,16 +3,14 @@
 #include "scenes/image/png.hpp"
 #include "scenes/image/reader.hpp"
 #include "scenes/number.hpp"
-#include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/film_strip_arguments.hpp"
+#include "scenes/tool/image_texts.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/memory_file.hpp"
-#include "scenes/tool/picture_texts.hpp"
+#include "scenes/tool/options/render_options.hpp"
 #include "scenes/tool/progress_bar.hpp"
-#include "scenes/tool/ray_tiers.hpp"
-#include "scenes/tool/render_arguments.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +25,20 @@ namespace raylane::scenes {
 
 namespace {
 
-struct VerifyArguments {
-    Argument picture, scene, pixels = "1000", seed, threads;
-    bool whole = false;
-    VerbosityArguments verbosity;
+struct VerifyArguments : OptionTable {
+    Option<std::string> picture = {*this, "PICTURE", file_argument(),
+                                   "PNG or EXR rendered by raylane. It names its options."};
+    Option<std::string> scene = {*this, "SCENE", file_argument(),
+                                 "Scene that the image was rendered from."};
+    Option<int> pixels = {*this, "--pixels", scenes::whole(1, 100'000'000).initially(1000),
+                          "Number of pixels to render again."};
+    Option<int> seed = {*this, "--seed", scenes::whole(0, 2'147'483'647).otherwise("random"),
+                        "Random seed of the choice of pixels."};
+    Flag whole = {*this, "--whole", flag(),
+                  "Also render the whole image again, and compare the bits of its unrounded "
+                  "pixels."};
+    ThreadsOption threads{*this};
+    VerbosityArguments verbosity{*this};
 };
 
 /// Compares components of a picture with the expected ones.
@@ -98,25 +106,17 @@ struct Verdict {
 class Verifier {
   public:
     explicit Verifier(const VerifyArguments& arguments)
-        : verbosity_(arguments.verbosity.verbosity()),
-          count_(whole_argument("--pixels", *arguments.pixels, 1, 100'000'000)),
-          seed_(arguments.seed ? static_cast<unsigned>(
-                                     whole_argument("--seed", *arguments.seed, 0, 2'147'483'647))
-                               : std::random_device()()),
-          threads_(threads_argument(arguments.threads)),
-          name_(file_argument("PICTURE", *arguments.picture)), bytes_(InputFile(name_).read_all()),
-          image_(whole_picture(shown_name(), bytes_)),
-          render_(
-              arguments_of(image_.name, image_.texts, file_argument("SCENE", *arguments.scene))),
-          picture_(render_.picture),
+        : verbosity_(arguments.verbosity.verbosity()), count_(*arguments.pixels),
+          seed_(arguments.seed ? static_cast<unsigned>(*arguments.seed) : std::random_device()()),
+          threads_(arguments.threads.count()), name_(*arguments.picture),
+          bytes_(InputFile(name_).read_all()), image_(whole_picture(shown_name(), bytes_)),
+          render_(recorded_arguments(image_.name, image_.texts, *arguments.scene)),
           scene_(has_text(image_.texts, "Film") ? seen_scene_of_film() : seen_scene()) {
-        for (const simd::Isa each : simd::all_isas)
-            if (render_.isa && *render_.isa == simd::name_of(each)) said_isa_ = each;
         // Another instruction set gives the same pixels, but may give other numbers of rays.
-        if (!arguments.whole && said_isa_ && !simd::is_available(*said_isa_)) render_.isa.reset();
-        options_ = options_of(render_);
-        options_.precision = precision_argument(*render_.precision);
-        picture_.apply_to(options_, settings_);
+        const bool with_isa =
+            arguments.whole || (render_->isa && simd::is_available(*render_->isa));
+        options_ = render_->render_options(with_isa);
+        render_->picture.apply_to(options_, settings_);
         options_.threads = threads_;
         part_ = options_.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
         if (part_.x1 - part_.x0 != image_.width || part_.y1 - part_.y0 != image_.height)
@@ -131,7 +131,7 @@ class Verifier {
     std::optional<bool> options_are_the_same() const {
         if (!has_text(image_.texts, "Options")) return std::nullopt;
         simd::RenderOptions options = options_;
-        options.isa = said_isa_.value_or(options.isa);
+        options.isa = render_->isa.value_or(options.isa); // this processor may lack it
         return fingerprint_of_options(settings_, options) ==
                text_in(image_.name, image_.texts, "Options");
     }
@@ -239,23 +239,17 @@ class Verifier {
     std::string shown_name() const { return name_ == "-" ? "standard input" : name_; }
 
     core::Scene seen_scene() {
-        const LoadOptions load_options = render_.scene_arguments.load_options(true);
-        core::Scene scene = load_with_progress(*render_.scene, load_options, verbosity_, threads_);
-        settings_ = settings_of(scene.settings());
-        return seen(std::move(scene), render_.scene_arguments.view.change(), settings_);
-    }
-    core::Settings settings_of(const core::Settings& own) const {
-        core::Settings settings = Overrides(render_).applied_to(own);
-        picture_.apply_to(settings);
-        return settings;
+        const SceneArguments& how = render_->scene_arguments;
+        core::Scene scene =
+            load_with_progress(*render_->scene, how.load_options(), verbosity_, threads_);
+        settings_ = render_->settings_of(scene.settings());
+        return seen(std::move(scene), how.view.change(), settings_);
     }
 
     /// Returns the scene of one picture of a film.
     core::Scene seen_scene_of_film() {
         const std::optional<int> place = to_int(text_in(image_.name, image_.texts, "Film"));
-        std::optional<FilmStrip> strip =
-            film_strip_of(render_.frames, render_.scene_arguments, *render_.scene, std::nullopt,
-                          threads_, Verbosity::quiet);
+        std::optional<FilmStrip> strip = film_strip_of(*render_, threads_, Verbosity::quiet);
         if (!strip || !place || *place < 0)
             throw BadInput(
                 image_.name, "",
@@ -263,7 +257,6 @@ class Verifier {
         strip->only = static_cast<std::size_t>(*place);
         strip->overwrites = true;
         strip->name = [](std::size_t) { return std::string(); }; // nothing is written
-        strip->settings = [&](const core::Settings& own) { return settings_of(own); };
         std::optional<core::Scene> result;
         strip->draw = [&](const core::Scene& scene, std::size_t, const std::string&,
                           simd::Progress&) { result = scene; };
@@ -271,9 +264,9 @@ class Verifier {
         if (!result)
             throw BadInput(image_.name, "",
                            "is image " + std::to_string(std::size_t{1} + *place) +
-                               " of its sequence, but " + printable(*render_.scene, 4096) +
+                               " of its sequence, but " + printable(*render_->scene, 4096) +
                                " has fewer");
-        settings_ = settings_of(result->settings());
+        settings_ = render_->settings_of(result->settings());
         return *std::move(result);
     }
 
@@ -315,12 +308,10 @@ class Verifier {
     int threads_;
     std::string name_, bytes_; // of the picture
     Image image_;
-    RenderArguments render_;
-    PictureChoice picture_;
-    core::Settings settings_; // before scene_, whose initializer sets it
+    std::unique_ptr<RenderArguments> render_; // as the image records them
+    core::Settings settings_;                 // before scene_, whose initializer sets it
     core::Scene scene_;
     simd::RenderOptions options_;
-    std::optional<simd::Isa> said_isa_; // this processor may lack it
     core::Region part_{};
 };
 
@@ -376,26 +367,15 @@ int verify(const VerifyArguments& arguments) {
 } // namespace
 
 Command add_verify_command(CLI::App& app) {
-    CLI::App& command =
-        add_command(app, "verify", "Check an image by rendering random pixels again",
-                    "raylane verify birthday.png scenes/birthday.json",
-                    "Renders pixels by the scalar reference with exact numbers, or by the "
-                    "precision of the image if that is not exact.\nExit code 1: pixels, options or "
-                    "scene differ. A different scene ends the command at once.");
-    auto arguments = std::make_shared<VerifyArguments>();
-    add_positional(command, "PICTURE", arguments->picture,
-                   "PNG or EXR rendered by raylane. It names its options.");
-    add_positional(command, "SCENE", arguments->scene, "Scene that the image was rendered from.");
-    add_option(command, "--pixels", arguments->pixels,
-               "Number of pixels to render again. Default: 1000.", "N");
-    add_option(command, "--seed", arguments->seed,
-               "Random seed of the choice of pixels. Default: random.", "N");
-    add_flag(command, "--whole", arguments->whole,
-             "Also render the whole image again, and compare the bits of its unrounded pixels.");
-    add_option(command, "--threads", arguments->threads,
-               "Number of threads. Default: all processors.", "N");
-    arguments->verbosity.add_to(command);
-    return {&command, [arguments] { return verify(*arguments); }};
+    return add_command<VerifyArguments>(
+        app,
+        {.name = "verify",
+         .help = "Check an image by rendering random pixels again",
+         .example = "raylane verify birthday.png scenes/birthday.json",
+         .details = "Renders pixels by the scalar reference with exact numbers, or by the "
+                    "precision of the image if that is not exact.\nExit code 1: pixels, options "
+                    "or scene differ. A different scene ends the command at once."},
+        verify);
 }
 
 } // namespace raylane::scenes

@@ -3,7 +3,6 @@
 #include "scenes/errors.hpp"
 #include "scenes/image/exr.hpp"
 #include "scenes/tool/memory_file.hpp"
-#include "scenes/tool/picture_texts.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/ranked_tiles.hpp"
 
@@ -50,7 +49,7 @@ bool may_have_journal(const std::string& output) {
 ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
                                        const core::Scene& scene, const std::string& fingerprint,
                                        const core::Settings& settings, simd::RenderOptions options,
-                                       const std::optional<PicturePart>& part, Verbosity verbosity)
+                                       const std::optional<ImagePart>& part, Verbosity verbosity)
     : output_(output), scene_(scene), settings_(settings), options_(std::move(options)),
       grid_(simd::grid_of(settings, options_)), part_(part), verbosity_(verbosity) {
     if (!wanted || !may_have_journal(output)) return;

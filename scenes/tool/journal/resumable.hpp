@@ -1,11 +1,11 @@
 #pragma once
 
 #include "scenes/image/writer.hpp"
+#include "scenes/tool/image_texts.hpp"
 #include "scenes/tool/interrupt.hpp"
 #include "scenes/tool/journal/journal.hpp"
-#include "scenes/tool/picture_part.hpp"
+#include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/ranks/job.hpp"
-#include "scenes/tool/verbosity.hpp"
 #include "simd/render.hpp"
 
 #include <exception>
@@ -32,7 +32,7 @@ class ResumableRendering {
     /// not regular, or if `wanted` is false.
     ResumableRendering(const std::string& output, bool wanted, const core::Scene& scene,
                        const std::string& fingerprint, const core::Settings& settings,
-                       simd::RenderOptions options, const std::optional<PicturePart>& part,
+                       simd::RenderOptions options, const std::optional<ImagePart>& part,
                        Verbosity verbosity);
 
     /// Draws the picture, and reports a checkpoint that was found on standard error. Throws
@@ -67,7 +67,7 @@ class ResumableRendering {
     core::Settings settings_;
     simd::RenderOptions options_;
     simd::TileGrid grid_;
-    std::optional<PicturePart> part_;
+    std::optional<ImagePart> part_;
     Verbosity verbosity_;
     std::optional<StopOnSignal> stop_on_signal_;
     std::unique_ptr<Journal> journal_; // null: no checkpoint

@@ -2,11 +2,10 @@
 #include "core/scene/transfer.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/image/writer.hpp"
-#include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/loading.hpp"
-#include "scenes/tool/output_name.hpp"
-#include "scenes/tool/scene_arguments.hpp"
+#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/view/orbit.hpp"
 #include "scenes/tool/view/pick.hpp"
 #include "scenes/tool/view/picture_maker.hpp"
@@ -22,9 +21,15 @@ namespace raylane::scenes {
 
 namespace {
 
-struct ViewCommandArguments {
-    Argument scene, size, threads;
-    SceneArguments scene_arguments;
+struct ViewCommandArguments : OptionTable {
+    Option<std::string> scene = {
+        *this, "SCENE", file_argument(),
+        "Scene or atoms, in any format that render reads. The window reloads the file "
+        "when it changes."};
+    Option<std::pair<int, int>> size = {*this, "--size", image_size(),
+                                        "Window width and height in pixels."};
+    ThreadsOption threads{*this};
+    SceneArguments scene_arguments{*this};
 };
 
 /// Returns a name that no file has yet: "scene-1.png", "scene-2.png", ...
@@ -42,13 +47,12 @@ constexpr int longest_wait = 250; // milliseconds between checks whether the fil
 class Viewer {
   public:
     explicit Viewer(const ViewCommandArguments& arguments)
-        : arguments_(arguments), name_(file_argument("SCENE", *arguments.scene)),
+        : arguments_(arguments), name_(*arguments.scene),
           verbosity_(arguments.scene_arguments.verbosity.verbosity()),
-          threads_(threads_argument(arguments.threads)), written_(time_of_file()),
-          window_size_(size_of(arguments)) {
+          threads_(arguments.threads.count()), written_(time_of_file()) {
         core::Scene scene = loaded(legend_);
         settings_ = scene.settings();
-        if (window_size_) std::tie(settings_.width, settings_.height) = *window_size_;
+        if (arguments.size) std::tie(settings_.width, settings_.height) = *arguments.size;
         scene = seen(std::move(scene), arguments_.scene_arguments.view.change(), settings_);
         first_ = view_of(scene);
         orbit_.emplace(first_);
@@ -71,11 +75,6 @@ class Viewer {
     }
 
   private:
-    static std::optional<std::pair<int, int>> size_of(const ViewCommandArguments& arguments) {
-        if (!arguments.size) return std::nullopt;
-        return size_argument("--size", *arguments.size);
-    }
-
     std::string title() const { return printable(name_, 200) + " - raylane"; }
 
     core::Scene loaded(Legend& legend) const {
@@ -196,7 +195,6 @@ class Viewer {
     Verbosity verbosity_;
     int threads_;
     std::filesystem::file_time_type written_;
-    std::optional<std::pair<int, int>> window_size_;
     Legend legend_;
     core::Settings settings_;
     core::View first_;
@@ -209,24 +207,18 @@ class Viewer {
 } // namespace
 
 Command add_view_command(CLI::App& app) {
-    CLI::App& command =
-        add_command(app, "view", "Show a scene in a window", "raylane view scenes/birthday.json",
-                    "Mouse: drag to orbit, drag with shift to pan, turn the wheel to come closer, "
+    return add_command<ViewCommandArguments>(
+        app,
+        {.name = "view",
+         .help = "Show a scene in a window",
+         .example = "raylane view scenes/birthday.json",
+         .details = "Mouse: drag to orbit, drag with shift to pan, turn the wheel to come closer, "
                     "click to print the shape under the pointer.\nKeys: s saves the image, c "
-                    "prints the camera, r resets it, q quits.");
-    auto arguments = std::make_shared<ViewCommandArguments>();
-    add_positional(command, "SCENE", arguments->scene,
-                   "Scene or atoms, in any format that render reads. The window reloads the file "
-                   "when it changes.");
-    add_option(command, "--size", arguments->size,
-               "Window width and height in pixels. Default: as in the scene.", "WxH");
-    add_option(command, "--threads", arguments->threads,
-               "Number of threads. Default: all processors.", "N");
-    arguments->scene_arguments.add_to(command);
-    return {&command, [arguments] {
-                Viewer(*arguments).run();
-                return 0;
-            }};
+                    "prints the camera, r resets it, q quits."},
+        [](const ViewCommandArguments& arguments) {
+            Viewer(arguments).run();
+            return 0;
+        });
 }
 
 } // namespace raylane::scenes

@@ -533,8 +533,9 @@ TEST_CASE("images without valid texts give an error of one line") {
     };
     with_comment("made by hand");
     refused("b.png", "b.png: has a Comment that is not a list of options of render");
-    for (const char* comment : {"--bogus", "--spp 4 --bogus", "--spp 4 --bogus=3", "--spp 4 -z",
-                                "--spp 4 other.json", "--bogus 3", "--spp 4 --spp 4"}) {
+    for (const char* comment :
+         {"--bogus", "--spp 4 --bogus", "--spp 4 --bogus=3", "--spp 4 -z", "--spp 4 other.json",
+          "--bogus 3", "--spp 4 --spp 4", "--spp 4 --stats a.json"}) {
         with_comment(comment);
         refused("b.png", "b.png: has a Comment that is not a list of options of render");
     }

@@ -1,15 +1,14 @@
-#include "scenes/tool/view_arguments.hpp"
+#include "scenes/tool/options/scene_options.hpp"
 
 #include "core/scene/field_of_view.hpp"
-#include "scenes/tool/arguments.hpp"
+#include "scenes/number.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace raylane::scenes {
 
 namespace {
-
-constexpr const char* camera_group = "Camera";
 
 /// Parses a direction such as "1,-1,-0.5". Returns nothing if it is malformed or 0.
 std::optional<core::Vec3f> direction_in(const std::string& text) {
@@ -23,36 +22,6 @@ std::optional<core::Vec3f> direction_in(const std::string& text) {
     }
     if (direction == core::Vec3f(0.0F)) return std::nullopt;
     return direction;
-}
-
-core::Vec3f up_argument(const std::string& text) {
-    constexpr std::pair<const char*, core::Vec3f> axes[] = {{"x", {1, 0, 0}},   {"y", {0, 1, 0}},
-                                                            {"z", {0, 0, 1}},   {"-x", {-1, 0, 0}},
-                                                            {"-y", {0, -1, 0}}, {"-z", {0, 0, -1}}};
-    for (const auto& [name, axis] : axes)
-        if (text == name) return axis;
-    const std::optional<core::Vec3f> direction = direction_in(text);
-    if (!direction)
-        throw BadInput("--up", "",
-                       "must be x, y, z, -x, -y or -z, or a direction such as 0,1,1, got \"" +
-                           printable(text) + "\"");
-    return *direction;
-}
-
-/// Parses the name of a view, or a direction that the camera looks in, such as "1,-1,-0.5".
-core::NamedView view_argument(const std::string& text) {
-    std::vector<std::string_view> names;
-    for (const core::NamedView& view : core::named_views()) {
-        names.push_back(view.name);
-        if (text == view.name) return view;
-    }
-    const std::optional<core::Vec3f> direction = direction_in(text);
-    if (!direction)
-        throw BadInput("--view", "",
-                       "must be " + alternatives({names.begin(), names.end()}) +
-                           ", or a direction such as 1,-1,-0.5, got \"" + printable(text) + "\"" +
-                           suggestion(text, names));
-    return {"", *direction, core::upright(*direction)};
 }
 
 /// Makes the image `zoom` times as large around the point that the camera looks at.
@@ -125,35 +94,83 @@ core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settin
     }
 }
 
-void ViewArguments::add_to(CLI::App& command) {
-    const auto add = [&](const char* name, Argument& value, const char* help, const char* type) {
-        add_option(command, name, value, help, type)->group(camera_group);
-    };
-    add("--view", view,
-        "Frame all bounded shapes from front, back, left, right, top, bottom, x, y, z or corner, "
-        "or looking in a direction such as 1,-1,-0.5. Default: as in the scene; front for atoms.",
-        "WAY");
-    add("--up", up,
-        "Upward direction of the image: x, y, z, -x, -y or -z, or a direction such as 0,1,1. "
-        "Default: as in the view or the scene.",
-        "WAY");
-    add("--zoom", zoom, "Magnification, 0.01 to 1000. Default: 1.", "TIMES");
-    add_flag(command, "--orthographic", orthographic, "Use an orthographic projection.");
-    command.get_option("--orthographic")->group(camera_group);
-    add("--depth-cue", depth_cue,
-        "Share of the background in the colour of the farthest shapes, 0 to 0.99. Default: as in "
-        "the scene; 0.3 for atoms.",
-        "SHARE");
+Values<core::NamedView> views() {
+    return {"WAY", "", [](const std::string& option, const std::string& text) -> core::NamedView {
+                std::vector<std::string_view> names;
+                for (const core::NamedView& view : core::named_views()) {
+                    names.push_back(view.name);
+                    if (text == view.name) return view;
+                }
+                const std::optional<core::Vec3f> direction = direction_in(text);
+                if (!direction)
+                    throw BadInput(option, "",
+                                   "must be " + alternatives({names.begin(), names.end()}) +
+                                       ", or a direction such as 1,-1,-0.5, got \"" +
+                                       printable(text) + "\"" + suggestion(text, names));
+                return {"", *direction, core::upright(*direction)};
+            }};
 }
 
-ViewChange ViewArguments::change() const {
-    ViewChange change;
-    if (view) change.way = view_argument(*view);
-    if (up) change.up = up_argument(*up);
-    if (zoom) change.zoom = number_argument("--zoom", *zoom, 0.01F, 1000.0F);
-    if (depth_cue) change.depth_cue = number_argument("--depth-cue", *depth_cue, 0.0F, 0.99F);
-    change.orthographic = orthographic;
-    return change;
+Values<core::Vec3f> upward_directions() {
+    return {"WAY", "", [](const std::string& option, const std::string& text) {
+                constexpr std::pair<const char*, core::Vec3f> axes[] = {
+                    {"x", {1, 0, 0}},   {"y", {0, 1, 0}},   {"z", {0, 0, 1}},
+                    {"-x", {-1, 0, 0}}, {"-y", {0, -1, 0}}, {"-z", {0, 0, -1}}};
+                for (const auto& [name, axis] : axes)
+                    if (text == name) return axis;
+                const std::optional<core::Vec3f> direction = direction_in(text);
+                if (!direction)
+                    refuse(option, "x, y, z, -x, -y or -z, or a direction such as 0,1,1", text);
+                return *direction;
+            }};
+}
+
+Values<float> opacities() {
+    return {"A", "above 0 and up to 1", [](const std::string& option, const std::string& text) {
+                const float value = to_float(text).value_or(0.0F);
+                if (!(value > 0.0F && value <= 1.0F)) refuse(option, "above 0 and at most 1", text);
+                return value;
+            }};
+}
+
+Values<std::array<int, 3>> repetitions() {
+    return {"AxBxC", "", [](const std::string& option, const std::string& text) {
+                std::array<int, 3> result{};
+                const std::vector<std::string_view> parts = parts_of(text, 'x');
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const std::optional<int> number =
+                        parts.size() == 3 ? to_int(parts[axis]) : std::nullopt;
+                    if (!number || *number < 1 || *number > 1000)
+                        refuse(option,
+                               "the number of cells along each edge, from 1 to 1000, such as "
+                               "2x2x1",
+                               text);
+                    result[axis] = *number;
+                }
+                return result;
+            }};
+}
+
+Drawing DrawingArguments::drawing() const {
+    Drawing drawing;
+    // With ellipsoids, atoms without displacements are balls.
+    drawing.style = style.value_or(ellipsoids ? Style::balls : drawing.style);
+    drawing.color = color.value_or(drawing.color);
+    drawing.select = select.value_or(drawing.select);
+    drawing.opacity = opacity.value_or(drawing.opacity);
+    drawing.repeat = repeat.value_or(drawing.repeat);
+    drawing.show_cell = cell.is_given();
+    drawing.ellipsoids = ellipsoids.is_given();
+    return drawing;
+}
+
+LoadOptions SceneArguments::load_options() const {
+    LoadOptions options;
+    options.drawing = drawing.drawing();
+    options.atom_style = drawing.atom_style.value_or("");
+    options.option_for_atoms = drawing.first_given();
+    options.parameters = parameters.values().front();
+    return options;
 }
 
 } // namespace raylane::scenes

@@ -1,0 +1,198 @@
+#include "scenes/tool/options/option.hpp"
+
+#include "scenes/number.hpp"
+#include "scenes/structure/drawing.hpp"
+#include "simd/threads.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace raylane::scenes {
+
+AnyOption::AnyOption(OptionTable& table, std::string names, std::string help)
+    : names_(std::move(names)), group_(table.group()), help_(std::move(help)) {
+    table.add(*this);
+}
+
+std::string AnyOption::name() const {
+    const std::size_t start = names_.find("--");
+    const std::string name = start == std::string::npos ? names_ : names_.substr(start);
+    return name.substr(0, name.find(','));
+}
+
+std::string AnyOption::help() const {
+    const OptionProperties& of = properties();
+    std::string text = help_;
+    if (!of.range.empty())
+        text += " Range: " + of.range + (of.unit.empty() ? "" : " " + of.unit) + ".";
+    if (!of.for_atoms.empty())
+        text += " Default for atoms: " + of.for_atoms + "; for scenes: " + of.standard + ".";
+    else if (!of.standard.empty())
+        text += " Default: " + of.standard + ".";
+    return text;
+}
+
+std::vector<std::string> AnyOption::recorded(const Rendered&) const {
+    return properties().is_recorded ? texts_ : std::vector<std::string>();
+}
+
+void OptionTable::add(AnyOption& option) {
+    options_.push_back(&option);
+    if (whole_ != nullptr) whole_->add(option);
+}
+
+void OptionTable::parse() {
+    for (AnyOption* option : options_)
+        option->parse();
+    const auto is_given = [&](const std::string& name) {
+        return std::any_of(options_.begin(), options_.end(), [&](const AnyOption* option) {
+            return option->name() == name && option->is_given();
+        });
+    };
+    for (const AnyOption* option : options_)
+        for (const std::string& other : option->properties().excluded)
+            if (option->is_given() && is_given(other))
+                throw BadInput(option->name(), "", "goes without " + other);
+}
+
+void OptionTable::apply_to(core::Settings& settings) const {
+    for (const AnyOption* option : options_)
+        option->apply_to(settings);
+}
+
+std::vector<std::pair<std::string, std::string>>
+OptionTable::recorded(const Rendered& rendered) const {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const AnyOption* option : options_)
+        for (std::string& value : option->recorded(rendered))
+            all.emplace_back(option->name(), std::move(value));
+    return all;
+}
+
+std::string OptionTable::first_given() const {
+    for (const AnyOption* option : options_)
+        if (option->is_given()) return option->name();
+    return "";
+}
+
+ThreadsOption::ThreadsOption(OptionTable& table)
+    : Option<int>(table, "--threads", whole(1, simd::max_threads).otherwise("all processors"),
+                  "Number of threads.") {}
+
+int ThreadsOption::count() const {
+    return value() ? **this : simd::default_threads();
+}
+
+void refuse(const std::string& option, const std::string& must, const std::string& got) {
+    throw BadInput(option, "", "must be " + must + ", got \"" + printable(got) + "\"");
+}
+
+std::vector<std::string_view> parts_of(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    while (true) {
+        const std::size_t end = text.find(separator);
+        parts.push_back(text.substr(0, end));
+        if (end == std::string_view::npos) return parts;
+        text.remove_prefix(end + 1);
+    }
+}
+
+Values<bool> flag() {
+    return {"", "", [](const auto&, const auto&) { return true; }};
+}
+
+Values<int> whole(int least, int most) {
+    const std::string range = std::to_string(least) + " to " + std::to_string(most);
+    return {"N", range,
+            [=](const std::string& option, const std::string& text) {
+                const std::optional<int> value = to_int(text);
+                if (!value || *value < least || *value > most)
+                    refuse(option,
+                           "a whole number from " + std::to_string(least) + " to " +
+                               std::to_string(most),
+                           text);
+                return *value;
+            },
+            [](const int& value) { return std::to_string(value); }};
+}
+
+Values<int> square_of(int most_root) {
+    const std::string most = std::to_string(most_root * most_root);
+    return {"N", "1 to " + most,
+            [=](const std::string& option, const std::string& text) {
+                const int value = to_int(text).value_or(0);
+                const auto root = static_cast<int>(std::lround(std::sqrt(std::max(value, 0))));
+                if (root < 1 || root > most_root || root * root != value)
+                    refuse(option, "a square number from 1 to " + most + ", such as 1, 4, 9 or 16",
+                           text);
+                return root;
+            },
+            [](const int& root) { return std::to_string(root * root); }};
+}
+
+Values<float> number(float least, float most, std::string type) {
+    const bool is_open = most == std::numeric_limits<float>::max();
+    return {std::move(type), to_text(least) + (is_open ? " or more" : " to " + to_text(most)),
+            [=](const std::string& option, const std::string& text) {
+                const std::optional<float> value = to_float(text);
+                if (!value || *value < least || *value > most)
+                    refuse(option, "a number from " + to_text(least) + " to " + to_text(most),
+                           text);
+                return *value;
+            },
+            [](const float& value) { return to_text(value); }};
+}
+
+Values<std::string> word(std::string type) {
+    return {std::move(type), "", [](const std::string&, const std::string& text) { return text; }};
+}
+
+Values<std::string> file_name(std::string type) {
+    return {std::move(type), "", [](const std::string& option, const std::string& text) {
+                if (text.empty()) refuse(option, "the name of a file", text);
+                return text;
+            }};
+}
+
+Values<std::string> file_argument() {
+    return file_name("").required();
+}
+
+Values<std::pair<int, int>> image_size() {
+    const auto parse = [](const std::string& option, const std::string& text) {
+        constexpr int most = core::Settings::max_size;
+        const std::size_t x = text.find_first_of("xX");
+        std::optional<int> width, height;
+        if (x != std::string::npos) {
+            width = to_int(std::string_view(text).substr(0, x));
+            height = to_int(std::string_view(text).substr(x + 1));
+        }
+        if (!width || !height || *width < 1 || *height < 1 || *width > most || *height > most)
+            refuse(option,
+                   "WIDTHxHEIGHT in pixels, each from 1 to " + std::to_string(most) +
+                       ", such as 640x480",
+                   text);
+        if (std::int64_t{*width} * *height > core::Settings::max_pixels)
+            refuse(option,
+                   "at most " + std::to_string(core::Settings::max_pixels) + " pixels in all",
+                   text);
+        return std::pair{*width, *height};
+    };
+    const auto text_of = [](const std::pair<int, int>& size) {
+        return std::to_string(size.first) + "x" + std::to_string(size.second);
+    };
+    const Drawing drawing;
+    return Values<std::pair<int, int>>("WxH", "", parse, text_of)
+        .otherwise(as_in_file, text_of({drawing.width, drawing.height}));
+}
+
+Values<core::Precision> precisions() {
+    std::vector<std::pair<std::string_view, core::Precision>> choices;
+    for (const core::Precision precision : core::all_precisions)
+        choices.emplace_back(core::name_of(precision), precision);
+    return choice(choices);
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,172 @@
+#include "scenes/tool/options/render_options.hpp"
+
+#include "core/scene/transfer.hpp"
+#include "scenes/image/exr.hpp"
+#include "scenes/number.hpp"
+#include "scenes/tool/options/command_line.hpp"
+
+#include <charconv>
+#include <cstdio>
+#include <tuple>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// Returns a colour as #rrggbb.
+std::string text_of(const core::Color& color) {
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", core::encode(color.x, core::Transfer::srgb),
+                  core::encode(color.y, core::Transfer::srgb),
+                  core::encode(color.z, core::Transfer::srgb));
+    return text;
+}
+
+/// Throws BadInput unless this processor supports the instruction set.
+void require_available(simd::Isa isa) {
+    if (simd::is_available(isa)) return;
+    std::string available;
+    for (const simd::Isa other : simd::all_isas)
+        if (simd::is_available(other))
+            available += (available.empty() ? "" : ", ") + std::string(simd::name_of(other));
+    throw BadInput(
+        "--isa", "",
+        (simd::is_built(isa) ? "this processor does not support " : "raylane was built without ") +
+            std::string(simd::name_of(isa)) + "; available: " + available);
+}
+
+} // namespace
+
+Values<core::Region> crops() {
+    const auto parse = [](const std::string& option, const std::string& text) {
+        std::optional<int> numbers[4];
+        std::string_view rest = text;
+        for (int i = 0; i < 4; ++i) {
+            const std::size_t end = i < 3 ? rest.find(i == 2 ? 'x' : ',') : rest.size();
+            if (end == std::string_view::npos) break;
+            numbers[i] = to_int(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+        }
+        const auto is_within = [](const std::optional<int>& number, int least) {
+            return number && *number >= least && *number <= core::Settings::max_size;
+        };
+        if (!is_within(numbers[0], 0) || !is_within(numbers[1], 0) || !is_within(numbers[2], 1) ||
+            !is_within(numbers[3], 1))
+            refuse(option,
+                   "X,Y,WIDTHxHEIGHT in pixels from the upper left corner, such as "
+                   "100,50,320x240",
+                   text);
+        return core::Region{*numbers[0], *numbers[1], *numbers[0] + *numbers[2],
+                            *numbers[1] + *numbers[3]};
+    };
+    return {"X,Y,WxH", "", parse};
+}
+
+Values<core::Color> colors() {
+    const auto parse = [](const std::string& option, const std::string& text) {
+        std::uint32_t code = 0;
+        const char* const end = text.data() + text.size();
+        if (text.size() != 7 || text[0] != '#' ||
+            std::from_chars(text.data() + 1, end, code, 16).ptr != end)
+            refuse(option, "#rrggbb, such as #204060", text);
+        const auto channel = [&](int shift) {
+            return core::decode_srgb(static_cast<std::uint8_t>(code >> shift & 0xFF));
+        };
+        return core::Color{channel(16), channel(8), channel(0)};
+    };
+    return {"#RRGGBB", "", parse, [](const core::Color& color) { return text_of(color); }};
+}
+
+Values<ImagePart> image_parts() {
+    return {"K/N", "", [](const std::string& option, const std::string& text) {
+                const std::optional<ImagePart> part = image_part_of(text);
+                if (!part) refuse(option, "K/N, from 1/N to N/N, such as 3/16", text);
+                return *part;
+            }};
+}
+
+Values<simd::Isa> instruction_sets() {
+    std::vector<std::pair<std::string_view, simd::Isa>> choices;
+    for (const simd::Isa isa : simd::all_isas)
+        choices.emplace_back(simd::name_of(isa), isa);
+    return choice(choices);
+}
+
+void require_writable(const std::string& option, PictureFormat format) {
+    if (format == PictureFormat::exr && !has_exr())
+        throw BadInput(option, "",
+                       "must be .png, .hdr or .pfm: raylane was built without libopenexr-dev");
+}
+
+void EncodingArguments::require_fit(PictureFormat format) const {
+    const bool is_png = format == PictureFormat::png, is_exr = format == PictureFormat::exr;
+    for (const AnyOption* option : options())
+        if (option->is_given() && !is_png && !is_exr)
+            throw BadInput(option->name(), "", "goes with PNG or EXR");
+    if (bits && *bits == 32 && is_png) refuse("--bits", "8 or 16 in PNG", "32");
+    if (bits && *bits == 8 && is_exr) refuse("--bits", "16 or 32 in EXR", "8");
+}
+
+void PictureArguments::require_fit(PictureFormat format) const {
+    const bool is_png = format == PictureFormat::png, is_exr = format == PictureFormat::exr;
+    require_writable("--output", format);
+    if (layers && !is_exr) throw BadInput("--layers", "", "goes with an output that ends in .exr");
+    if (alpha && !is_png && !is_exr) throw BadInput("--alpha", "", "goes with PNG or EXR");
+    encoding.require_fit(format);
+}
+
+void PictureArguments::apply_to(simd::RenderOptions& options,
+                                const core::Settings& settings) const {
+    if (crop && (crop->x1 > settings.width || crop->y1 > settings.height))
+        throw BadInput("--crop", "",
+                       "must lie in the image of " + std::to_string(settings.width) + " x " +
+                           std::to_string(settings.height) + " pixels, got \"" +
+                           crop.texts().front() + "\"");
+    options.crop = crop.value();
+    options.layers = layers.is_given();
+}
+
+RenderArguments::RenderArguments() = default;
+
+core::Settings RenderArguments::settings_of(const core::Settings& own) const {
+    core::Settings settings = own;
+    apply_to(settings);
+    if (size) std::tie(settings.width, settings.height) = *size;
+    if (samples || draft) settings.quality = 0.0F;
+    if (draft) settings.grid = 1;
+    if (draft) settings.light_samples = core::Settings::hard_light;
+    if (print) settings.quality = 50.0F;
+    if (picture.alpha) settings.alpha = true;
+    if (settings.outline.any() || picture.outline) return settings;
+    for (const AnyOption* option : {static_cast<const AnyOption*>(&picture.outline_color),
+                                    static_cast<const AnyOption*>(&picture.outline_creases)})
+        if (option->is_given()) throw BadInput(option->name(), "", "goes with --outline");
+    return settings;
+}
+
+simd::RenderOptions RenderArguments::render_options(bool with_isa) const {
+    simd::RenderOptions options;
+    options.engine = *engine;
+    options.precision = *precision;
+    if (with_isa && isa) {
+        simd::narrowest_isa(); // throws if this processor supports no ISA that was built
+        if (*engine != simd::Engine::vector)
+            throw BadInput("--isa", "", "goes with --engine vector");
+        require_available(*isa);
+        options.isa = *isa;
+    }
+    options.tile = tile.value_or(options.tile);
+    options.threads = threads.count();
+    return options;
+}
+
+std::unique_ptr<RenderArguments>
+recorded_arguments(const std::string& image, const ImageTexts& texts, const std::string& scene) {
+    auto arguments = std::make_unique<RenderArguments>();
+    arguments->scene.give({scene});
+    if (!take_recorded(text_in(image, texts, "Comment"), *arguments))
+        throw BadInput(image, "", "has a Comment that is not a list of options of render");
+    return arguments;
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,228 @@
+#pragma once
+
+#include "scenes/image/writer.hpp"
+#include "scenes/tool/image_texts.hpp"
+#include "scenes/tool/options/scene_options.hpp"
+#include "simd/render.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+/// Options for rendering images.
+namespace raylane::scenes {
+
+Values<core::Region> crops();
+Values<core::Color> colors();
+Values<ImagePart> image_parts();
+Values<simd::Isa> instruction_sets();
+
+/// Returns true for images that depend on tiles and instruction sets.
+inline bool is_inexact(const Rendered& rendered) {
+    return rendered.options.precision != core::Precision::exact;
+}
+
+/// Throws BadInput with the option's name for OpenEXR if raylane was built without it.
+void require_writable(const std::string& option, PictureFormat format);
+
+/// Options for the encoding of an image's file.
+struct EncodingArguments : OptionTable {
+    EncodingArguments(OptionTable& whole, std::string default_bits)
+        : OptionTable(whole, whole.group()),
+          bits(*this, "--bits",
+               choice<int>({{"8", 8}, {"16", 16}, {"32", 32}}).otherwise(std::move(default_bits)),
+               "Bits per channel: 8 or 16 (PNG), 16 (half) or 32 (float) (EXR).") {}
+
+    /// Throws BadInput for options that the format does not support.
+    void require_fit(PictureFormat format) const;
+
+    Option<int> bits;
+    Option<float> dpi = {*this, "--dpi",
+                         number(1.0F, 10000.0F, "N").in("pixels per inch").otherwise("none"),
+                         "Print resolution stored in PNG or EXR."};
+};
+
+/// Options for the region of an image, its channels, and the lines over it.
+struct PictureArguments : OptionTable {
+    explicit PictureArguments(OptionTable& whole) : OptionTable(whole, "Images") {}
+
+    /// Throws BadInput for options that the output's format does not support.
+    void require_fit(PictureFormat format) const;
+    /// Sets crop and layers. Throws BadInput if the crop is not within the image.
+    void apply_to(simd::RenderOptions& options, const core::Settings& settings) const;
+
+    Option<core::Region> crop = {
+        *this, "--crop", crops().recorded(),
+        "Render only this rectangle: its upper left corner and its size, in pixels of "
+        "the whole image."};
+    EncodingArguments encoding{*this, "8 (PNG), 16 (EXR)"};
+    Flag layers = {*this, "--layers", flag(),
+                   "Add AOVs of the first surface at the middle of each pixel to an EXR: Z "
+                   "(distance along the ray), N.X, N.Y, N.Z, id.shape, id.material and "
+                   "samples (number of samples)."};
+    Flag alpha = {*this, "--alpha", flag().recorded(),
+                  "Omit the background, for compositing. The alpha of a PNG or EXR is the "
+                  "covered share of each pixel."};
+    Option<float> outline = {
+        *this, "--outline",
+        number(0.0F, core::Outline::max_width, "WIDTH").in("pixels").replacing_rarely([
+        ](auto& settings) -> auto& { return settings.outline.width; }),
+        "Draw outlines of this width where one surface hides another; 0 for none."};
+    Option<core::Color> outline_color = {
+        *this, "--outline-color",
+        colors().replacing(
+            [](auto& settings) -> auto& { return settings.outline.color; },
+            // The colour of a scene may lie between two codes.
+            [](const Rendered& of) {
+                return of.settings.outline.any() &&
+                       of.settings.outline.color != of.own.outline.color;
+            }),
+        "Colour of the outlines."};
+    Option<float> outline_creases = {
+        *this, "--outline-creases",
+        number(0.0F, 180.0F, "DEGREES")
+            .replacing(
+                [](auto& settings) -> auto& { return settings.outline.creases; },
+                [](const Rendered& of) {
+                    return of.settings.outline.any() &&
+                           of.settings.outline.creases != of.own.outline.creases;
+                }),
+        "Draw outlines also between materials and where surfaces bend by more than "
+        "DEGREES; 180 for none of these."};
+};
+
+/// Options of render.
+struct RenderArguments : OptionTable {
+    RenderArguments();
+
+    /// Returns the settings of a scene with the changes that the options request. Throws BadInput
+    /// for details of an outline without a width.
+    core::Settings settings_of(const core::Settings& own) const;
+    /// Returns engine, instruction set, precision, tile size and threads. `with_isa`: whether this
+    /// processor must support --isa. Throws BadInput.
+    simd::RenderOptions render_options(bool with_isa = true) const;
+
+    Option<std::string> scene = {
+        *this, "SCENE", file_argument(),
+        "Scene (JSON, NFF, POV-Ray, Tachyon, or .rl from build) or atoms (PDB, mmCIF, "
+        "CIF, XYZ, GRO, LAMMPS), optionally gzipped; - is standard input."};
+    Option<std::string> output = {
+        *this, "-o,--output",
+        file_name().otherwise("the scene's name with .png, in the current folder"),
+        "Image, .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm; - writes a PNG to standard "
+        "output."};
+    Option<std::pair<int, int>> size = {
+        *this, "--size",
+        image_size().recorded(
+            [](const Rendered& of) {
+                return std::pair{of.settings.width, of.settings.height};
+            },
+            [](const Rendered& of) { return of.names_size; }),
+        "Image width and height in pixels."};
+    Option<int> samples = {
+        *this, "--spp",
+        square_of(core::Settings::max_grid)
+            .replacing(&core::Settings::grid,
+                       [](const Rendered& of) { return of.settings.quality == 0.0F; })
+            .otherwise(as_in_file, "see --quality"),
+        "Samples per pixel, a square number."};
+    Option<float> quality = {
+        *this, "--quality",
+        number(10.0F, 80.0F, "DB")
+            .in("dB")
+            .replacing(&core::Settings::quality,
+                       [](const Rendered& of) { return of.settings.quality != 0.0F; })
+            .otherwise(as_in_file, "46, or 40 for spheres and points")
+            .without({"--spp"}),
+        "Target PSNR against a converged image, instead of --spp; 40 suits print."};
+    Option<core::PixelFilter> filter = {
+        *this, "--filter",
+        choice<core::PixelFilter>({{"box", core::PixelFilter::box},
+                                   {"gaussian", core::PixelFilter::gaussian},
+                                   {"blackman-harris", core::PixelFilter::blackman_harris}})
+            .replacing(&core::Settings::filter),
+        "Pixel filter: box (the square of the pixel), or the smoother gaussian or "
+        "blackman-harris (radius 1.5 pixels)."};
+    Option<int> light_samples = {
+        *this, "--light-samples",
+        whole(core::Settings::hard_light, core::Settings::max_light_samples)
+            .replacing_rarely(&core::Settings::light_samples),
+        "Shadow rays to each area or sky light, from each shaded point. 0: 4 with one "
+        "sample per pixel, 1 with more. -1: hard shadows, with one ray to the centre of "
+        "each light, and an unshadowed sky."};
+    Flag draft = {*this, "--draft",
+                  flag().without({"--print", "--spp", "--quality", "--light-samples"}),
+                  "Fast preview, same as --spp 1 --light-samples -1."};
+    Flag print = {*this, "--print", flag().without({"--spp", "--quality"}),
+                  "Print quality, without grain at 300 dpi, same as --quality 50."};
+    Option<int> max_depth = {
+        *this, "--max-depth",
+        whole(0, core::Settings::depth_limit).replacing(&core::Settings::max_depth),
+        "Maximum number of reflections and refractions along a path."};
+    Option<int> max_see_through = {
+        *this, "--max-see-through",
+        whole(1, core::Settings::see_through_limit)
+            .replacing_rarely(&core::Settings::max_see_through)
+            .otherwise(as_in_file, "all"),
+        "Maximum number of transparent surfaces shown one behind the other; further ones "
+        "are omitted."};
+    Option<float> min_weight = {*this, "--min-weight",
+                                number(0.0F, 1.0F, "W").replacing(&core::Settings::min_weight),
+                                "Minimum weight of a path in its pixel; paths below it end."};
+    ThreadsOption threads{*this};
+    Option<simd::Engine> engine = {
+        *this, "--engine",
+        choice<simd::Engine>(
+            {{"vector", simd::Engine::vector}, {"reference", simd::Engine::reference}})
+            .initially(simd::Engine::vector)
+            .recorded([](const Rendered& of) { return of.options.engine; },
+                      [](const Rendered& of) { return of.options.engine != simd::Engine::vector; }),
+        "Engine: vector, or reference, which is scalar and slow."};
+    Option<simd::Isa> isa = {*this, "--isa",
+                             instruction_sets()
+                                 .recorded([](const Rendered& of) { return of.options.isa; },
+                                           [](const Rendered& of) {
+                                               return is_inexact(of) &&
+                                                      of.options.engine == simd::Engine::vector;
+                                           })
+                                 .otherwise("the widest available one"),
+                             "Instruction set of the vector engine."};
+    Option<int> tile = {
+        *this, "--tile",
+        whole(8, 64).in("pixels").recorded(
+            [](const Rendered& of) { return simd::tile_of(of.settings, of.options); }, is_inexact),
+        "Side of the tiles that threads render. Images of precision exact do not depend "
+        "on it."};
+    Option<core::Precision> precision = {
+        *this, "--precision",
+        precisions()
+            .initially(core::Precision::exact)
+            .recorded([](const Rendered& of) { return of.options.precision; }, is_inexact),
+        "Arithmetic of intersections: fast (textbook formulas in float), robust (best "
+        "formulas in float), exact (certified, with the results of real arithmetic) or "
+        "double (formulas of robust in double)."};
+    Option<core::Transfer> transfer = {
+        *this, "--transfer",
+        choice<core::Transfer>({{"srgb", core::Transfer::srgb}, {"linear", core::Transfer::linear}})
+            .replacing_rarely(&core::Settings::transfer),
+        "Transfer function of 8-bit and 16-bit images."};
+    Option<std::string> stats = {*this, "--stats", file_name(),
+                                 "Write statistics of the render as JSON; - is standard output."};
+    Flag no_resume = {*this, "--no-resume", flag(),
+                      "Ignore checkpoints of interrupted renders (FILE.part), and write "
+                      "none."};
+    Option<ImagePart> part = {
+        *this, "--part", image_parts(),
+        "Render part K of N, for N processes or machines: some tiles of an image, in an "
+        "EXR for merge; of a sequence, every N-th image from the K-th on."};
+    PictureArguments picture{*this};
+    FrameArguments frames{*this};
+    SceneArguments scene_arguments{*this, true};
+};
+
+/// Returns the options that an image records, as arguments of render for this scene. Throws
+/// BadInput.
+std::unique_ptr<RenderArguments>
+recorded_arguments(const std::string& image, const ImageTexts& texts, const std::string& scene);
+
+} // namespace raylane::scenes
