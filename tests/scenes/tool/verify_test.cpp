@@ -418,6 +418,14 @@ TEST_CASE("verify renders each image of a sequence by itself") {
     CHECK(workshop.run({"verify", "b1.png", "broken.xyz", "--quiet"}).code == 0);
 }
 
+TEST_CASE("verify takes the light samples of the image, not of the scene") {
+    std::string scene = ball;
+    scene.insert(scene.find("\"image\""), R"("sampling": {"light_samples": 3}, )");
+    const Workshop workshop(scene);
+    REQUIRE(workshop.render("a.png", {"--light-samples", "0"}).code == 0);
+    CHECK(verify(workshop, "a.png").out == right);
+}
+
 TEST_CASE("settings that no Comment has belong to the options of an image") {
     const auto with = [](const std::string& where, const std::string& what) {
         std::string scene = ball;
