@@ -129,7 +129,7 @@ Target target_of(Plan& plan, const core::Scene& scene, const std::string& name,
 std::string comment_of(const Plan& plan, const Target& image) {
     // The images of a sequence may have different sizes.
     const bool names_size = !plan.strip || plan.arguments.size;
-    return text_of(plan.arguments.recorded(
+    return text_of_options(plan.arguments.recorded(
         {image.settings, image.scene.settings(), plan.options, names_size}));
 }
 

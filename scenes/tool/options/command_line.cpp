@@ -105,7 +105,7 @@ bool take_recorded(const std::string& text, OptionTable& table) {
     return true;
 }
 
-std::string text_of(const std::vector<std::pair<std::string, std::string>>& options) {
+std::string text_of_options(const std::vector<std::pair<std::string, std::string>>& options) {
     std::string text;
     for (const auto& [name, value] : options) {
         text += (text.empty() ? "" : " ") + name;

@@ -13,6 +13,6 @@ namespace raylane::scenes {
 bool take_recorded(const std::string& text, OptionTable& table);
 
 /// Returns such a text, in which each value reads back unchanged.
-std::string text_of(const std::vector<std::pair<std::string, std::string>>& options);
+std::string text_of_options(const std::vector<std::pair<std::string, std::string>>& options);
 
 } // namespace raylane::scenes
