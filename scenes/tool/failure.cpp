@@ -2,7 +2,7 @@
 
 #include "core/shapes/invalid_value.hpp"
 #include "scenes/errors.hpp"
-#include "scenes/tool/journal/resumable.hpp"
+#include "scenes/tool/checkpoint/resumable.hpp"
 #include "scenes/tool/ranks/job.hpp"
 
 #include <exception>

@@ -3,7 +3,7 @@
 #include "scenes/errors.hpp"
 #include "scenes/export/writers.hpp"
 #include "scenes/number.hpp"
-#include "scenes/tool/journal/fingerprint.hpp"
+#include "scenes/tool/checkpoint/fingerprint.hpp"
 
 #include <algorithm>
 #include <cinttypes>

@@ -1,11 +1,11 @@
 #include "scenes/atomic_file.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/library/raylane/version.h"
-#include "scenes/tool/command.hpp"
+#include "scenes/tool/commands/command.hpp"
+#include "scenes/tool/commands/usage.hpp"
 #include "scenes/tool/failure.hpp"
 #include "scenes/tool/interrupt.hpp"
 #include "scenes/tool/ranks/ranks.hpp"
-#include "scenes/tool/usage.hpp"
 
 #include <array>
 #include <atomic>

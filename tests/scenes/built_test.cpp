@@ -3,7 +3,7 @@
 #include "scenes/export/export.hpp"
 #include "scenes/export/writers.hpp"
 #include "scenes/scene_file.hpp"
-#include "scenes/tool/journal/fingerprint.hpp"
+#include "scenes/tool/checkpoint/fingerprint.hpp"
 #include "simd/render.hpp"
 #include "simd/stream_tracer.hpp"
 #include "tests/catch.hpp"

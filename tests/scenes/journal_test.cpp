@@ -1,5 +1,5 @@
-#include "scenes/tool/journal/fingerprint.hpp"
-#include "scenes/tool/journal/journal.hpp"
+#include "scenes/tool/checkpoint/fingerprint.hpp"
+#include "scenes/tool/checkpoint/journal.hpp"
 #include "tests/catch.hpp"
 #include "tests/comes_true.hpp"
 #include "tests/scenes/json_scenes.hpp"

@@ -1,6 +1,6 @@
 #include "scenes/tool/options/command_line.hpp"
 
-#include "scenes/tool/command.hpp"
+#include "scenes/tool/commands/command.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/tool/journal/tile_records.hpp"
+#include "scenes/tool/checkpoint/tile_records.hpp"
 #include "scenes/tool/ranks/shared_work.hpp"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "scenes/tool/view/orbit.hpp"
+#include "scenes/tool/window/orbit.hpp"
 #include "tests/catch.hpp"
 
 using namespace raylane;

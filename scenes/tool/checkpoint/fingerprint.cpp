@@ -1,0 +1,107 @@
+#include "scenes/tool/checkpoint/fingerprint.hpp"
+
+#include "scenes/export/writers.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <new>
+#include <vector>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace raylane::scenes {
+
+namespace {
+
+class Hash {
+  public:
+    Hash() : state_(XXH3_createState()) {
+        if (state_ == nullptr) throw std::bad_alloc();
+        XXH3_128bits_reset(state_.get());
+    }
+
+    void add(const void* bytes, std::size_t count) {
+        if (count > 0) XXH3_128bits_update(state_.get(), bytes, count);
+    }
+    void add(std::string_view text) { add(text.data(), text.size()); }
+    void add(std::uint64_t number) { add(&number, sizeof number); }
+
+    std::string text() const {
+        const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+        char text[33];
+        std::snprintf(text, sizeof text, "%016llx%016llx",
+                      static_cast<unsigned long long>(hash.high64),
+                      static_cast<unsigned long long>(hash.low64));
+        return text;
+    }
+
+  private:
+    struct Free {
+        void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+    };
+    std::unique_ptr<XXH3_state_t, Free> state_;
+};
+
+/// Adds an array of numbers without padding.
+template <class T>
+void add_array(Hash& hash, const core::BigArray<T>& array) {
+    hash.add(array.size());
+    hash.add(array.data(), array.bytes());
+}
+
+void add_materials(Hash& hash, const core::Scene& scene) {
+    std::vector<core::MaterialIndex> some;
+    constexpr std::size_t most = 4096;
+    for (std::size_t first = 0; first < scene.shape_count(); first += most) {
+        some.clear();
+        for (std::size_t id = first; id < std::min(first + most, scene.shape_count()); ++id)
+            some.push_back(scene.material_index_of(static_cast<core::ShapeId>(id)));
+        hash.add(some.data(), some.size() * sizeof(core::MaterialIndex));
+    }
+}
+
+} // namespace
+
+std::string fingerprint_of(const core::Scene& scene) {
+    Hash hash;
+    TextFile text([&](std::string_view piece) { hash.add(piece); });
+    write_json_without_shapes(text, scene);
+    text.flush();
+    hash.add(scene.shape_count());
+    core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
+        static_assert(sizeof(core::Block<Shape>) ==
+                      sizeof(core::Block<Shape>::values) + sizeof(core::Block<Shape>::ids));
+        static_assert(sizeof(core::DoubleBlock<Shape>) == sizeof(core::DoubleBlock<Shape>::values));
+        hash.add(table.block_count());
+        for (std::size_t i = 0; i < table.block_count(); ++i)
+            table.visit_block(
+                i, [&](const core::Block<Shape>& block) { hash.add(&block, sizeof block); });
+        add_array(hash, table.doubles());
+        if constexpr (core::kind_of<Shape> == core::Kind::triangle)
+            core::for_each_shape(table, [&](const auto&, core::ShapeId id) {
+                const core::IdRange polygon = scene.coplanar_with(id);
+                hash.add(polygon.first);
+                hash.add(polygon.last);
+            });
+    });
+    add_materials(hash, scene);
+    return hash.text();
+}
+
+std::string fingerprint_of(const core::Film& film) {
+    Hash hash;
+    hash.add(static_cast<std::uint64_t>(film.width()));
+    hash.add(static_cast<std::uint64_t>(film.height()));
+    static_assert(sizeof(core::Color) == 3 * sizeof(float));
+    hash.add(film.pixels().data(), film.pixels().size() * sizeof(core::Color));
+    hash.add(film.alphas().data(), film.alphas().size() * sizeof(float));
+    return hash.text();
+}
+
+std::uint64_t checksum_of(std::span<const char> bytes, std::uint64_t seed) {
+    return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,224 @@
+#include "core/numbers/more_functions.hpp"
+#include "core/scene/transfer.hpp"
+#include "scenes/errors.hpp"
+#include "scenes/image/writer.hpp"
+#include "scenes/tool/commands/command.hpp"
+#include "scenes/tool/loading.hpp"
+#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/scene_options.hpp"
+#include "scenes/tool/window/orbit.hpp"
+#include "scenes/tool/window/pick.hpp"
+#include "scenes/tool/window/picture_maker.hpp"
+#include "scenes/tool/window/window.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace raylane::scenes {
+
+namespace {
+
+struct ViewCommandArguments : OptionTable {
+    Option<std::string> scene = {
+        *this, "SCENE", file_argument(),
+        "Scene or atoms, in any format that render reads. The window reloads the file "
+        "when it changes."};
+    Option<std::pair<int, int>> size = {*this, "--size", image_size(),
+                                        "Window width and height in pixels."};
+    ThreadsOption threads{*this};
+    SceneArguments scene_arguments{*this};
+};
+
+/// Returns a name that no file has yet: "scene-1.png", "scene-2.png", ...
+std::string free_name(const std::string& scene) {
+    const std::string stem = default_output(scene, "");
+    for (int number = 1;; ++number) {
+        std::string name = stem + "-" + std::to_string(number) + ".png";
+        std::error_code unknown;
+        if (!std::filesystem::exists(name, unknown)) return name;
+    }
+}
+
+constexpr int longest_wait = 250; // milliseconds between checks whether the file was written
+
+class Viewer {
+  public:
+    explicit Viewer(const ViewCommandArguments& arguments)
+        : arguments_(arguments), name_(*arguments.scene),
+          verbosity_(arguments.scene_arguments.verbosity.verbosity()),
+          threads_(arguments.threads.count()), written_(time_of_file()) {
+        core::Scene scene = loaded(legend_);
+        settings_ = scene.settings();
+        if (arguments.size) std::tie(settings_.width, settings_.height) = *arguments.size;
+        scene = seen(std::move(scene), arguments_.scene_arguments.view.change(), settings_);
+        first_ = view_of(scene);
+        orbit_.emplace(first_);
+        window_ = open_window(title(), settings_.width, settings_.height);
+        simd::RenderOptions options;
+        options.threads = threads_;
+        maker_ =
+            std::make_unique<PictureMaker>(std::move(scene), options, [this] { window_->wake(); });
+        begin();
+    }
+
+    void run() {
+        while (!is_closed_) {
+            act(window_->wait(longest_wait));
+            maker_->rethrow();
+            if (std::optional<PictureMaker::Picture> picture = maker_->take()) show(picture->film);
+            reload_if_written();
+            if (is_moved_) begin();
+        }
+    }
+
+  private:
+    std::string title() const { return printable(name_, 200) + " - raylane"; }
+
+    core::Scene loaded(Legend& legend) const {
+        LoadOptions options = arguments_.scene_arguments.load_options();
+        options.legend = &legend;
+        return load_with_progress(name_, std::move(options), verbosity_, threads_);
+    }
+
+    std::filesystem::file_time_type time_of_file() const {
+        std::error_code unknown;
+        return std::filesystem::last_write_time(name_, unknown);
+    }
+
+    void begin() {
+        is_moved_ = false;
+        maker_->show(orbit_->view(), settings_);
+    }
+
+    void show(const core::Film& film) {
+        const core::Encoder encode(settings_.transfer);
+        std::vector<std::uint32_t> pixels;
+        pixels.reserve(film.pixels().size());
+        for (const core::Color& color : film.pixels())
+            pixels.push_back(static_cast<std::uint32_t>(encode(color.x)) << 16 |
+                             static_cast<std::uint32_t>(encode(color.y)) << 8 | encode(color.z));
+        window_->show(pixels.data(), film.width(), film.height());
+    }
+
+    void reload_if_written() {
+        const auto time = time_of_file();
+        if (time == written_) return;
+        written_ = time;
+        try {
+            Legend legend;
+            maker_->replace(loaded(legend));
+            legend_ = std::move(legend);
+            is_moved_ = true;
+        } catch (const BadInput& bad) { // the file may be incomplete while it is written
+            std::fprintf(stderr, "raylane: %s\n", bad.what());
+        }
+    }
+
+    void act(const WindowEvent& event) {
+        using Kind = WindowEvent::Kind;
+        const double height = settings_.height;
+        switch (event.kind) {
+        case Kind::turned:
+            orbit_->turn(-360.0 * event.across / height, 360.0 * event.down / height);
+            break;
+        case Kind::moved:
+            orbit_->pan(-event.across / height, event.down / height);
+            break;
+        case Kind::zoomed:
+            orbit_->zoom(core::power(2.0, event.notches / 4.0));
+            break;
+        case Kind::resized:
+            settings_.width = window_->width();
+            settings_.height = window_->height();
+            break;
+        case Kind::clicked:
+            maker_->with_scene([&](const core::Scene& scene) {
+                std::printf("%s\n",
+                            what_is_at(scene, settings_, event.x, event.y, legend_).c_str());
+            });
+            std::fflush(stdout);
+            break; // with_scene() stopped the drawing, so start again
+        case Kind::key:
+            press(event.key);
+            return;
+        case Kind::closed:
+            is_closed_ = true;
+            return;
+        case Kind::none:
+        case Kind::woken:
+            return;
+        }
+        is_moved_ = true;
+    }
+
+    void press(char key) {
+        switch (key) {
+        case 'q':
+            is_closed_ = true;
+            break;
+        case 'r':
+            orbit_.emplace(first_);
+            is_moved_ = true;
+            break;
+        case 'c':
+            std::printf("%s\n", camera_text(orbit_->view().camera).c_str());
+            std::fflush(stdout);
+            break;
+        case 's':
+            save();
+            is_moved_ = true;
+            break;
+        default:
+            break;
+        }
+    }
+
+    void save() {
+        const std::string name = free_name(name_);
+        window_->set_title(("saving " + name).c_str());
+        maker_->with_scene([&](const core::Scene& scene) {
+            OutputFile output(name);
+            simd::RenderOptions options;
+            options.threads = threads_;
+            output.commit(simd::render(scene, settings_, options).film, settings_.transfer);
+        });
+        window_->set_title(title().c_str());
+        std::printf("%s\n", name.c_str());
+        std::fflush(stdout);
+    }
+
+    const ViewCommandArguments& arguments_;
+    std::string name_;
+    Verbosity verbosity_;
+    int threads_;
+    std::filesystem::file_time_type written_;
+    Legend legend_;
+    core::Settings settings_;
+    core::View first_;
+    std::optional<Orbit> orbit_;
+    std::unique_ptr<Window> window_;
+    std::unique_ptr<PictureMaker> maker_; // last, because its thread wakes the window
+    bool is_moved_ = false, is_closed_ = false;
+};
+
+} // namespace
+
+Command add_view_command(CLI::App& app) {
+    return add_command<ViewCommandArguments>(
+        app,
+        {.name = "view",
+         .help = "Show a scene in a window",
+         .example = "raylane view scenes/birthday.json",
+         .details = "Mouse: drag to orbit, drag with shift to pan, turn the wheel to come closer, "
+                    "click to print the shape under the pointer.\nKeys: s saves the image, c "
+                    "prints the camera, r resets it, q quits."},
+        [](const ViewCommandArguments& arguments) {
+            Viewer(arguments).run();
+            return 0;
+        });
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,252 @@
+#include "scenes/tool/sequence/film_strip.hpp"
+
+#include "scenes/errors.hpp"
+#include "scenes/tool/progress_bar.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <future>
+#include <utility>
+
+namespace raylane::scenes {
+
+namespace {
+
+[[noreturn]] void refuse_none() {
+    throw BadInput("--frames", "", "must select at least one frame, got none");
+}
+
+/// A picture to draw.
+struct Picture {
+    std::size_t place;
+    std::string name;
+    std::optional<core::Scene> scene; ///< empty if the file exists already
+};
+
+/// Makes the scenes one after the other, each with its camera.
+class Stage {
+  public:
+    explicit Stage(const FilmStrip& strip) : strip_(strip), change_(strip.view) {
+        change_.turning = strip.turn.has_value();
+        if (strip.fit_to == FitTo::all && strip.source->count() != 1) fit_to_all();
+    }
+
+    /// Returns true if there is only one scene, around which the camera may turn.
+    bool is_still() const { return strip_.source->count() == 1; }
+    std::size_t count() const {
+        return is_still() && strip_.turn ? strip_.turn->count : strip_.source->count();
+    }
+
+    /// Returns true if there were any pictures, including those of other processes.
+    bool has_any() const { return made_ > 0; }
+
+    /// Returns the scene and the file name of the first picture.
+    Shot first() {
+        const std::optional<std::size_t> number = strip_.source->next();
+        if (!number) refuse_none();
+        return {scene(made_++), strip_.name(is_still() && strip_.turn ? 0 : *number)};
+    }
+
+    std::optional<Picture> next() {
+        for (;;) {
+            if (strip_.only && made_ > *strip_.only) return std::nullopt;
+            if (is_still() && made_ > 0) {
+                if (made_ >= count()) return std::nullopt;
+                number_ = made_;
+            } else {
+                const std::optional<std::size_t> number = strip_.source->next();
+                if (!number) {
+                    if (made_ > 0) require_turn_of(made_);
+                    return std::nullopt;
+                }
+                number_ = *number;
+            }
+            const std::size_t place = made_++;
+            // The source may not know the number of pictures before its end.
+            if (strip_.turn && made_ > strip_.turn->count)
+                refuse_turn(*strip_.turn, "at least " + std::to_string(made_));
+            const bool is_ours = strip_.only ? place == *strip_.only
+                                             : place % strip_.share.of == strip_.share.number;
+            Picture picture{place, strip_.name(is_still() && strip_.turn ? place : number_),
+                            std::nullopt};
+            if (is_ours && is_wanted(picture.name)) picture.scene = scene(place);
+            // The view of the first picture fixes that of the others, so its scene is needed in any
+            // case.
+            else if (place == 0 && strip_.fit_to == FitTo::first && !is_still())
+                static_cast<void>(scene(place));
+            if (is_ours) return picture;
+        }
+    }
+
+    /// Takes back a scene that has been drawn. If it is the only scene, the next picture reuses it.
+    void take_back(core::Scene scene) {
+        if (is_still()) still_ = std::move(scene);
+    }
+
+  private:
+    void require_turn_of(std::size_t count) const {
+        if (strip_.turn && strip_.turn->count != count)
+            refuse_turn(*strip_.turn, std::to_string(count));
+    }
+
+    /// Returns true if the picture must be drawn. A loss of power may leave an empty file, which
+    /// does not count.
+    bool is_wanted(const std::string& name) const {
+        std::error_code unknown;
+        return strip_.overwrites || !std::filesystem::is_regular_file(name, unknown) ||
+               std::filesystem::file_size(name, unknown) == 0;
+    }
+
+    core::Scene scene(std::size_t place) {
+        core::Scene scene = still_ ? *std::exchange(still_, std::nullopt) : strip_.source->scene();
+        if (place == 0 && strip_.fit_to == FitTo::first) strip_.source->keep_scale();
+        if (!is_still() || !is_set_up_) {
+            const core::Settings settings = strip_.settings(scene.settings());
+            scene = seen(std::move(scene), change_, settings, frame_);
+            // Scenes with an explicit camera keep it (below).
+            if (!is_set_up_ && (is_still() || strip_.fit_to != FitTo::each))
+                fixed_ = view_of(scene);
+            is_set_up_ = true;
+        }
+        const core::Staging staging = scene.staging();
+        core::View view = view_of(scene);
+        if (fixed_ && (staging.framing || is_still())) {
+            const core::Fog own = view.fog;
+            view = *fixed_;
+            if (!(staging.depth_cue > 0.0F)) view.fog = own;
+        }
+        if (strip_.turn) {
+            const core::Vec3f up = staging.framing ? staging.framing->up : view.camera.up;
+            view = core::turned(view, up,
+                                strip_.turn->degrees * static_cast<double>(place) /
+                                    static_cast<double>(strip_.turn->count));
+        }
+        return std::move(scene).seen(staging, view);
+    }
+
+    /// Reads all scenes once to find the frame that contains their shapes.
+    void fit_to_all() {
+        std::atomic<std::size_t> count = 0;
+        const ProgressLine line(strip_.verbosity,
+                                [&] { return std::to_string(count) + " frames surveyed"; });
+        for (; strip_.source->next(); ++count) {
+            const core::Scene scene = strip_.source->scene();
+            core::Camera camera = scene.camera();
+            const core::Staging staging = change_.staging(scene, camera);
+            if (staging.framing) {
+                if (!frame_)
+                    frame_ = core::empty_frame(scene, staging, strip_.settings(scene.settings()));
+                core::include_shapes(scene, *frame_);
+            }
+        }
+        if (count > 0) require_turn_of(count);
+        strip_.source->keep_scale();
+        strip_.source->rewind();
+    }
+
+    const FilmStrip& strip_;
+    ViewChange change_;
+    std::optional<core::Frame> frame_; // contains the shapes of all scenes
+    std::optional<core::View> fixed_;
+    std::optional<core::Scene> still_;
+    bool is_set_up_ = false;
+    std::size_t made_ = 0, number_ = 0;
+};
+
+/// Progress over all pictures. Another thread may read it.
+class StripProgress {
+  public:
+    explicit StripProgress(std::size_t count) : count_(count) {}
+
+    simd::Progress& of_picture(const core::Settings& settings) {
+        rays_ += progress_.rays.exchange(0);
+        progress_.pixels = 0;
+        pixels_ = std::int64_t{settings.width} * settings.height;
+        return progress_;
+    }
+    void drawn() { ++drawn_; }
+    void kept() { ++kept_; }
+    std::size_t kept_count() const { return kept_; }
+
+    std::string text() const {
+        const double seconds = seconds_since(start_);
+        const std::size_t done = drawn_ + kept_;
+        const std::string rate =
+            with_prefix(static_cast<double>(rays_ + progress_.rays) / seconds) + "rays/s";
+        if (count_ == 0) return "image " + std::to_string(done + 1) + "  " + rate;
+        const double part =
+            std::min(1.0, static_cast<double>(progress_.pixels) / static_cast<double>(pixels_));
+        const double drawn = static_cast<double>(drawn_) + (done < count_ ? part : 0.0);
+        const double left = static_cast<double>(count_ - std::min(count_, done)) - part;
+        return bar_text(std::min(1.0, (static_cast<double>(kept_) + drawn) /
+                                          static_cast<double>(count_))) +
+               "  image " + std::to_string(std::min(done + 1, count_)) + " of " +
+               std::to_string(count_) + "  " + rate + "  " +
+               (drawn > 0.0 ? duration_text(seconds * std::max(0.0, left) / drawn) + " left" : "");
+    }
+
+  private:
+    std::size_t count_;
+    simd::Progress progress_;
+    std::atomic<std::uint64_t> rays_ = 0;
+    std::atomic<std::int64_t> pixels_ = 1;
+    std::atomic<std::size_t> drawn_ = 0, kept_ = 0;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+void refuse_turn(const Turn& turn, const std::string& otherwise) {
+    throw BadInput("--turn", "",
+                   "must have as many images as the sequence, " + otherwise + ", got " +
+                       std::to_string(turn.count));
+}
+
+Shot first_shot(const FilmStrip& strip) {
+    const auto start = std::chrono::steady_clock::now();
+    const ProgressLine line(strip.verbosity, [start] {
+        return "reading the frame: " + duration_text(seconds_since(start));
+    });
+    return Stage(strip).first();
+}
+
+void draw(const FilmStrip& strip) {
+    Stage stage(strip);
+    const auto [number, of] = strip.share;
+    StripProgress progress((stage.count() + of - 1 - number) / of);
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t pictures = 0;
+    {
+        const ProgressLine line(strip.verbosity, [&] { return progress.text(); });
+        const auto make_next = [&] { return stage.next(); };
+        std::optional<Picture> picture = stage.next();
+        while (picture) {
+            ++pictures;
+            std::future<std::optional<Picture>> next;
+            // If there is only one scene, the next picture reuses it after this one is drawn.
+            if (!stage.is_still()) next = std::async(std::launch::async, make_next);
+            if (picture->scene) {
+                strip.draw(*picture->scene, picture->place, picture->name,
+                           progress.of_picture(strip.settings(picture->scene->settings())));
+                progress.drawn();
+                stage.take_back(*std::move(picture->scene));
+            } else {
+                progress.kept();
+            }
+            picture = next.valid() ? next.get() : stage.next();
+        }
+    }
+    if (!stage.has_any()) refuse_none();
+    const std::size_t kept = progress.kept_count();
+    if (strip.verbosity == Verbosity::verbose ||
+        (strip.verbosity == Verbosity::normal && is_terminal()))
+        std::fprintf(stderr, "%zu images rendered in %s\n", pictures - kept,
+                     duration_text(seconds_since(start)).c_str());
+    if (kept > 0 && strip.verbosity != Verbosity::quiet)
+        std::fprintf(stderr, "%zu of %zu images exist already; --overwrite renders them again\n",
+                     kept, pictures);
+}
+
+} // namespace raylane::scenes

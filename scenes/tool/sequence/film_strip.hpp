@@ -1,0 +1,56 @@
+#pragma once
+
+#include "scenes/tool/options/scene_options.hpp"
+#include "scenes/tool/sequence/scene_source.hpp"
+#include "simd/render.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace raylane::scenes {
+
+/// Several pictures that belong together: frames of atoms, values of parameters, views of a turn.
+struct FilmStrip {
+    std::shared_ptr<core::Workers> workers; ///< used by `source`
+    std::unique_ptr<SceneSource> source;
+    std::function<std::string(std::size_t)> name; ///< the file name for a picture's number
+    ViewChange view;
+    FitTo fit_to = FitTo::first;
+    std::optional<Turn> turn;
+    bool overwrites = true; ///< draw pictures whose files exist already
+    /// The share of this process: its number, from 0, and the number of processes, which take the
+    /// pictures in turn.
+    struct Share {
+        std::size_t number = 0, of = 1;
+    } share;
+    std::optional<std::size_t> only; ///< draw only the picture at this place, regardless of `share`
+    Verbosity verbosity = Verbosity::normal;
+    /// Returns the settings to use for a scene, given the scene's own.
+    std::function<core::Settings(const core::Settings&)> settings;
+    /// Draws the scene of the picture at a place, from 0, into a file.
+    std::function<void(const core::Scene&, std::size_t place, const std::string& name,
+                       simd::Progress&)>
+        draw;
+};
+
+/// Throws BadInput. `otherwise`: the number of pictures without the turn.
+[[noreturn]] void refuse_turn(const Turn& turn, const std::string& otherwise);
+
+/// The scene of a picture and the name of its file.
+struct Shot {
+    core::Scene scene;
+    std::string name;
+};
+
+/// Returns the scene and file name of the first picture, whether or not that file exists. The
+/// caller draws it. Exceptions of the source propagate.
+Shot first_shot(const FilmStrip& strip);
+
+/// Draws all pictures. The scene of the next one is made while one is drawn. Exceptions of the
+/// source and of `strip.draw` propagate after the previous pictures are drawn. Throws BadInput if
+/// the turn has another number of pictures than the source: before the first picture too many, or
+/// after the last one.
+void draw(const FilmStrip& strip);
+
+} // namespace raylane::scenes

@@ -1,0 +1,128 @@
+#include "scenes/tool/window/picture_maker.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// The time limit for the first picture. Stopping the previous one, and showing this one, may take
+/// as long again.
+constexpr double soon = 0.02; // seconds
+
+double samples_of(const core::Settings& settings) {
+    return static_cast<double>(settings.width) * settings.height * settings.grid * settings.grid;
+}
+
+} // namespace
+
+PictureMaker::PictureMaker(core::Scene scene, simd::RenderOptions options,
+                           std::function<void()> on_picture)
+    : options_(std::move(options)), on_picture_(std::move(on_picture)), scene_(std::move(scene)) {
+    options_.progress = &progress_;
+    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+PictureMaker::~PictureMaker() {
+    thread_.request_stop();
+    interrupt();
+    thread_.join();
+}
+
+void PictureMaker::interrupt() {
+    const std::lock_guard lock(mutex_);
+    is_interrupted_ = true;
+    progress_.abandon = true;
+}
+
+void PictureMaker::show(core::View view, const core::Settings& settings) {
+    const std::lock_guard lock(mutex_);
+    is_interrupted_ = true; // together with the wish, or an earlier wish could reset it
+    progress_.abandon = true;
+    wish_ = {std::move(view), settings};
+    wake_.notify_all();
+}
+
+void PictureMaker::replace(core::Scene scene) {
+    interrupt();
+    const std::lock_guard lock(scene_mutex_);
+    scene_ = std::move(scene);
+}
+
+std::optional<PictureMaker::Picture> PictureMaker::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(picture_, std::nullopt);
+}
+
+void PictureMaker::with_scene(const std::function<void(const core::Scene&)>& use) {
+    interrupt();
+    const std::lock_guard lock(scene_mutex_);
+    use(scene_);
+}
+
+void PictureMaker::rethrow() {
+    const std::lock_guard lock(mutex_);
+    if (failure_) std::rethrow_exception(failure_);
+}
+
+void PictureMaker::run(const std::stop_token& stop) {
+    try {
+        while (true) {
+            std::optional<Wish> wish;
+            {
+                std::unique_lock lock(mutex_);
+                if (!wake_.wait(lock, stop, [&] { return wish_.has_value(); })) return;
+                wish = std::exchange(wish_, std::nullopt);
+                is_interrupted_ = false;
+                progress_.abandon = false;
+            }
+            const std::lock_guard lock(scene_mutex_);
+            const core::Staging staging = scene_.staging();
+            scene_ = std::move(scene_).seen(staging, wish->view);
+            draw(stop, wish->settings);
+        }
+    } catch (...) {
+        const std::lock_guard lock(mutex_);
+        failure_ = std::current_exception();
+    }
+    on_picture_();
+}
+
+void PictureMaker::draw(const std::stop_token& stop, const core::Settings& settings) {
+    constexpr std::array<Level, 7> levels = {
+        {{16, 1}, {8, 1}, {4, 1}, {2, 1}, {1, 1}, {1, 2}, {1, 0}}};
+    std::size_t level = 0;
+    const auto settings_of = [&](const Level& of) {
+        core::Settings result = settings;
+        if (of.grid == 0) return result;
+        result.quality = 0.0F;
+        result.grid = std::min(of.grid, std::max(settings.grid, 1));
+        result.width = (settings.width + of.step - 1) / of.step;
+        result.height = (settings.height + of.step - 1) / of.step;
+        return result;
+    };
+    // The first picture is the finest one that is expected within this time limit.
+    while (seconds_per_sample_ > 0.0 && level + 1 < levels.size() - 1 &&
+           samples_of(settings_of(levels[level + 1])) * seconds_per_sample_ < soon)
+        ++level;
+    for (; level < levels.size(); ++level) {
+        const bool is_last = level + 1 == levels.size();
+        const auto start = std::chrono::steady_clock::now();
+        const core::Settings of_level = settings_of(levels[level]);
+        simd::Rendering rendering = simd::render(scene_, of_level, options_);
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        {
+            const std::lock_guard lock(mutex_);
+            if (stop.stop_requested() || is_interrupted_ || !rendering.complete) return;
+            if (of_level.quality == 0.0F) seconds_per_sample_ = seconds / samples_of(of_level);
+            picture_ = Picture{std::move(rendering.film), is_last};
+        }
+        on_picture_();
+    }
+}
+
+} // namespace raylane::scenes
