@@ -3,8 +3,10 @@
 #include "core/scene/scene.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/tool/options/scene_options.hpp"
+#include "scenes/tool/ranks/job.hpp"
 
 #include <filesystem>
+#include <functional>
 
 namespace raylane::scenes {
 
@@ -16,5 +18,13 @@ core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions op
 /// Does the same with the options of a command, and returns the scene with the view that they
 /// request.
 core::Scene load_seen(const std::string& scene, const SceneArguments& options, int threads = 0);
+
+/// Collective: returns the scene of a file, which `load` loads with a number of threads. Of several
+/// ranks on one host, the first loads it with the threads of all of them, and the others share its
+/// shapes in memory. Ranks that cannot share load it themselves. A built file is in memory only
+/// once in any case, so each rank loads it. Standard input ("-") is shared first. Throws the same
+/// as Job::together().
+core::Scene load_together(Job& job, const std::filesystem::path& path, int threads,
+                          const std::function<core::Scene(int)>& load);
 
 } // namespace raylane::scenes

@@ -2,10 +2,11 @@
 #include "scenes/errors.hpp"
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/commands/command.hpp"
-#include "scenes/tool/commands/usage.hpp"
-#include "scenes/tool/failure.hpp"
-#include "scenes/tool/interrupt.hpp"
+#include "scenes/tool/exit.hpp"
+#include "scenes/tool/options/command_line.hpp"
 #include "scenes/tool/ranks/ranks.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include <array>
 #include <atomic>

@@ -1,6 +1,6 @@
 #include "scenes/tool/progress_bar.hpp"
 
-#include "scenes/tool/interrupt.hpp"
+#include "scenes/tool/exit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "scenes/tool/ranks/ranked_tiles.hpp"
-#include "scenes/tool/trace/ordered_output.hpp"
+#include "scenes/tool/trace/ray_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/comes_true.hpp"
 #include "tests/scenes/temporary_directory.hpp"

@@ -3,7 +3,7 @@
 #include "scenes/errors.hpp"
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/checkpoint/fingerprint.hpp"
-#include "scenes/tool/read_at.hpp"
+#include "scenes/tool/system.hpp"
 
 #include <algorithm>
 #include <cerrno>

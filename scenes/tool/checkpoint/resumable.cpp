@@ -2,9 +2,9 @@
 
 #include "scenes/errors.hpp"
 #include "scenes/image/exr.hpp"
-#include "scenes/tool/memory_file.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/ranked_tiles.hpp"
+#include "scenes/tool/system.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -2,8 +2,8 @@
 
 #include "scenes/image/writer.hpp"
 #include "scenes/tool/checkpoint/journal.hpp"
+#include "scenes/tool/exit.hpp"
 #include "scenes/tool/image_texts.hpp"
-#include "scenes/tool/interrupt.hpp"
 #include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/ranks/job.hpp"
 #include "simd/render.hpp"

@@ -4,7 +4,7 @@
 #include "scenes/image/writer.hpp"
 #include "scenes/number.hpp"
 #include "scenes/tool/commands/command.hpp"
-#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/option.hpp"
 #include "scenes/tool/options/render_options.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,9 +1,9 @@
 #include "scenes/atomic_file.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/commands/manual.hpp"
-#include "scenes/tool/commands/pages.hpp"
 
-#include <algorithm>
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <optional>
 #include <string>

@@ -3,11 +3,53 @@
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/commands/command.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 
 namespace raylane::scenes {
 
 namespace {
+
+/// Returns the options with dashes, in the order of the help.
+std::vector<const CLI::Option*> options_of(const CLI::App& command) {
+    return command.get_options([](const CLI::Option* o) { return o->nonpositional(); });
+}
+
+std::vector<const CLI::Option*> positionals_of(const CLI::App& command) {
+    return command.get_options([](const CLI::Option* o) { return o->get_positional(); });
+}
+
+/// Returns true for an option without a value.
+bool is_flag(const CLI::Option& option) {
+    return option.get_items_expected_max() == 0;
+}
+
+/// Returns the choices in an option's type name: "vector" and "reference" for "vector|reference",
+/// none for "N".
+std::vector<std::string> choices_of(const CLI::Option& option) {
+    const std::string type = option.get_type_name();
+    const std::vector<std::string_view> parts = parts_of(type, '|');
+    if (parts.size() == 1) return {};
+    return {parts.begin(), parts.end()};
+}
+
+std::string joined(const std::vector<std::string>& words, const char* separator = " ") {
+    std::string text;
+    for (const std::string& word : words)
+        text.append(text.empty() ? "" : separator).append(word);
+    return text;
+}
+
+/// Returns the names of an option, such as "-o" and "--output".
+std::vector<std::string> names_of(const CLI::Option& option) {
+    std::vector<std::string> names;
+    for (const std::string& name : option.get_snames())
+        names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames())
+        names.push_back("--" + name);
+    return names;
+}
 
 /// Returns a text that roff prints literally: no escapes, and no requests at the start of lines.
 std::string plain(std::string_view text, bool is_typed = false) {
@@ -49,14 +91,10 @@ std::string without_subject(std::string text) {
 }
 
 void add_option_to(std::string& page, const CLI::Option& option) {
-    std::string names;
-    const auto add = [&](const std::string& name) {
-        names.append(names.empty() ? "" : ", ").append(bold(name));
-    };
-    for (const std::string& name : option.get_snames())
-        add("-" + name);
-    for (const std::string& name : option.get_lnames())
-        add("--" + name);
+    std::vector<std::string> bold_names;
+    for (const std::string& name : names_of(option))
+        bold_names.push_back(bold(name));
+    std::string names = joined(bold_names, ", ");
     if (!is_flag(option)) names += " " + italic(option.get_type_name());
     page += ".TP\n" + names + "\n" + plain(option.get_description()) + "\n";
 }
@@ -98,35 +136,63 @@ void add_examples_to(std::string& page, std::string_view footer) {
     }
 }
 
-} // namespace
-
-std::vector<std::string> choices_of(const CLI::Option& option) {
-    std::vector<std::string> choices;
-    const std::string type = option.get_type_name();
-    if (type.find('|') == std::string::npos) return choices;
-    for (std::size_t begin = 0; begin <= type.size();) {
-        const std::size_t end = std::min(type.find('|', begin), type.size());
-        choices.push_back(type.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return choices;
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) {
+    std::vector<std::string> names;
+    names.reserve(commands.size());
+    for (const CLI::App* command : commands)
+        names.push_back(command->get_name());
+    return names;
 }
+
+/// Returns a pattern for a `case`, such as "render:-o|render:--output".
+std::string bash_pattern(const CLI::App& command, const CLI::Option& option) {
+    std::vector<std::string> names = names_of(option);
+    for (std::string& name : names)
+        name = command.get_name() + ":" + name;
+    return joined(names, "|");
+}
+
+/// Returns branches of a `case` for the values of options. Numbers and other free text have no
+/// completions.
+std::string bash_values(const CLI::App& app) {
+    std::string chosen, others;
+    for (const CLI::App* command : commands_of(app))
+        for (const CLI::Option* option : options_of(*command)) {
+            if (is_flag(*option) || option->get_type_name() == "FILE") continue;
+            const std::string pattern = bash_pattern(*command, *option);
+            if (const std::vector<std::string> choices = choices_of(*option); !choices.empty())
+                chosen += "        " + pattern + ") words=\"" + joined(choices) + "\" ;;\n";
+            else
+                others.append(others.empty() ? "        " : "|\\\n        ").append(pattern);
+        }
+    return chosen + others + ") compopt +o default ;;\n";
+}
+
+/// Returns branches of a `case` for all other words: options, and arguments with choices.
+std::string bash_words(const CLI::App& app) {
+    std::string text;
+    for (const CLI::App* command : commands_of(app)) {
+        std::vector<std::string> options, choices;
+        for (const CLI::Option* option : options_of(*command))
+            for (std::string& name : names_of(*option))
+                options.push_back(std::move(name));
+        for (const CLI::Option* option : positionals_of(*command))
+            for (std::string& choice : choices_of(*option))
+                choices.push_back(std::move(choice));
+        text +=
+            "            " + command->get_name() + ":-*) words=\"" + joined(options) + "\" ;;\n";
+        if (!choices.empty())
+            text +=
+                "            " + command->get_name() + ":*) words=\"" + joined(choices) + "\" ;;\n";
+    }
+    return text;
+}
+
+} // namespace
 
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
     const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
     return {commands.begin(), commands.end()};
-}
-
-std::vector<const CLI::Option*> options_of(const CLI::App& command) {
-    return command.get_options([](const CLI::Option* o) { return o->nonpositional(); });
-}
-
-std::vector<const CLI::Option*> positionals_of(const CLI::App& command) {
-    return command.get_options([](const CLI::Option* o) { return o->get_positional(); });
-}
-
-bool is_flag(const CLI::Option& option) {
-    return option.get_items_expected_max() == 0;
 }
 
 std::string manual_page(const CLI::App& app, const CLI::App& command) {
@@ -167,6 +233,23 @@ std::string manual_page(const CLI::App& app, const CLI::App& command) {
             others.append(others.empty() ? "" : ",\n")
                 .append(".BR raylane\\-" + plain(each->get_name(), true) + " (1)");
     return page + others + "\n";
+}
+
+std::string completion_script(const CLI::App& app) {
+    return "# bash completion of raylane, made by `raylane completion bash`\n"
+           "_raylane() {\n"
+           "    local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n"
+           "    local command=\"${COMP_WORDS[1]}\" words=\n"
+           "    [ \"$COMP_CWORD\" -gt 1 ] || command=\n"
+           "    case \"$command:$before\" in\n"
+           "        :*) words=\"" +
+           joined(names_of(commands_of(app))) + " --help --version\" ;;\n" + bash_values(app) +
+           "        *) case \"$command:$word\" in\n" + bash_words(app) +
+           "        esac ;;\n"
+           "    esac\n"
+           "    COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
+           "}\n"
+           "complete -o default -F _raylane raylane\n";
 }
 
 } // namespace raylane::scenes

@@ -1,11 +1,16 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-/// Documents that are generated from the same table of commands and options as the help.
+namespace CLI {
+class App;
+}
+
+/// The documents that the program prints. Manual pages and the completion are generated from the
+/// same table of commands and options as the help.
 namespace raylane::scenes {
 
 /// Returns a command's page for man(1), in the macros of man(7). For `app` itself, returns the page
@@ -16,16 +21,15 @@ std::string manual_page(const CLI::App& app, const CLI::App& command);
 /// reads it after `autoload bashcompinit && bashcompinit`.
 std::string completion_script(const CLI::App& app);
 
-/// Returns the choices in an option's type name: "vector" and "reference" for "vector|reference",
-/// none for "N".
-std::vector<std::string> choices_of(const CLI::Option& option);
-
-/// Returns all commands. This function and the next two keep the order of the help.
+/// Returns all commands in the order of the help.
 std::vector<const CLI::App*> commands_of(const CLI::App& app);
-/// Returns the options with dashes.
-std::vector<const CLI::Option*> options_of(const CLI::App& command);
-std::vector<const CLI::Option*> positionals_of(const CLI::App& command);
-/// Returns true for an option without a value.
-bool is_flag(const CLI::Option& option);
+
+/// A page of the documentation, in Markdown.
+struct Page {
+    std::string_view topic, text;
+};
+
+/// Returns the pages that an installed copy has: the README first.
+std::span<const Page> documentation_pages();
 
 } // namespace raylane::scenes

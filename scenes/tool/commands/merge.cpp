@@ -5,7 +5,7 @@
 #include "scenes/tool/checkpoint/fingerprint.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/image_texts.hpp"
-#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/option.hpp"
 #include "scenes/tool/options/render_options.hpp"
 
 #include <optional>

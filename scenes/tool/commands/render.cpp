@@ -5,16 +5,15 @@
 #include "scenes/tool/checkpoint/fingerprint.hpp"
 #include "scenes/tool/checkpoint/resumable.hpp"
 #include "scenes/tool/commands/command.hpp"
+#include "scenes/tool/exit.hpp"
 #include "scenes/tool/image_texts.hpp"
-#include "scenes/tool/interrupt.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/options/command_line.hpp"
-#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/option.hpp"
 #include "scenes/tool/options/render_options.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/job.hpp"
-#include "scenes/tool/ranks/shared_scene.hpp"
-#include "scenes/tool/sequence/film_strip_arguments.hpp"
+#include "scenes/tool/sequence/film_strip.hpp"
 
 #include <nlohmann/json.hpp>
 

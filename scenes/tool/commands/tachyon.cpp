@@ -2,7 +2,7 @@
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/loading.hpp"
-#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/option.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "simd/render.hpp"
 #include "simd/threads.hpp"

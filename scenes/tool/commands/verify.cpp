@@ -7,10 +7,10 @@
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/image_texts.hpp"
 #include "scenes/tool/loading.hpp"
-#include "scenes/tool/memory_file.hpp"
 #include "scenes/tool/options/render_options.hpp"
 #include "scenes/tool/progress_bar.hpp"
-#include "scenes/tool/sequence/film_strip_arguments.hpp"
+#include "scenes/tool/sequence/film_strip.hpp"
+#include "scenes/tool/system.hpp"
 
 #include <algorithm>
 #include <cmath>

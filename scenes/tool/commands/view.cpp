@@ -4,8 +4,9 @@
 #include "scenes/image/writer.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/loading.hpp"
-#include "scenes/tool/options/files.hpp"
+#include "scenes/tool/options/option.hpp"
 #include "scenes/tool/options/scene_options.hpp"
+#include "scenes/tool/system.hpp"
 #include "scenes/tool/window/orbit.hpp"
 #include "scenes/tool/window/pick.hpp"
 #include "scenes/tool/window/picture_maker.hpp"
@@ -20,6 +21,20 @@
 namespace raylane::scenes {
 
 namespace {
+
+/// Opens a window by a module that is loaded on demand, because loading the libraries for windows
+/// takes longer than rendering many an image. Throws SystemRefused if there is no display or no
+/// such module.
+std::unique_ptr<Window> open_window(const std::string& title, int width, int height) {
+    constexpr const char* failure = "view: cannot open a window";
+    static const auto open = reinterpret_cast<OpenWindow>(function_of(
+        {"raylane-window.so", open_window_name, "SDL2 at build time (Debian: libsdl2-dev)"},
+        failure));
+    const char* why = "";
+    Window* window = open(title.c_str(), width, height, &why);
+    if (window == nullptr) throw SystemRefused(std::string(failure) + ": " + printable(why, 400));
+    return std::unique_ptr<Window>(window);
+}
 
 struct ViewCommandArguments : OptionTable {
     Option<std::string> scene = {

@@ -4,6 +4,7 @@
 #include "scenes/errors.hpp"
 #include "simd/render.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -291,5 +292,20 @@ inline constexpr const char* any_scene =
 /// WIDTHxHEIGHT of an image
 Values<std::pair<int, int>> image_size();
 Values<core::Precision> precisions();
+
+/// Returns the default name of an output: the scene's file name without its folder and with another
+/// extension.
+std::string default_output(const std::filesystem::path& scene, const std::string& ending);
+
+/// Throws BadInput if `file`, which is to be written, is the file of another argument, under any
+/// name.
+void require_other_file(const std::string& option, const std::string& file,
+                        const std::string& other_option, const std::string& other_file);
+/// Does the same for the argument SCENE. If that file is not a scene, the error says so instead.
+void require_other_than_scene(const std::string& option, const std::string& file,
+                              const std::string& scene);
+/// Does the same for two output files. Only one of them may be standard output.
+void require_other_output(const std::string& option, const std::string& file,
+                          const std::string& other_option, const std::string& other_file);
 
 } // namespace raylane::scenes

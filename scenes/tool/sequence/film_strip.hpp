@@ -1,11 +1,13 @@
 #pragma once
 
+#include "scenes/tool/options/render_options.hpp"
 #include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/sequence/scene_source.hpp"
 #include "simd/render.hpp"
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace raylane::scenes {
@@ -52,5 +54,17 @@ Shot first_shot(const FilmStrip& strip);
 /// the turn has another number of pictures than the source: before the first picture too many, or
 /// after the last one.
 void draw(const FilmStrip& strip);
+
+/// Returns a function from the number of a picture to the name of its file, according to --output.
+/// `is_one`: there is a single picture, whose name needs no number. Both functions throw BadInput
+/// for the name of the scene's file.
+std::function<std::string(std::size_t)>
+picture_names(const std::string& scene, const std::optional<std::string>& output, bool is_one);
+
+/// Returns the pictures that the command line requests, if there may be several. The caller sets
+/// how they are drawn. Scenes are made with `threads` threads. `arguments` must outlive the result.
+/// Throws BadInput.
+std::optional<FilmStrip> film_strip_of(const RenderArguments& arguments, int threads,
+                                       Verbosity verbosity);
 
 } // namespace raylane::scenes

@@ -2,7 +2,7 @@
 
 #include "core/scene/scene.hpp"
 #include "scenes/scene_file.hpp"
-#include "scenes/tool/options/sequence_options.hpp"
+#include "scenes/tool/options/scene_options.hpp"
 
 #include <memory>
 #include <optional>

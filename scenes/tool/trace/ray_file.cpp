@@ -1,7 +1,7 @@
 #include "scenes/tool/trace/ray_file.hpp"
 
 #include "scenes/errors.hpp"
-#include "scenes/tool/read_at.hpp"
+#include "scenes/tool/system.hpp"
 
 #include <algorithm>
 #include <cerrno>

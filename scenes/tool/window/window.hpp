@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <string>
 
 namespace raylane::scenes {
 
@@ -44,12 +42,8 @@ class Window {
     virtual void wake() = 0;
 };
 
-/// Opens a window by a module that is loaded on demand, because loading the libraries for windows
-/// takes longer than drawing many a picture. Throws SystemRefused if there is no display or no such
-/// module.
-std::unique_ptr<Window> open_window(const std::string& title, int width, int height);
-
-/// The function of the module. It returns null and sets the reason if it cannot open a window.
+/// The function of the module that opens windows. It returns null and sets the reason if it cannot
+/// open one.
 extern "C" using OpenWindow =
     Window * (*)(const char* title, int width, int height, const char** why);
 inline constexpr const char* open_window_name = "raylane_open_window";

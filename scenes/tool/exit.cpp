@@ -1,12 +1,17 @@
-#include "scenes/tool/interrupt.hpp"
+#include "scenes/tool/exit.hpp"
 
+#include "core/shapes/invalid_value.hpp"
 #include "scenes/atomic_file.hpp"
-#include "scenes/tool/failure.hpp"
+#include "scenes/errors.hpp"
+#include "scenes/tool/checkpoint/resumable.hpp"
+#include "scenes/tool/ranks/job.hpp"
 
 #include <atomic>
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <exception>
+#include <new>
 #include <unistd.h>
 
 namespace raylane::scenes {
@@ -86,6 +91,24 @@ bool is_ignored(int signal) {
 }
 
 } // namespace
+
+Failure failure_being_handled() {
+    try {
+        throw;
+    } catch (const BadInput& error) {
+        return {bad_input, error.what()};
+    } catch (const core::InvalidValue& error) {
+        return {bad_input, error.what()};
+    } catch (const Stopped& stopped) {
+        return {128 + stopped.signal, stopped.what()};
+    } catch (const RankFailed& failed) {
+        return {failed.code, failed.what()};
+    } catch (const std::bad_alloc&) {
+        return {refused, "not enough memory"};
+    } catch (const std::exception& error) {
+        return {refused, error.what()};
+    }
+}
 
 void catch_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2})

@@ -2,8 +2,24 @@
 
 #include "simd/render.hpp"
 
-/// Handling of signals such as Ctrl-C, which may arrive at any moment.
+#include <string_view>
+
+/// The ends of the program: exit codes, messages of exceptions, and signals such as Ctrl-C, which
+/// may arrive at any moment.
 namespace raylane::scenes {
+
+/// Exit codes of the program.
+enum ExitCode { done = 0, bad_input = 2, refused = 3 };
+
+/// The message for an exception, one line per error, and the exit code of the program.
+struct Failure {
+    int code; ///< an ExitCode, or 128 + the number of the signal that stopped the program
+    std::string_view text;
+};
+
+/// Describes the exception that is being handled. The text is valid until the handler ends.
+/// Allocates no memory, because memory may have run out.
+Failure failure_being_handled();
 
 /// Installs the signal handlers. SIGINT, SIGTERM, SIGHUP and the other signals from outside that
 /// end a process then remove the temporary files and end it at once, with exit code 128 + the
