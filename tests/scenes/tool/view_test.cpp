@@ -1,4 +1,4 @@
-#include "scenes/tool/view/pick.hpp"
+#include "scenes/tool/window/pick.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/json_scenes.hpp"
 #include "tests/scenes/tool/workshop.hpp"
