@@ -42,7 +42,7 @@ struct Found {
     /// True if hit points are wanted: t is then certain only if it is accurate enough for a point.
     bool holds_points = true;
     /// Lower limits, as in StreamRays. Crossings before or at them are ignored. If a ray crosses
-    /// the shape there, finish leaves in doubt whether and where it crosses the shape behind the
+    /// the shape there, solve leaves in doubt whether and where it crosses the shape behind the
     /// limit. Null: no limits.
     const double* t_after = nullptr;
     const double* start = nullptr;
@@ -65,11 +65,11 @@ struct MethodKernels {
     TraceKernels trace;
     /// Solves the first crossing of each ray with the shape that was found for it. Results are the
     /// same bits in every unit.
-    void (*finish)(const SceneView& scene, const Found& found);
-    /// Same as finish. It also sets hit_none where a ray certainly misses, and hit_normal_doubtful.
+    void (*solve)(const SceneView& scene, const Found& found);
+    /// Same as solve. It also sets hit_none where a ray certainly misses, and hit_normal_doubtful.
     void (*finish_all)(const SceneView& scene, const Found& found);
     RefineKernels refine; ///< null if the precision refines nothing
-    /// Searches and finishes in one pass, in scenes without a hierarchy. Candidates are in and out,
+    /// Searches and solves in one pass, in scenes without a hierarchy. Candidates are in and out,
     /// as in TraceKernels::nearest; candidates that came in are not finished. Null if the precision
     /// has no such kernel.
     void (*nearest_of_few)(const SceneView& scene, std::uint32_t kind_bits, const Found& found,

@@ -19,7 +19,7 @@ namespace {
 /// Number of shapes up to which testing all of them costs less than the hierarchy.
 constexpr std::size_t few_shapes = 24;
 
-/// Up to this number of slots, occupants are looked up in a table instead of being computed. The
+/// Up to this number of slots, records are looked up in a table instead of being computed. The
 /// table takes 1.3 MB, of which a tile needs little.
 constexpr std::uint32_t table_slots = 1U << 16;
 
@@ -160,7 +160,7 @@ SceneData::SceneData(const core::Scene& scene, Transmissive transmissive)
     : scene_(scene), fog_(view_of(scene.fog())) {
     view_surroundings();
     view_tables();
-    fill_occupants();
+    fill_records();
     view_hierarchy();
     find_plain_lanes(transmissive);
     cuts_.find(scene_, view_, slots_);
@@ -208,12 +208,12 @@ void SceneData::view_tables() {
     view_.rounding = static_cast<float>(rounding * (1.0 + 0x1p-20)); // rounded up
 }
 
-void SceneData::fill_occupants() {
+void SceneData::fill_records() {
     if (slots_ > table_slots) return;
-    std::vector<Occupant> occupants;
+    std::vector<ShapeRecord> records;
     for (std::uint32_t slot = 0; slot < slots_; ++slot)
-        occupants.push_back(find_occupant(slot));
-    occupants_ = std::move(occupants);
+        records.push_back(find_record(slot));
+    records_ = std::move(records);
 }
 
 void SceneData::view_hierarchy() {
@@ -326,7 +326,7 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
     view_.plain_lanes = plain_lanes_.data();
 }
 
-SceneData::Occupant SceneData::find_occupant(std::uint32_t slot) const {
+SceneData::ShapeRecord SceneData::find_record(std::uint32_t slot) const {
     static_assert(no_slot == core::no_shape);
     const core::Kind kind = kind_of(slot);
     const std::uint32_t place = slot - view_.tables[static_cast<int>(kind)].first_slot;
@@ -345,7 +345,7 @@ SceneData::Occupant SceneData::find_occupant(std::uint32_t slot) const {
 }
 
 core::Place SceneData::place_of(std::uint32_t slot) const {
-    const auto kind = static_cast<int>(occupant_of(slot).kind);
+    const auto kind = static_cast<int>(record_of(slot).kind);
     const std::uint32_t place = slot - view_.tables[kind].first_slot;
     return {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)};
 }
@@ -353,7 +353,7 @@ core::Place SceneData::place_of(std::uint32_t slot) const {
 std::vector<std::uint32_t> SceneData::slots_by_id() const {
     std::vector<std::uint32_t> slots(scene_.shape_count(), no_slot);
     for (std::uint32_t slot = 0; slot < slots_; ++slot)
-        if (const core::ShapeId id = find_occupant(slot).id; id != core::no_shape) slots[id] = slot;
+        if (const core::ShapeId id = find_record(slot).id; id != core::no_shape) slots[id] = slot;
     return slots;
 }
 

@@ -78,7 +78,7 @@ class SceneData {
     }
 
     /// The shape in a slot.
-    struct Occupant {
+    struct ShapeRecord {
         core::ShapeId id;
         core::IdRange coplanar;
         core::MaterialIndex material;
@@ -93,10 +93,10 @@ class SceneData {
         /// Returns true if a hit with these bits enters the shape or, if it is reversed, its solid.
         bool is_entered(std::uint32_t hit) const { return ((hit & hit_entering) != 0) != reversed; }
     };
-    Occupant occupant_of(std::uint32_t slot) const {
-        if (occupants_.empty()) [[unlikely]]
-            return find_occupant(slot);
-        return occupants_[slot];
+    ShapeRecord record_of(std::uint32_t slot) const {
+        if (records_.empty()) [[unlikely]]
+            return find_record(slot);
+        return records_[slot];
     }
     /// Properties of a shape by its id and slot. Cheap for any number of shapes.
     struct NamedShape {
@@ -119,7 +119,7 @@ class SceneData {
     core::ShapeId solid_with(core::ShapeId id) const {
         return scene_.solids().has(id) ? scene_.solids().solid_of(id) : core::no_shape;
     }
-    core::ShapeId id_of(std::uint32_t slot) const { return occupant_of(slot).id; }
+    core::ShapeId id_of(std::uint32_t slot) const { return record_of(slot).id; }
     core::Place place_of(std::uint32_t slot) const;
     std::uint32_t slot_of(core::Kind kind, core::Place place) const;
     /// Returns the slots of all shapes, by id. Duplicates other than the first have no_slot.
@@ -128,7 +128,7 @@ class SceneData {
   private:
     void view_surroundings();
     void view_tables();
-    void fill_occupants();
+    void fill_records();
     void view_hierarchy();
     bool may_see_inside(core::Solids::Index solid) const;
     bool is_apart(core::Solids::Index solid) const;
@@ -139,11 +139,11 @@ class SceneData {
             --kind;
         return static_cast<core::Kind>(kind);
     }
-    Occupant find_occupant(std::uint32_t slot) const;
+    ShapeRecord find_record(std::uint32_t slot) const;
 
     const core::Scene& scene_;
     SceneView view_{};
-    std::vector<Occupant> occupants_; // by slot; empty in large scenes
+    std::vector<ShapeRecord> records_; // by slot; empty in large scenes
     std::vector<std::uint16_t> plain_lanes_;
     Cuts cuts_;
     std::vector<std::uint64_t> orders_;

@@ -435,7 +435,7 @@ def cylinder_foot():
 def cone_nappes():
     header = "core/shapes/cone.hpp"
     source(header, r"if \(root\.entering == enters\) on_nappe\.add\(root\);")
-    source(header, r"const bool enters = judge\.sign\(M\) > 0;")
+    source(header, r"const bool enters = predicate\.sign\(M\) > 0;")
     # A plane through the axis: x along the axis from the base, y across, in pixels.
     length, base_radius, top_radius = 170.0, 112.0, 36.0
     slope = (top_radius - base_radius) / length
@@ -606,8 +606,8 @@ def sphere_bounds(np, origin, direction, slack, center, radius):
             "upper": tau - inner_half + rounding, "foot_squared": foot_squared, "error": error}
 
 
-def finished(np, origin, direction, center, radius):
-    """SphereFinisher::finish in double for rays that start outside: t, its error, and where both are certain."""
+def certified(np, origin, direction, center, radius):
+    """SphereCertifiedSolver::solve in double for rays that start outside: t, its error, and where both are certain."""
     header = "simd/kernel/shapes/sphere.hpp"
     source(header, re.escape("H * (F(0x1p-49) * radius + F(0x1p-90) * H)"))
     source(header, re.escape("F(0x1p-45) * H + discriminant_error * (inverse * radius)"))
@@ -643,7 +643,7 @@ def packet():
     center, radius = np.zeros(3, F), F(5)
     bounds = sphere_bounds(np, origin, direction, slack, center, radius)
     possible, certain = bounds["possible"], bounds["certain"]
-    t, error, solved = finished(np, origin.astype(float), direction.astype(float), center.astype(float), float(radius))
+    t, error, solved = certified(np, origin.astype(float), direction.astype(float), center.astype(float), float(radius))
     # The rule of list_uncertain. There is no second candidate, so t + error must be before the culling limit.
     with np.errstate(invalid="ignore"):
         sure = solved & ((t + error).astype(F) * F(1 + 2.0**-21) <= bounds["lower"] * culling)
@@ -655,7 +655,7 @@ def packet():
 
     drawing = Drawing(720, 560, "One packet: 16 rays and one sphere", [
         "Computed by bench/drawings/make.py, formulas of simd/kernel/shapes/sphere.hpp: SphereFilter in float32",
-        "(NumPy, no fused operations), SphereFinisher in double, list_uncertain, tangents in integers.",
+        "(NumPy, no fused operations), SphereCertifiedSolver in double, list_uncertain, tangents in integers.",
     ])
     cell = 34
     x0, y0 = 20, 54

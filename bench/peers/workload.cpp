@@ -231,7 +231,7 @@ void RaySet::add_from(const Ray<double>& ray, float t_most, const simd::SceneDat
     for (int axis = 0; axis < 3; ++axis)
         largest = std::max(largest, std::abs(ray.origin[axis]));
     t_least_.back() = 32.0F * std::numeric_limits<float>::epsilon() * static_cast<float>(largest);
-    paths(count - 1, 1).start_on(0, slot, scene.occupant_of(slot), hit, /*through=*/false);
+    paths(count - 1, 1).start_on(0, slot, scene.record_of(slot), hit, /*through=*/false);
 }
 
 void RaySet::finish() {

@@ -3,7 +3,7 @@
 #include "core/numbers/affine.hpp"
 #include "core/numbers/float4.hpp"
 #include "core/shapes/bounds.hpp"
-#include "core/shapes/judge.hpp"
+#include "core/shapes/error_predicate.hpp"
 #include "core/shapes/shape_table.hpp"
 
 #include <cstring>
@@ -13,16 +13,16 @@
 /// Bundles of rays that are traced as one: a statement about a beam holds for each of its rays.
 namespace raylane::core {
 
-/// Judge of all rays of a beam. An answer that differs between rays is a doubt. The answer in doubt
-/// is that of the middle ray; or, to bound t from below, the answer of a ray that hits.
+/// ErrorPredicate of all rays of a beam. An answer that differs between rays is a doubt. The answer
+/// in doubt is that of the middle ray; or, to bound t from below, the answer of a ray that hits.
 template <>
-class Judge<Affine> {
+class ErrorPredicate<Affine> {
   public:
-    Judge() = default;
-    static Judge that_lets_none_miss() {
-        Judge judge;
-        judge.lets_none_miss_ = true;
-        return judge;
+    ErrorPredicate() = default;
+    static ErrorPredicate that_lets_none_miss() {
+        ErrorPredicate predicate;
+        predicate.lets_none_miss_ = true;
+        return predicate;
     }
 
     static constexpr bool textbook() { return false; }

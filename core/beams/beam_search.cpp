@@ -122,17 +122,17 @@ namespace {
 /// crossings(), inlined into one function.
 template <class Shape>
 [[gnu::flatten]] Crossings<Affine> meetings(const Shape& shape, const Beam& beam,
-                                            Judge<Affine>& judge) {
-    return crossings(shape, beam, Start{}, judge);
+                                            ErrorPredicate<Affine>& predicate) {
+    return crossings(shape, beam, Start{}, predicate);
 }
 
 /// Returns a crossing that is not behind the first crossing of any ray that meets the shape. Where
 /// nothing is known, its t may be any number.
 template <class Shape>
 Crossing<Affine> first_possible(const Shape& shape, const Beam& beam) {
-    Judge<Affine> judge = Judge<Affine>::that_lets_none_miss();
-    const Crossings<Affine> all = meetings(shape, beam, judge);
-    if (judge.doubt() || all.begin() == all.end())
+    ErrorPredicate<Affine> predicate = ErrorPredicate<Affine>::that_lets_none_miss();
+    const Crossings<Affine> all = meetings(shape, beam, predicate);
+    if (predicate.doubt() || all.begin() == all.end())
         return {Affine(0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()), body};
     return *all.begin();
 }
@@ -148,13 +148,14 @@ BeamSearch::Met BeamSearch::meet(const BeamCandidate& candidate, const Beam& bea
     }
     const Material& material = scene_.material_of(candidate.id);
     return with_table(scene_.shapes(), candidate.kind, [&](const auto& table) -> Met {
-        Judge<Affine> judge;
-        const Crossings<Affine> all = meetings(table.get(candidate.place), beam, judge);
-        if (judge.doubt()) return {Met::partly, first_possible(table.get(candidate.place), beam)};
+        ErrorPredicate<Affine> predicate;
+        const Crossings<Affine> all = meetings(table.get(candidate.place), beam, predicate);
+        if (predicate.doubt())
+            return {Met::partly, first_possible(table.get(candidate.place), beam)};
         for (const Crossing<Affine>& crossing : all) {
             if (crossing.t.upper() < 0.0) continue;
             if (!(crossing.t.lower() > 0.0)) return {Met::partly, crossing};
-            if (Judge<Affine>::is_doubtful(crossing)) return {Met::partly, crossing};
+            if (ErrorPredicate<Affine>::is_doubtful(crossing)) return {Met::partly, crossing};
             // A part may or may not be the surface of its solid here.
             if (scene_.solids().has(candidate.id)) return {Met::partly, crossing};
             if (material.is_seen(crossing.entering)) return {Met::whole, crossing};

@@ -1,6 +1,6 @@
 #include "core/reference/crossing_order.hpp"
 
-#include "core/shapes/judge.hpp"
+#include "core/shapes/error_predicate.hpp"
 #include "core/shapes/shapes.hpp"
 
 #include <utility>
@@ -43,10 +43,11 @@ const ExactRoot& SharpHit::root(const Scene& scene, const LeavingRay& from) cons
 template <class Shape>
 void SharpHit::widen(const Shape& shape, const LeavingRay& from) const {
     using Wide = Bounded<DoubleDouble>;
-    Judge<Wide> judge;
+    ErrorPredicate<Wide> predicate;
     const Ray<Wide> wide{convert<Wide>(from.ray.origin), convert<Wide>(from.ray.direction)};
-    const Crossings<Wide> found = crossings(shape, wide, from.origins.start_on(hit_.shape), judge);
-    if (judge.doubt()) return; // the formulas may have taken a wrong branch
+    const Crossings<Wide> found =
+        crossings(shape, wide, from.origins.start_on(hit_.shape), predicate);
+    if (predicate.doubt()) return; // the formulas may have taken a wrong branch
     for (const Crossing<Wide>& crossing : found) {
         if (crossing.face != hit_.face || crossing.entering != hit_.entering) continue;
         if (!(crossing.t.error < hit_.error)) continue;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/shapes/bounds.hpp"
+#include "core/shapes/error_predicate.hpp"
 #include "core/shapes/form.hpp"
-#include "core/shapes/judge.hpp"
 
 #include <array>
 
@@ -38,9 +38,9 @@ struct AxialRay {
     }
 
     /// Returns true if the crossing is between the ends, including the rims.
-    bool between_ends(const Real& t, Judge<Real>& judge) const {
+    bool between_ends(const Real& t, ErrorPredicate<Real>& predicate) const {
         const Real height = mul_add(t, height_direction, height_origin);
-        return !judge.negative(height) && !judge.less(axis_squared, height);
+        return !predicate.negative(height) && !predicate.less(axis_squared, height);
     }
 };
 
@@ -49,13 +49,13 @@ struct AxialRay {
 /// it starts.
 template <class Real, class AnyInterval>
 void clip_caps(AnyInterval& interval, const AxialRay<Real>& axial, const Start& start,
-               Judge<Real>& judge) {
+               ErrorPredicate<Real>& predicate) {
     if (!start.on_surface) {
         interval.clip_slab(axial.height_origin, axial.height_direction, axial.axis_squared,
                            base_cap, top_cap);
         return;
     }
-    const int direction = judge.sign(axial.height_direction);
+    const int direction = predicate.sign(axial.height_direction);
     if (direction > 0 && start.face != top_cap)
         interval.clip_back((axial.axis_squared - axial.height_origin) / axial.height_direction,
                            top_cap);
@@ -66,11 +66,12 @@ void clip_caps(AnyInterval& interval, const AxialRay<Real>& axial, const Start& 
 /// Returns the crossings of an open surface that are between its ends.
 template <class Real>
 Crossings<Real> keep_between_ends(const Crossings<Real>& crossings, const AxialRay<Real>& axial,
-                                  Judge<Real>& judge) {
+                                  ErrorPredicate<Real>& predicate) {
     Crossings<Real> kept;
     for (Crossing<Real> crossing : crossings)
-        if (judge.counts(crossing,
-                         [&](const Crossing<Real>& it) { return axial.between_ends(it.t, judge); }))
+        if (predicate.counts(crossing, [&](const Crossing<Real>& it) {
+                return axial.between_ends(it.t, predicate);
+            }))
             kept.add(crossing);
     return kept;
 }

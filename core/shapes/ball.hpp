@@ -10,7 +10,8 @@ namespace raylane::core {
 /// Source: Haines, Guenther and Akenine-Moeller, Ray Tracing Gems, ch. 7.
 template <class Real>
 Crossings<Real> ball_crossings(const Vec3<Real>& origin, const Vec3<Real>& direction,
-                               const Real& radius, const Start& start, Judge<Real>& judge) {
+                               const Real& radius, const Start& start,
+                               ErrorPredicate<Real>& predicate) {
     using std::sqrt;
     if (start.on_surface && !start.inward) return {};
 
@@ -19,12 +20,12 @@ Crossings<Real> ball_crossings(const Vec3<Real>& origin, const Vec3<Real>& direc
     const Real tau = -dot(origin, direction) / by_dd;
     if (start.on_surface) return Crossing<Real>{not_behind(Real(tau + tau)), body, false};
 
-    if (judge.textbook())
+    if (predicate.textbook())
         return solve_textbook(dd, Real(dot(origin, direction)),
                               Real(squared_length(origin) - radius * radius));
     const Vec3<Real> foot = mul_add(tau, direction, origin);
     const Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
-    if (judge.negative(discriminant)) return {};
+    if (predicate.negative(discriminant)) return {};
     const Real half_chord = sqrt(Real(discriminant / by_dd));
     return {{tau - half_chord, body, true}, {tau + half_chord, body, false}};
 }

@@ -39,7 +39,7 @@ std::array<Vec3<Real>, 3> box_normals(const BoxOf<Number>& box) {
 /// slabs [0, 1].
 template <class Real, class Number>
 Crossings<Real> crossings(const BoxOf<Number>& box, const Ray<Real>& ray, const Start& start,
-                          Judge<Real>& judge) {
+                          ErrorPredicate<Real>& predicate) {
     if (start.on_surface && !start.inward) return {};
 
     const Vec3<Real> from_corner = ray.origin - convert<Real>(box.corner);
@@ -49,7 +49,7 @@ Crossings<Real> crossings(const BoxOf<Number>& box, const Ray<Real>& ray, const 
     const bool left_handed = static_cast<double>(volume) < 0.0;
     const auto turned = [&](const Real& a) { return left_handed ? Real(-a) : a; };
 
-    ClipInterval<Real> interval(judge);
+    ClipInterval<Real> interval(predicate);
     for (int i = 0; i < 3; ++i) {
         const Real position = turned(dot(normals[i], from_corner));
         const Real slope = turned(dot(normals[i], ray.direction));
@@ -59,7 +59,7 @@ Crossings<Real> crossings(const BoxOf<Number>& box, const Ray<Real>& ray, const 
             continue;
         }
         // From a face inward, only exits count, and not the face itself.
-        const int direction = judge.sign(slope);
+        const int direction = predicate.sign(slope);
         if (direction > 0 && start.face != high)
             interval.clip_back((turned(volume) - position) / slope, high);
         if (direction < 0 && start.face != low) interval.clip_back(-position / slope, low);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/shapes/judge.hpp"
+#include "core/shapes/error_predicate.hpp"
 #include "core/shapes/ray.hpp"
 
 #include <utility>
@@ -13,7 +13,7 @@ namespace raylane::core {
 template <class Real>
 class ClipInterval {
   public:
-    explicit ClipInterval(Judge<Real>& judge) : judge_(judge) {}
+    explicit ClipInterval(ErrorPredicate<Real>& predicate) : predicate_(predicate) {}
 
     /// Restricts the inside to t >= `t`.
     void clip_front(const Real& t, Face face) {
@@ -21,7 +21,7 @@ class ClipInterval {
         if (!std::exchange(has_front_, true))
             front_ = front;
         else
-            judge_.keep_last(front_, front);
+            predicate_.keep_last(front_, front);
     }
 
     /// Restricts the inside to t <= `t`.
@@ -30,18 +30,18 @@ class ClipInterval {
         if (!std::exchange(has_back_, true))
             back_ = back;
         else
-            judge_.keep_first(back_, back);
+            predicate_.keep_first(back_, back);
     }
 
     void clip_all() { empty_ = true; }
 
     /// Clips against 0 <= start + t slope <= end. The faces at 0 and at `end` are `low` and `high`.
     void clip_slab(const Real& start, const Real& slope, const Real& end, Face low, Face high) {
-        if constexpr (requires { judge_.is_along(start, slope, end); })
-            if (judge_.is_along(start, slope, end)) return;
-        const int direction = judge_.sign(slope);
+        if constexpr (requires { predicate_.is_along(start, slope, end); })
+            if (predicate_.is_along(start, slope, end)) return;
+        const int direction = predicate_.sign(slope);
         if (direction == 0) {
-            if (judge_.negative(start) || judge_.less(end, start)) clip_all();
+            if (predicate_.negative(start) || predicate_.less(end, start)) clip_all();
             return;
         }
         const Divisor<Real> by_slope(slope);
@@ -54,9 +54,9 @@ class ClipInterval {
     /// Returns both ends if the interval is not empty. A solid is bounded, so a part of it has two
     /// ends.
     Crossings<Real> crossings() const {
-        if constexpr (requires { judge_.settle(&front_, &back_); })
-            judge_.settle(has_front_ ? &front_ : nullptr, has_back_ ? &back_ : nullptr);
-        if (empty_ || !has_front_ || !has_back_ || judge_.less(back_.t, front_.t)) return {};
+        if constexpr (requires { predicate_.settle(&front_, &back_); })
+            predicate_.settle(has_front_ ? &front_ : nullptr, has_back_ ? &back_ : nullptr);
+        if (empty_ || !has_front_ || !has_back_ || predicate_.less(back_.t, front_.t)) return {};
         return {front_, back_};
     }
 
@@ -68,7 +68,7 @@ class ClipInterval {
     }
 
   private:
-    Judge<Real>& judge_;
+    ErrorPredicate<Real>& predicate_;
     Crossing<Real> front_{};
     Crossing<Real> back_{};
     bool has_front_ = false;

@@ -36,7 +36,7 @@ Bounds bounds_of(const ConeOf<Number, ends>& cone) {
 /// Drawing: bench/drawings/cone_nappes.svg
 template <class Real, class Number, Ends ends>
 Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray,
-                          const Start& start, Judge<Real>& judge) {
+                          const Start& start, ErrorPredicate<Real>& predicate) {
     if (start.on_surface && !start.inward) return {};
 
     const AxialRay<Real> axial(cone.base, cone.axis, ray);
@@ -50,15 +50,15 @@ Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray
 
     // The infinite double cone.
     Crossings<Real> roots;
-    const int curvature = judge.sign(A);
+    const int curvature = predicate.sign(A);
     if (start.on_surface && start.face == body) {
         // t = 0 is one root, -2 * B / A the other. Going inward, F falls at 0, so it rises again
         // only if A > 0.
         if (curvature > 0) roots.add({not_behind(Real(-(B + B) / A)), body, false});
     } else {
         const Real C = mul_add(Real(-W), W, squared_length(axial.across_origin));
-        roots =
-            solve_quadratic(A, B, C, mul_add(M, M, across_squared), judge, [&](const Real& tau) {
+        roots = solve_quadratic(
+            A, B, C, mul_add(M, M, across_squared), predicate, [&](const Real& tau) {
                 const Real width = mul_add(tau, M, W);
                 return mul_add(
                     Real(-width), width,
@@ -67,7 +67,7 @@ Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray
         // Without roots, the line is outside of the cone or inside of the double cone for all t.
         // Inside, it can only cross the caps.
         const bool no_roots = roots.begin() == roots.end();
-        if (no_roots && (curvature > 0 || judge.positive(C))) {
+        if (no_roots && (curvature > 0 || predicate.positive(C))) {
             if (!start.on_surface) return {};
             // The ray starts on a cap, at its rim: it leaves, whatever the rounding.
             const Real vertex = curvature > 0 ? Real(-B / A) : Real(0.0);
@@ -77,21 +77,21 @@ Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray
     // The line crosses each nappe once: it is inside before the first crossing and behind the
     // second. If M > 0, the width grows with t, so the nappe with width >= 0 is the second.
     if (curvature < 0) {
-        const bool enters = judge.sign(M) > 0;
+        const bool enters = predicate.sign(M) > 0;
         Crossings<Real> on_nappe;
         for (const Crossing<Real>& root : roots)
             if (root.entering == enters) on_nappe.add(root);
         roots = on_nappe;
     }
-    if constexpr (ends == Ends::open) return keep_between_ends(roots, axial, judge);
+    if constexpr (ends == Ends::open) return keep_between_ends(roots, axial, predicate);
 
     // The solid is convex: clip to the nappe between the ends.
-    ClipInterval<Real> interval(judge);
+    ClipInterval<Real> interval(predicate);
     for (const Crossing<Real>& root : roots) {
         if (root.entering && !start.on_surface) interval.clip_front(root.t, root.face);
         if (!root.entering) interval.clip_back(root.t, root.face);
     }
-    clip_caps(interval, axial, start, judge);
+    clip_caps(interval, axial, start, predicate);
     return start.on_surface ? interval.exit() : interval.crossings();
 }
 

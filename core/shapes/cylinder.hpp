@@ -27,7 +27,7 @@ Bounds bounds_of(const CylinderOf<Number, ends>& cylinder) {
 /// Drawing: bench/drawings/cylinder_foot.svg
 template <class Real, class Number, Ends ends>
 Crossings<Real> crossings(const CylinderOf<Number, ends>& cylinder, const Ray<Real>& ray,
-                          const Start& start, Judge<Real>& judge) {
+                          const Start& start, ErrorPredicate<Real>& predicate) {
     using std::sqrt;
     if (start.on_surface && !start.inward) return {};
 
@@ -35,15 +35,15 @@ Crossings<Real> crossings(const CylinderOf<Number, ends>& cylinder, const Ray<Re
     const Real radius = Real(cylinder.radius);
     const Real speed_squared = squared_length(axial.across_direction);
     const Divisor<Real> by_speed_squared(speed_squared);
-    const bool parallel = judge.sign(speed_squared) == 0;
+    const bool parallel = predicate.sign(speed_squared) == 0;
     const Real tau =
         parallel ? Real(0.0)
                  : Real(-dot(axial.across_origin, axial.across_direction)) / by_speed_squared;
 
-    ClipInterval<Real> interval(judge);
+    ClipInterval<Real> interval(predicate);
     const bool from_body = start.on_surface && start.face == body;
     if (from_body && !parallel) interval.clip_back(not_behind(Real(tau + tau)), body);
-    if (judge.textbook() && !start.on_surface) {
+    if (predicate.textbook() && !start.on_surface) {
         const Real C = squared_length(axial.across_origin) - radius * radius;
         if (parallel) {
             if (static_cast<double>(C) > 0.0) return {};
@@ -58,7 +58,7 @@ Crossings<Real> crossings(const CylinderOf<Number, ends>& cylinder, const Ray<Re
     } else if (!from_body) {
         const Vec3<Real> foot = mul_add(tau, axial.across_direction, axial.across_origin);
         Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
-        if (judge.negative(discriminant)) {
+        if (predicate.negative(discriminant)) {
             if (!start.on_surface) return {};
             // The ray starts on a cap, at its rim: it leaves, whatever the rounding.
             discriminant = Real(0.0);
@@ -72,8 +72,8 @@ Crossings<Real> crossings(const CylinderOf<Number, ends>& cylinder, const Ray<Re
 
     if constexpr (ends == Ends::open)
         return keep_between_ends(start.on_surface ? interval.exit() : interval.crossings(), axial,
-                                 judge);
-    clip_caps(interval, axial, start, judge);
+                                 predicate);
+    clip_caps(interval, axial, start, predicate);
     return start.on_surface ? interval.exit() : interval.crossings();
 }
 

@@ -21,14 +21,15 @@ Bounds bounds_of(const DiscOf<Number>& disc) {
 
 template <class Real, class Number>
 Crossings<Real> crossings(const DiscOf<Number>& disc, const Ray<Real>& ray, const Start& start,
-                          Judge<Real>& judge) {
+                          ErrorPredicate<Real>& predicate) {
     if (start.on_surface) return {};
     const Vec3<Real> to_center = convert<Real>(disc.center) - ray.origin;
-    const auto crossing = cross_plane(to_center, convert<Real>(disc.normal), ray.direction, judge);
+    const auto crossing =
+        cross_plane(to_center, convert<Real>(disc.normal), ray.direction, predicate);
     if (!crossing) return {};
     const Vec3<Real> from_center = mul_add(crossing->t, ray.direction, Vec3<Real>(-to_center));
     const Real radius = Real(disc.radius);
-    if (judge.less(Real(radius * radius), squared_length(from_center))) return {};
+    if (predicate.less(Real(radius * radius), squared_length(from_center))) return {};
     return *crossing;
 }
 

@@ -62,10 +62,10 @@ struct ToBall {
 
 template <class Real, class Number>
 Crossings<Real> crossings(const EllipsoidOf<Number>& ellipsoid, const Ray<Real>& ray,
-                          const Start& start, Judge<Real>& judge) {
+                          const Start& start, ErrorPredicate<Real>& predicate) {
     const ToBall<Real> to_ball(ellipsoid);
     return ball_crossings(to_ball(Vec3<Real>(ray.origin - convert<Real>(ellipsoid.center))),
-                          to_ball(ray.direction), to_ball.radius, start, judge);
+                          to_ball(ray.direction), to_ball.radius, start, predicate);
 }
 
 template <class Real, class Number>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/shapes/error_predicate.hpp"
 #include "core/shapes/form.hpp"
-#include "core/shapes/judge.hpp"
 #include "core/shapes/ray.hpp"
 
 #include <optional>
@@ -13,9 +13,10 @@ namespace raylane::core {
 /// Solves normal . (origin + t direction - point) = 0.
 template <class Real>
 std::optional<Crossing<Real>> cross_plane(const Vec3<Real>& to_point, const Vec3<Real>& normal,
-                                          const Vec3<Real>& direction, Judge<Real>& judge) {
+                                          const Vec3<Real>& direction,
+                                          ErrorPredicate<Real>& predicate) {
     const Real approach = dot(normal, direction);
-    const int side = judge.sign(approach);
+    const int side = predicate.sign(approach);
     if (side == 0) return std::nullopt;
     return Crossing<Real>{dot(normal, to_point) / approach, body, side < 0};
 }

@@ -16,10 +16,10 @@ void validate(const PlaneOf<Number>& plane) {
 
 template <class Real, class Number>
 Crossings<Real> crossings(const PlaneOf<Number>& plane, const Ray<Real>& ray, const Start& start,
-                          Judge<Real>& judge) {
+                          ErrorPredicate<Real>& predicate) {
     if (start.on_surface) return {};
     const auto crossing = cross_plane(Vec3<Real>(convert<Real>(plane.point) - ray.origin),
-                                      convert<Real>(plane.normal), ray.direction, judge);
+                                      convert<Real>(plane.normal), ray.direction, predicate);
     return crossing ? Crossings<Real>(*crossing) : Crossings<Real>();
 }
 

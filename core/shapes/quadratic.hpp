@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/shapes/judge.hpp"
+#include "core/shapes/error_predicate.hpp"
 #include "core/shapes/ray.hpp"
 
 namespace raylane::core {
@@ -35,17 +35,17 @@ Crossings<Real> solve_textbook(const Real& A, const Real& B, const Real& C) {
 /// cancellation.
 template <class Real, class AtVertex>
 Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, const Real& scale,
-                                Judge<Real>& judge, const AtVertex& at_vertex) {
+                                ErrorPredicate<Real>& predicate, const AtVertex& at_vertex) {
     using std::sqrt;
-    if (judge.textbook()) return solve_textbook(A, B, C);
+    if (predicate.textbook()) return solve_textbook(A, B, C);
     const auto crossing = [](const Real& t, bool entering) {
         return Crossing<Real>{t, body, entering};
     };
 
     // The leading term vanishes: the equation is linear and has one root.
-    const int curvature = judge.sign(A);
+    const int curvature = predicate.sign(A);
     if (curvature == 0) {
-        const int slope = judge.sign(B);
+        const int slope = predicate.sign(B);
         if (slope == 0) return {};
         return crossing(-C / (B + B), slope < 0);
     }
@@ -55,7 +55,7 @@ Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, con
     const bool near_linear = std::abs(static_cast<double>(A)) < 0x1p-4 * static_cast<double>(scale);
     const Real discriminant =
         near_linear ? mul_add(B, B, Real(-(A * C))) : Real(-(A * at_vertex(Real(-B) / by_A)));
-    if (judge.negative(discriminant)) return {};
+    if (predicate.negative(discriminant)) return {};
     const Real root = sqrt(discriminant);
 
     // q does not cancel; the second root comes from the product of both, C / A.

@@ -73,7 +73,7 @@ Real quadric_scale(const QuadricOf<Number>& q) {
 /// Solves Q(f + t direction) = A t^2 + 2 B t + C = 0, clipped to the box.
 template <class Real, class Number>
 Crossings<Real> crossings(const QuadricOf<Number>& quadric, const Ray<Real>& ray,
-                          const Start& start, Judge<Real>& judge) {
+                          const Start& start, ErrorPredicate<Real>& predicate) {
     const Vec3<Real> from_center = ray.origin - convert<Real>(quadric.center);
     const Vec3<Real> product = quadric_product(quadric, ray.direction);
     const Real A = dot(ray.direction, product);
@@ -84,13 +84,13 @@ Crossings<Real> crossings(const QuadricOf<Number>& quadric, const Ray<Real>& ray
         // t = 0 is one root, -2 B / A the other. The other is ahead if the ray first goes inside
         // and the form rises again, or the reverse. The caller knows the side at the start better
         // than the sign of B.
-        const int curvature = judge.sign(A);
+        const int curvature = predicate.sign(A);
         if (start.inward ? curvature > 0 : curvature < 0)
             roots.add({not_behind(Real(-(B + B) / A)), body, !start.inward});
     } else {
         const Real scale = squared_length(ray.direction) * quadric_scale<Real>(quadric);
         roots = solve_quadratic(
-            A, B, quadric_value(quadric, from_center), scale, judge, [&](const Real& tau) {
+            A, B, quadric_value(quadric, from_center), scale, predicate, [&](const Real& tau) {
                 return quadric_value(quadric, Vec3<Real>(mul_add(tau, ray.direction, from_center)));
             });
     }
@@ -100,8 +100,8 @@ Crossings<Real> crossings(const QuadricOf<Number>& quadric, const Ray<Real>& ray
         const Vec3<Real> p = mul_add(root.t, ray.direction, from_center);
         bool inside = true;
         for (int axis = 0; axis < 3; ++axis)
-            inside = inside && !judge.less(p[axis], Real(quadric.lower[axis])) &&
-                     !judge.less(Real(quadric.upper[axis]), p[axis]);
+            inside = inside && !predicate.less(p[axis], Real(quadric.lower[axis])) &&
+                     !predicate.less(Real(quadric.upper[axis]), p[axis]);
         if (inside) kept.add(root);
     }
     return kept;

@@ -1,6 +1,6 @@
 #include "core/shapes/solve.hpp"
 
-#include "core/shapes/judge.hpp"
+#include "core/shapes/error_predicate.hpp"
 #include "core/shapes/shapes.hpp"
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace {
 
 template <class T, class Shape>
 Crossings<double> solve_bounded(const Shape& shape, const Ray<double>& ray, const Start& start,
-                                Judge<Bounded<T>>& judge) {
+                                ErrorPredicate<Bounded<T>>& predicate) {
     using Real = Bounded<T>;
     const Ray<Real> wide{convert<Real>(ray.origin), convert<Real>(ray.direction)};
     Crossings<double> result;
-    for (const Crossing<Real>& crossing : crossings(shape, wide, start, judge)) {
-        const int side = start.on_surface ? 1 : judge.sign(crossing.t);
+    for (const Crossing<Real>& crossing : crossings(shape, wide, start, predicate)) {
+        const int side = start.on_surface ? 1 : predicate.sign(crossing.t);
         const Bounded<double> t = in_double(crossing.t);
-        if (side > 0) judge.result(t);
+        if (side > 0) predicate.result(t);
         result.add({side == 0 ? 0.0 : t.value, crossing.face, crossing.entering, t.error});
     }
     return result;
@@ -32,10 +32,10 @@ Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, cons
     Crossings<double> result;
     for (int axis = 0; axis < 3; ++axis)
         if (!std::isfinite(ray.origin[axis]) || !std::isfinite(ray.direction[axis])) return result;
-    Judge<Exact> judge;
+    ErrorPredicate<Exact> predicate;
     const Ray<Exact> exact{convert<Exact>(ray.origin), convert<Exact>(ray.direction)};
     double last = -std::numeric_limits<double>::infinity();
-    for (const Crossing<Exact>& crossing : crossings(shape, exact, start, judge)) {
+    for (const Crossing<Exact>& crossing : crossings(shape, exact, start, predicate)) {
         last = std::max(last, static_cast<double>(crossing.t)); // keeps the order despite rounding
         result.add({last, crossing.face, crossing.entering, accuracy * std::abs(last)});
     }
@@ -47,25 +47,25 @@ Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, cons
 template <OfDoubles Shape>
 Crossings<float> solve(const Shape& shape, const Ray<float>& ray, const Start& start,
                        std::uint64_t&, Precision precision) {
-    Judge<float> judge(precision);
-    return crossings(shape, ray, start, judge);
+    ErrorPredicate<float> predicate(precision);
+    return crossings(shape, ray, start, predicate);
 }
 
 template <OfDoubles Shape>
 Crossings<double> solve(const Shape& shape, const Ray<double>& ray, const Start& start,
                         std::uint64_t& widened, Precision precision) {
     if (precision == Precision::plain_double) {
-        Judge<double> plain;
+        ErrorPredicate<double> plain;
         return crossings(shape, ray, start, plain);
     }
-    Judge<Bounded<double>> judge;
-    const Crossings<double> result = solve_bounded<double>(shape, ray, start, judge);
-    if (!judge.doubt()) [[likely]]
+    ErrorPredicate<Bounded<double>> predicate;
+    const Crossings<double> result = solve_bounded<double>(shape, ray, start, predicate);
+    if (!predicate.doubt()) [[likely]]
         return result;
     ++widened;
-    Judge<Bounded<DoubleDouble>> wide_judge;
-    const Crossings<double> wide = solve_bounded<DoubleDouble>(shape, ray, start, wide_judge);
-    return wide_judge.doubt() ? solve_exactly(shape, ray, start) : wide;
+    ErrorPredicate<Bounded<DoubleDouble>> wide_predicate;
+    const Crossings<double> wide = solve_bounded<DoubleDouble>(shape, ray, start, wide_predicate);
+    return wide_predicate.doubt() ? solve_exactly(shape, ray, start) : wide;
 }
 
 #define RAYLANE_SOLVE(Shape, name, text)                                                           \

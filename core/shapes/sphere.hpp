@@ -31,9 +31,9 @@ inline Bounds bounds_of(const SphereOf<double>& sphere) {
 
 template <class Real, class Number>
 Crossings<Real> crossings(const SphereOf<Number>& sphere, const Ray<Real>& ray, const Start& start,
-                          Judge<Real>& judge) {
+                          ErrorPredicate<Real>& predicate) {
     return ball_crossings(Vec3<Real>(ray.origin - convert<Real>(sphere.center)), ray.direction,
-                          Real(sphere.radius), start, judge);
+                          Real(sphere.radius), start, predicate);
 }
 
 template <class Real, class Number>

@@ -45,7 +45,7 @@ Vec3<Real> edge_functions(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<R
 
 template <class Real, AnyTriangle Shape>
 Crossings<Real> crossings(const Shape& triangle, const Ray<Real>& ray, const Start& start,
-                          Judge<Real>& judge) {
+                          ErrorPredicate<Real>& predicate) {
     if (start.on_surface) return {};
     const Vec3<Real> a = convert<Real>(triangle.a) - ray.origin;
     const Vec3<Real> b = convert<Real>(triangle.b) - ray.origin;
@@ -53,13 +53,13 @@ Crossings<Real> crossings(const Shape& triangle, const Ray<Real>& ray, const Sta
 
     // Inside if the ray passes all three edges on the same side, or through an edge.
     const Vec3<Real> areas = edge_functions(a, b, c, ray.direction);
-    const int u = judge.sign(areas.x), v = judge.sign(areas.y), w = judge.sign(areas.z);
+    const int u = predicate.sign(areas.x), v = predicate.sign(areas.y), w = predicate.sign(areas.z);
     const bool some_negative = u < 0 || v < 0 || w < 0;
     const bool some_positive = u > 0 || v > 0 || w > 0;
     if (some_negative == some_positive) return {}; // both: outside; neither: in the plane
 
     const Vec3<Real> normal = cross(Vec3<Real>(b - a), Vec3<Real>(c - a));
-    const auto crossing = cross_plane(a, normal, ray.direction, judge);
+    const auto crossing = cross_plane(a, normal, ray.direction, predicate);
     return crossing ? Crossings<Real>(*crossing) : Crossings<Real>();
 }
 

@@ -78,7 +78,7 @@ FirstHit FirstHits::hit_at(std::size_t lane) const {
     const Hits& found = finder_.hits();
     FirstHit hit{ray_of(paths_, lane)};
     if (found.slot[lane] == no_slot) return hit;
-    const SceneData::Occupant shape = scene_.occupant_of(found.slot[lane]);
+    const SceneData::ShapeRecord shape = scene_.record_of(found.slot[lane]);
     hit.t = found.t[lane];
     hit.shape = shape.id;
     hit.material = shape.material;

@@ -3,7 +3,7 @@
 #include "core/scene/camera_rays.hpp"
 #include "core/scene/layers.hpp"
 #include "core/scene/region.hpp"
-#include "simd/query/look_through.hpp"
+#include "simd/query/transparency_walk.hpp"
 
 #include <limits>
 #include <vector>
@@ -52,7 +52,7 @@ class FirstHits {
     core::CameraRays<double> camera_rays_;
     CameraView camera_;
     Coherence coherence_;
-    LookThrough finder_;
+    TransparencyWalk finder_;
     core::Searcher<double> searcher_; // where surfaces meet
     EngineCounters counters_;
     int width_, height_;

@@ -22,7 +22,7 @@ inline core::Hit<double> hit_of(const SceneData& scene, const Paths& paths, cons
                                 std::size_t lane) {
     core::Hit<double> hit;
     const std::uint32_t slot = hits.slot[lane];
-    const SceneData::Occupant shape = scene.occupant_of(slot);
+    const SceneData::ShapeRecord shape = scene.record_of(slot);
     const double length = paths.length_of(lane);
     hit.t = hits.t[lane] / length;
     hit.error = hits.error[lane] / length;
@@ -43,7 +43,7 @@ core::OriginSurfaces<Real> origin_surfaces_of(const SceneData& scene, const Path
     const std::uint32_t slot = paths.origin_slot[lane];
     if (slot == no_slot) return {};
     core::Hit<Real> hit;
-    const SceneData::Occupant shape = scene.occupant_of(slot);
+    const SceneData::ShapeRecord shape = scene.record_of(slot);
     hit.shape = shape.id;
     hit.face = static_cast<core::Face>(paths.origin_bits[lane] & origin_face);
     hit.kind = shape.kind;

@@ -17,8 +17,8 @@ float rounded_down(double value) {
 } // namespace
 
 Certifier::Certifier(const SceneData& scene, const Tracing& tracing, Asked asked)
-    : scene_(scene), tracing_(tracing), asked_(asked), refinery_(scene, tracing, asked) {
-    if (!refinery_.works()) tie_breaker_.emplace(scene, tracing);
+    : scene_(scene), tracing_(tracing), asked_(asked), resolver_(scene, tracing, asked) {
+    if (!resolver_.works()) tie_breaker_.emplace(scene, tracing);
 }
 
 void Certifier::take_from(Arena& arena, std::size_t capacity) {
@@ -28,7 +28,7 @@ void Certifier::take_from(Arena& arena, std::size_t capacity) {
     gathered_.take_from(arena, capacity, false, asked_ == Asked::floats);
     gathered_hits_.take_from(arena, capacity, scene_.smooth());
     lanes_ = arena.take<std::uint32_t>(capacity);
-    if (refinery_.works()) refinery_.take_from(arena);
+    if (resolver_.works()) resolver_.take_from(arena);
 }
 
 void Certifier::find_own_exits(const Paths& paths, const CandidateSearch& search,
@@ -76,15 +76,15 @@ void Certifier::certify(const Paths& paths, CandidateSearch& search, const Candi
     finish(hits.found(paths, 0, paths.count));
     const std::size_t uncertain = tracing_.kernels->rays.list_uncertain(
         paths.count, candidates, search.approach().from_there(hits.t), hits.error, hits.hit,
-        doubtful_, refinery_.works() ? least_length : 0.0F, lanes_);
-    if (!refinery_.works()) {
+        doubtful_, resolver_.works() ? least_length : 0.0F, lanes_);
+    if (!resolver_.works()) {
         compare_in_double(paths, {lanes_, uncertain}, hits, counters);
         return;
     }
     for (std::size_t k = 0; k < uncertain; ++k)
         refined_[lanes_[k]] = 1;
     contact_count_ =
-        refinery_.refine(paths, search, doubtful_, {lanes_, uncertain}, hits, counters);
+        resolver_.refine(paths, search, doubtful_, {lanes_, uncertain}, hits, counters);
     std::copy_n(lanes_, contact_count_, at_contacts_);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "simd/query/candidate_resolver.hpp"
 #include "simd/query/hits.hpp"
-#include "simd/query/refinery.hpp"
 #include "simd/query/search.hpp"
 #include "simd/query/tie_breaker.hpp"
 
@@ -11,8 +11,8 @@
 namespace raylane::simd {
 
 /// Second step of the search for hits: solves the shape that may be the nearest, and decides where
-/// that is not certain. With core::Precision::exact, a Refinery decides. In double without bounds,
-/// a TieBreaker decides, and so it does in float where t is the same.
+/// that is not certain. With core::Precision::exact, a CandidateResolver decides. In double without
+/// bounds, a TieBreaker decides, and so it does in float where t is the same.
 class Certifier {
   public:
     Certifier(const SceneData& scene, const Tracing& tracing, Asked asked);
@@ -36,7 +36,7 @@ class Certifier {
     bool was_refined(std::size_t lane) const { return refined_[lane] != 0; }
     /// Lanes of the last rays; see Query.
     std::span<const std::uint32_t> at_contacts() const { return {at_contacts_, contact_count_}; }
-    std::span<const HitPoint> points() const { return refinery_.points(); }
+    std::span<const HitPoint> points() const { return resolver_.points(); }
 
   private:
     std::span<const std::uint32_t> break_ties(const Paths& paths, const Candidates& candidates,
@@ -49,8 +49,8 @@ class Certifier {
     const SceneData& scene_;
     Tracing tracing_;
     Asked asked_;
-    std::optional<TieBreaker> tie_breaker_; // without a Refinery
-    Refinery refinery_;
+    std::optional<TieBreaker> tie_breaker_; // without a CandidateResolver
+    CandidateResolver resolver_;
 
     std::uint8_t* doubtful_ = nullptr; // lanes in doubt whatever the search finds
     std::uint8_t* refined_ = nullptr;

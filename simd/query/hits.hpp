@@ -72,7 +72,7 @@ struct Hits {
         }
     }
 
-    /// Returns `count` hits and their rays, from `begin` on, for a kernel to finish.
+    /// Returns `count` hits and their rays, from `begin` on, for a kernel to solve.
     Found found(const Paths& paths, std::size_t begin, std::size_t count) const {
         Found found{};
         found.count = count;

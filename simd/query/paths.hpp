@@ -110,7 +110,7 @@ struct Paths {
 
     /// Starts the lane's ray on a shape, at a hit with these bits: on the side to which the ray
     /// that hit it goes if it passes `through`, otherwise on the side from which it came. Shape:
-    /// SceneData::Occupant, or the members of it that NamedShape has.
+    /// SceneData::ShapeRecord, or the members of it that NamedShape has.
     template <class Shape>
     void start_on(std::size_t lane, std::uint32_t slot, const Shape& shape, std::uint32_t hit,
                   bool through) const {

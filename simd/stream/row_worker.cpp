@@ -199,7 +199,7 @@ bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::
         rows.t[begin + i] = std::clamp(high_[k] * unit, std::numeric_limits<double>::denorm_min(),
                                        std::numeric_limits<double>::max());
         rows.shape[begin + i] = scene_.id_of(slot_[k / 2]);
-        rows.entering[begin + i] = scene_.occupant_of(slot_[k / 2]).is_entered(bits_[k]) ? 1 : 0;
+        rows.entering[begin + i] = scene_.record_of(slot_[k / 2]).is_entered(bits_[k]) ? 1 : 0;
         rows.face[begin + i] = static_cast<std::uint8_t>(bits_[k] & hit_face);
     }
     return true;
@@ -218,7 +218,7 @@ core::Crossing<double> RowWorker::crossing_at(std::size_t k, const core::DoubleD
 /// Returns true if a crossing is on a visible surface.
 template <class Real>
 bool RowWorker::is_seen(const RayStream<Real>& rays, std::size_t lane, std::size_t k) {
-    const SceneData::Occupant shape = scene_.occupant_of(slot_[k / 2]);
+    const SceneData::ShapeRecord shape = scene_.record_of(slot_[k / 2]);
     const core::Scene& scene = scene_.scene();
     if (!scene.materials()[shape.material].is_seen(shape.is_entered(bits_[k]))) return false;
     if (!scene.solids().has(shape.id)) return true;
@@ -236,7 +236,7 @@ void RowWorker::find(const LoneRay& ray, std::size_t lane, const Counts& wanted)
         return wanted(hit) && solid_surfaces_.is_surface(ray.leaving(), hit);
     };
     for (std::size_t pair = first_of_ray_[lane]; pair < first_of_ray_[lane + 1]; ++pair) {
-        const SceneData::Occupant shape = scene_.occupant_of(slot_[pair]);
+        const SceneData::ShapeRecord shape = scene_.record_of(slot_[pair]);
         const core::Place place = scene_.place_of(slot_[pair]);
         const auto hit_of = [&](const core::Crossing<double>& crossing) {
             return core::Hit<double>(crossing, shape.id, shape.kind, place, shape.reversed);

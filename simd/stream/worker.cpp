@@ -375,7 +375,7 @@ std::uint8_t StreamWorker::is_occluded(const LoneRay& ray) {
 /// ray: a part of a solid must be a surface of it there, and not reversed.
 bool StreamWorker::is_seen(std::size_t lane) {
     const Hits& found = query_.hits();
-    const SceneData::Occupant shape = scene_.occupant_of(found.slot[lane]);
+    const SceneData::ShapeRecord shape = scene_.record_of(found.slot[lane]);
     const core::Scene& scene = scene_.scene();
     if (!scene.materials()[shape.material].is_seen(shape.is_entered(found.hit[lane]))) return false;
     return !scene.solids().has(shape.id) ||

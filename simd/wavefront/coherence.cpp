@@ -31,7 +31,7 @@ Coherence coherence_off_mirror(const CameraView& camera, const SceneData& scene,
         return core::Vec3d(columns[0][position], columns[1][position], columns[2][position]);
     };
     const auto first = static_cast<std::size_t>(reflected.parent[0]);
-    const core::Kind kind = scene.occupant_of(slots[order[first]]).kind;
+    const core::Kind kind = scene.record_of(slots[order[first]]).kind;
     if (!core::traits_of(kind).flat_faces) return neighbours;
     const core::Vec3d from(camera.from[0], camera.from[1], camera.from[2]);
     const core::Vec3d normal = vector_at(surfaces.normal, first);

@@ -20,7 +20,7 @@ void HitSorter::sort(const std::uint32_t* slots, std::size_t count,
     const auto materials = static_cast<std::uint32_t>(views.size());
     const std::uint32_t missed = materials, left_out = materials + 1;
     for (std::size_t lane = 0; lane < count; ++lane)
-        keys_[lane] = slots[lane] == no_slot ? missed : scene_.occupant_of(slots[lane]).material;
+        keys_[lane] = slots[lane] == no_slot ? missed : scene_.record_of(slots[lane]).material;
     if (passed != nullptr)
         for (std::size_t lane = 0; lane < count; ++lane)
             if (keys_[lane] != missed && passed[lane] >= most && views[keys_[lane]].opacity < 1.0)

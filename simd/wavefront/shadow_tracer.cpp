@@ -79,7 +79,7 @@ void ShadowTracer::look_at(const Wave& wave) {
     wave_.emplace(wave);
     for (std::size_t position = 0; position < wave.count; ++position) {
         const std::uint32_t lane = wave.order[position];
-        const SceneData::Occupant shape = scene_.occupant_of(wave.hits.slot[lane]);
+        const SceneData::ShapeRecord shape = scene_.record_of(wave.hits.slot[lane]);
         leave_first_[position] = shape.coplanar.first;
         leave_last_[position] = shape.coplanar.last;
         const bool inward = (wave.hits.hit[lane] & hit_entering) == 0;
@@ -121,7 +121,7 @@ void ShadowTracer::start_walk(std::size_t ray) {
         walk_.throughput[axis][to] = rays_.weight[axis][ray];
     }
     walk_.sample[to] = static_cast<std::uint32_t>(ray);
-    walk_.start_on(to, slot, scene_.occupant_of(slot), wave.hits.hit[lane], /*through=*/false);
+    walk_.start_on(to, slot, scene_.record_of(slot), wave.hits.hit[lane], /*through=*/false);
     walk_.set_media(to, wave.paths.media_at(lane));
     walk_distance_[to] = rays_.distance[ray];
 }
@@ -176,7 +176,7 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
             rays_.weight[channel][number] = walk_.throughput[channel][lane];
         return false;
     }
-    const SceneData::Occupant shape = scene_.occupant_of(slot);
+    const SceneData::ShapeRecord shape = scene_.record_of(slot);
     const core::Material& material = scene_.scene().materials()[shape.material];
     if (!material.lets_light_pass()) {
         state_[number] = blocked;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/reference/tracer.hpp"
-#include "simd/query/look_through.hpp"
+#include "simd/query/transparency_walk.hpp"
 
 #include <optional>
 
@@ -68,7 +68,7 @@ class ShadowTracer {
 
     // Rays that a surface may let through, or that may cross again the shape that they start on,
     // walk from surface to surface.
-    LookThrough walker_;
+    TransparencyWalk walker_;
     Paths walk_{}; // throughput: the remaining weight; sample: the ray
     double* walk_distance_ = nullptr;
 };

@@ -103,7 +103,7 @@ std::size_t Wavefront::pass_on() {
 /// Starts a ray of the next wave on the surface that a lane has hit.
 void Wavefront::start_next(std::size_t to, std::size_t lane, bool through) {
     const std::uint32_t slot = finder_.hits().slot[lane], hit = finder_.hits().hit[lane];
-    const SceneData::Occupant shape = scene_.occupant_of(slot);
+    const SceneData::ShapeRecord shape = scene_.record_of(slot);
     next_.sample[to] = paths_.sample[lane];
     next_.start_on(to, slot, shape, hit, through);
     if (!with_media_) return;

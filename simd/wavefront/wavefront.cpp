@@ -427,7 +427,7 @@ void Wavefront::fill_media() {
         const bool transmits = run.material->transmits;
         for (std::size_t i = run.begin; i < run.end; ++i) {
             const std::uint32_t lane = sorted_.order()[i];
-            const SceneData::Occupant shape = scene_.occupant_of(finder_.hits().slot[lane]);
+            const SceneData::ShapeRecord shape = scene_.record_of(finder_.hits().slot[lane]);
             const bool entering = shape.is_entered(finder_.hits().hit[lane]);
             const core::Media media = paths_.media_at(lane);
             const SceneData::Medium& before = scene_.medium(

@@ -120,7 +120,7 @@ class Wavefront {
     bool see_through_; ///< some surfaces are transparent
     ShadeKernels shade_;
     core::ReferenceTracer<double> reference_;
-    LookThrough finder_;
+    TransparencyWalk finder_;
     ShadowTracer shadows_;
     EngineCounters counters_;
 

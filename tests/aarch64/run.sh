@@ -4,7 +4,7 @@
 # bits of build/release here.
 #
 #   tests/aarch64/run.sh          all test programs, and all scenes
-#   tests/aarch64/run.sh quick    simd's tests (of lanes, filters, finishers and so on), and one scene
+#   tests/aarch64/run.sh quick    simd's tests (of lanes, filters, solvers and so on), and one scene
 #   tests/aarch64/run.sh lanes    tests of registers only, which need no kernels: some minutes
 #
 # Runs on Debian 12, whose libraries for arm64 it uses. The images need a build/release of this

@@ -102,8 +102,8 @@ TEMPLATE_TEST_CASE("the same formulas in the oracle's numbers agree with the ora
     for (int i = 0; i < 1000; ++i) {
         const Shape shape = ray_sets::Target<Shape>::make(random, false);
         const Ray<float> ray = ray_sets::make_ray(shape, Set::random, random);
-        Judge<Number> judge;
-        const Crossings<Number> all = crossings(shape, widened<Number>(ray), Start{}, judge);
+        ErrorPredicate<Number> predicate;
+        const Crossings<Number> all = crossings(shape, widened<Number>(ray), Start{}, predicate);
         const Crossing<Number>* found = first_ahead(all);
         const auto truth = oracle::first_hit(shape, ray);
         REQUIRE(truth.has_value() == (found != nullptr));
@@ -124,8 +124,8 @@ TEMPLATE_TEST_CASE("double without error bounds decides wrongly", "", Sphere, Ca
     for (int i = 0; i < 5000; ++i) {
         const Shape shape = ray_sets::Target<Shape>::make(random, true);
         const Ray<float> ray = ray_sets::make_ray(shape, Set::lattice, random);
-        Judge<double> judge;
-        const Crossings<double> all = crossings(shape, widened<double>(ray), Start{}, judge);
+        ErrorPredicate<double> predicate;
+        const Crossings<double> all = crossings(shape, widened<double>(ray), Start{}, predicate);
         wrong += oracle::first_hit(shape, ray).has_value() != (first_ahead(all) != nullptr) ? 1 : 0;
     }
     CHECK(wrong > 0);

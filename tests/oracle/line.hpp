@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-/// Exact crossings of a line with a shape, and the normals there. They come from other formulas than
-/// the solvers use (quadratics in cross products with cleared fractions, Cramer's rule, faces one by
-/// one), so that the two do not share a mistake. This header has the common parts. Each shape's file
-/// defines
+/// Exact crossings of a line with a shape, and the normals there. They come from other formulas
+/// than the solvers use (quadratics in cross products with cleared fractions, Cramer's rule, faces
+/// one by one), so that the two do not share a mistake. This header has the common parts. Each
+/// shape's file defines
 ///   std::vector<Hit> crossings(shape, ray)
 ///   Normal normal(shape, ray, hit)
 /// The normal points towards the outside (the front) at a crossing. At an apex it is the axis

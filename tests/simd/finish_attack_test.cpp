@@ -44,10 +44,10 @@ using Wide = Bounded<DoubleDouble>;
 template <class Shape>
 std::optional<core::Crossing<Wide>> first_crossing(const Shape& shape, const Ray<double>& ray,
                                                    const Start& start) {
-    Judge<Wide> judge;
+    ErrorPredicate<Wide> predicate;
     const Ray<Wide> wide{convert<Wide>(ray.origin), convert<Wide>(ray.direction)};
-    for (const core::Crossing<Wide>& crossing : crossings(shape, wide, start, judge))
-        if (start.on_surface ? !judge.negative(crossing.t) : judge.positive(crossing.t))
+    for (const core::Crossing<Wide>& crossing : crossings(shape, wide, start, predicate))
+        if (start.on_surface ? !predicate.negative(crossing.t) : predicate.positive(crossing.t))
             return crossing;
     return std::nullopt;
 }

@@ -78,7 +78,7 @@ class MethodRound {
             paths_.direction[axis][lane] = static_cast<double>(ray.direction[axis]);
         }
         if (start.on_surface) {
-            paths_.start_on(lane, slot_, data_.occupant_of(slot_),
+            paths_.start_on(lane, slot_, data_.record_of(slot_),
                             start.face | (start.inward ? simd::hit_entering : 0),
                             /*through=*/true);
         }
@@ -124,9 +124,9 @@ class MethodRound {
 
     /// Returns the first crossing ahead, or a miss if its t overflows.
     core::Crossing<Real> solved(const core::Ray<Real>& ray, const core::Start& start) const {
-        core::Judge<Real> judge(precision);
+        core::ErrorPredicate<Real> predicate(precision);
         const Real zero(0.0F);
-        for (const core::Crossing<Real>& crossing : core::crossings(shape_, ray, start, judge))
+        for (const core::Crossing<Real>& crossing : core::crossings(shape_, ray, start, predicate))
             if (crossing.t > zero || (start.on_surface && crossing.t == zero))
                 return is_hit(crossing) ? crossing : nothing<Real>();
         return nothing<Real>();

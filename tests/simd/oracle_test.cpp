@@ -1,6 +1,6 @@
 #include "simd/isa.hpp"
 #include "simd/query/as_core.hpp"
-#include "simd/query/look_through.hpp"
+#include "simd/query/transparency_walk.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
 #include "tests/ray_sets.hpp"
@@ -73,7 +73,7 @@ class Trial {
 
     void trace(const Kernels& kernels, Tally& tally) const {
         const SceneData data(*scene_);
-        LookThrough finder(data, {&kernels, Precision::exact});
+        TransparencyWalk finder(data, {&kernels, Precision::exact});
         const Arena arena = arena_for([&](Arena& a) { finder.take_from(a, rays_a_scene); });
         EngineCounters counters;
         finder.nearest(paths_, nullptr, counters);
@@ -83,7 +83,7 @@ class Trial {
     }
 
   private:
-    void compare(const LookThrough& finder, const SceneData& data, std::size_t i,
+    void compare(const TransparencyWalk& finder, const SceneData& data, std::size_t i,
                  Tally& tally) const {
         const Hits& hits = finder.hits();
         const Ray<double> ray = ray_of(paths_, i);
@@ -106,7 +106,7 @@ class Trial {
         const bool hit = hits.slot[i] != no_slot;
         const bool same_side = truth && ((hits.hit[i] & hit_entering) != 0) == truth->entering;
         if (at_contacts != touches || hit != truth.has_value() ||
-            (hit && (!same_side || data.occupant_of(hits.slot[i]).id != id))) {
+            (hit && (!same_side || data.record_of(hits.slot[i]).id != id))) {
             ++tally.wrong;
             return;
         }

@@ -1,5 +1,5 @@
 #include "simd/isa.hpp"
-#include "simd/query/look_through.hpp"
+#include "simd/query/transparency_walk.hpp"
 #include "tests/catch.hpp"
 #include "tests/random.hpp"
 
@@ -50,7 +50,7 @@ Work work_for(const Scene& scene, std::size_t count, const Aim& aim) {
             paths.direction[axis][lane] = ray.direction[axis];
         }
     }
-    LookThrough finder(data, {&kernels_of(best_isa()), Precision::exact});
+    TransparencyWalk finder(data, {&kernels_of(best_isa()), Precision::exact});
     const Arena found = arena_for([&](Arena& a) { finder.take_from(a, count); });
     Work work;
     finder.nearest(paths, nullptr, work.counters);

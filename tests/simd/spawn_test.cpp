@@ -59,9 +59,9 @@ class Spawning {
 
     void check() {
         ReferenceTracer<double> reference(*scene_, {});
-        LookThrough first(alone_data_, {kernels_});
-        LookThrough empty_space(alone_data_, {kernels_});
-        LookThrough next(*data_, {kernels_});
+        TransparencyWalk first(alone_data_, {kernels_});
+        TransparencyWalk empty_space(alone_data_, {kernels_});
+        TransparencyWalk next(*data_, {kernels_});
         ShadowTracer shadows(*data_, {kernels_}, reference);
         const Arena arena = arena_for([&](Arena& a) {
             first.take_from(a, rays_per_nest);
@@ -83,7 +83,7 @@ class Spawning {
 
   private:
     /// Finds the engine's hits of rays on the shape.
-    void hit(LookThrough& finder) {
+    void hit(TransparencyWalk& finder) {
         paths_.count = rays_per_nest;
         for (std::size_t i = 0; i < paths_.count; ++i) {
             const Ray<double> ray = ray_to(nest_, place_, random_);
@@ -142,7 +142,7 @@ class Spawning {
         }
         spawned_.sample[to] = through ? refracted_ray : reflected_ray;
         const std::uint32_t slot = slots_[lane];
-        spawned_.start_on(to, slot, data_->occupant_of(slot), hits_.hit[lane], through);
+        spawned_.start_on(to, slot, data_->record_of(slot), hits_.hit[lane], through);
     }
 
     void spawn() {
@@ -164,7 +164,7 @@ class Spawning {
         }
     }
 
-    void find(LookThrough& finder, ReferenceTracer<double>& reference) {
+    void find(TransparencyWalk& finder, ReferenceTracer<double>& reference) {
         EngineCounters counters;
         finder.nearest(spawned_, nullptr, counters);
         tally_.doubtful += static_cast<long>(counters.doubtful);
@@ -249,7 +249,7 @@ class Spawning {
 
     /// Checks that in a scene of this shape alone, the engine knows without help that outward rays
     /// meet nothing.
-    void leave_alone(LookThrough& finder) {
+    void leave_alone(TransparencyWalk& finder) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < spawned_.count; ++i) {
             if ((spawned_.origin_bits[i] & origin_inward) != 0) continue;
@@ -311,7 +311,7 @@ class Spawning {
         ++tally_.rays[inward ? 1 : 0][shadow_ray];
         const Ray<double> ray{{rays.origin[0][k], rays.origin[1][k], rays.origin[2][k]},
                               {rays.direction[0][k], rays.direction[1][k], rays.direction[2][k]}};
-        spawned_.start_on(0, slots_[lane], data_->occupant_of(slots_[lane]), hits_.hit[lane],
+        spawned_.start_on(0, slots_[lane], data_->record_of(slots_[lane]), hits_.hit[lane],
                           /*through=*/false);
         const OriginSurfaces<double> origins = origin_surfaces_of(*data_, spawned_, 0);
         Searcher<double> searcher(*scene_, Search::every_shape);

@@ -1,7 +1,7 @@
 #include "core/reference/tracer.hpp"
 #include "simd/isa.hpp"
 #include "simd/query/as_core.hpp"
-#include "simd/query/look_through.hpp"
+#include "simd/query/transparency_walk.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/simd/rounds.hpp"
@@ -42,7 +42,7 @@ struct Stream {
 
 /// Finds the hits of a stream's rays.
 struct Finding {
-    LookThrough finder;
+    TransparencyWalk finder;
     EngineCounters counters;
 
     Finding(const SceneData& data, const Kernels& kernels, const Paths& paths)
@@ -109,7 +109,7 @@ class Round {
             const std::uint32_t slot = data_.slot_of(there.hit.kind, there.hit.place);
             const bool inward = dot(ray.direction, there.contacts.begin()->normal) < 0.0;
             const std::uint32_t bits = there.hit.face | (inward ? hit_entering : 0);
-            paths.start_on(lane, slot, data_.occupant_of(slot), bits, /*through=*/true);
+            paths.start_on(lane, slot, data_.record_of(slot), bits, /*through=*/true);
         }
         for (int axis = 0; axis < 3; ++axis) {
             paths.origin[axis][lane] = ray.origin[axis];
@@ -125,13 +125,13 @@ class Round {
     std::vector<Encounter<double>> truths_;
 };
 
-bool at_contacts(const LookThrough& finder, std::size_t lane) {
+bool at_contacts(const TransparencyWalk& finder, std::size_t lane) {
     for (const std::uint32_t each : finder.at_contacts())
         if (each == lane) return true;
     return false;
 }
 
-void check_truth(const Round& round, const LookThrough& finder) {
+void check_truth(const Round& round, const TransparencyWalk& finder) {
     for (std::size_t lane = 0; lane < ray_count; ++lane) {
         const Hit<double>& truth = round.truth(lane).hit;
         CAPTURE(lane, truth.any(), truth.t, round.paths().origin_slot[lane]);
@@ -149,7 +149,7 @@ void check_truth(const Round& round, const LookThrough& finder) {
 }
 
 /// Compares lane `a` of one with lane `b` of the other.
-void check_same_bits(const LookThrough& one, std::size_t a, const LookThrough& other,
+void check_same_bits(const TransparencyWalk& one, std::size_t a, const TransparencyWalk& other,
                      std::size_t b) {
     const auto same = [](double x, double y) {
         return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
@@ -166,7 +166,7 @@ void check_same_bits(const LookThrough& one, std::size_t a, const LookThrough& o
 }
 
 /// Checks the ray of one lane by itself.
-void check_alone(Round& round, const Kernels& kernels, const LookThrough& together,
+void check_alone(Round& round, const Kernels& kernels, const TransparencyWalk& together,
                  std::size_t lane) {
     const Stream alone(1);
     alone.paths.copy_ray(round.paths(), lane, 0);

@@ -16,9 +16,9 @@ namespace raylane::simd {
 ///
 /// The numbers of a hit are the kernels' for that ray and that shape, whatever else was in doubt.
 /// If another crossing is almost at the same point, they are as accurate as double can be.
-class Refinery {
+class CandidateResolver {
   public:
-    Refinery(const SceneData& scene, const Tracing& tracing, Asked asked)
+    CandidateResolver(const SceneData& scene, const Tracing& tracing, Asked asked)
         : scene_(scene), tracing_(tracing), for_points_(asked == Asked::points) {}
 
     void take_from(Arena& arena);

@@ -1,4 +1,4 @@
-#include "simd/query/look_through.hpp"
+#include "simd/query/transparency_walk.hpp"
 
 #include "core/shapes/shapes.hpp"
 #include "simd/query/as_core.hpp"
@@ -21,7 +21,7 @@ core::Vec3d point_among(std::span<const HitPoint> points, const Hits& hits, cons
 
 } // namespace
 
-LookThrough::LookThrough(const SceneData& scene, const Tracing& tracing)
+TransparencyWalk::TransparencyWalk(const SceneData& scene, const Tracing& tracing)
     : scene_(scene), query_(scene, tracing, Asked::points), solid_surfaces_(scene.scene()),
       cut_faces_(scene.scene()) {
     if (!scene.looks_through()) return;
@@ -30,7 +30,7 @@ LookThrough::LookThrough(const SceneData& scene, const Tracing& tracing)
     onward_ = std::make_unique<Query>(scene, tracing, Asked::points);
 }
 
-void LookThrough::take_from(Arena& arena, std::size_t capacity) {
+void TransparencyWalk::take_from(Arena& arena, std::size_t capacity) {
     query_.take_from(arena, capacity);
     at_contacts_.reserve(capacity);
     points_.reserve(64);
@@ -41,19 +41,20 @@ void LookThrough::take_from(Arena& arena, std::size_t capacity) {
     ways_.resize(capacity);
 }
 
-void LookThrough::nearest(const Paths& paths, const Coherence* coherence,
-                          EngineCounters& counters) {
+void TransparencyWalk::nearest(const Paths& paths, const Coherence* coherence,
+                               EngineCounters& counters) {
     query_.nearest(paths, coherence, counters);
     at_contacts_.assign(query_.at_contacts().begin(), query_.at_contacts().end());
     points_.assign(query_.points().begin(), query_.points().end());
     if (onward_ != nullptr) go_on(paths, coherence, counters);
 }
 
-core::Vec3d LookThrough::point_of(const Paths& paths, std::size_t lane) const {
+core::Vec3d TransparencyWalk::point_of(const Paths& paths, std::size_t lane) const {
     return point_among(points_, hits(), paths, lane);
 }
 
-void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCounters& counters) {
+void TransparencyWalk::go_on(const Paths& paths, const Coherence* coherence,
+                             EngineCounters& counters) {
     const Hits& hits = query_.hits();
     for (const std::uint32_t lane : at_contacts_)
         hits.slot[lane] = no_slot; // the reference tracer follows these
@@ -118,7 +119,7 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
 }
 
 /// Finds the first visible surface of a ray by the scalar search.
-void LookThrough::settle(const Paths& paths, std::size_t lane) {
+void TransparencyWalk::settle(const Paths& paths, std::size_t lane) {
     const core::Ray<double> ray = ray_of(paths, lane);
     const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths, lane);
     const core::Scene& scene = scene_.scene();
@@ -153,8 +154,8 @@ void LookThrough::settle(const Paths& paths, std::size_t lane) {
 
 /// Returns true if a ray that is inside of no part of a union of many certainly enters a part whose
 /// whole inside belongs to the solid.
-bool LookThrough::fills_first(const Paths& paths, const Hits& hits, std::size_t lane,
-                              core::ShapeId shape) const {
+bool TransparencyWalk::fills_first(const Paths& paths, const Hits& hits, std::size_t lane,
+                                   core::ShapeId shape) const {
     const core::Solids& solids = scene_.scene().solids();
     const core::Solids::Node& part = solids.node(solids.part_of(shape));
     if (!part.fills || part.kind != core::Kind::sphere || (hits.hit[lane] & hit_entering) == 0 ||
@@ -176,11 +177,11 @@ bool LookThrough::fills_first(const Paths& paths, const Hits& hits, std::size_t 
 
 /// Returns true if a hit is visible. Otherwise `way` passes the hit. `way` is set at a ray's first
 /// hit.
-bool LookThrough::is_visible(const Paths& paths, const Hits& hits, std::size_t lane,
-                             core::WayInUnion& way) {
+bool TransparencyWalk::is_visible(const Paths& paths, const Hits& hits, std::size_t lane,
+                                  core::WayInUnion& way) {
     if (hits.slot[lane] == no_slot) return true;
     const core::Scene& scene = scene_.scene();
-    const SceneData::Occupant shape = scene_.occupant_of(hits.slot[lane]);
+    const SceneData::ShapeRecord shape = scene_.record_of(hits.slot[lane]);
     const bool is_seen =
         scene.materials()[shape.material].is_seen(shape.is_entered(hits.hit[lane]));
     if (!scene.solids().has(shape.id)) return is_seen;
@@ -207,8 +208,8 @@ bool LookThrough::is_visible(const Paths& paths, const Hits& hits, std::size_t l
 }
 
 /// Decides whether a part that cuts a union is visible at a hit, if that is easy to decide.
-core::Value LookThrough::is_cut_face(const Paths& paths, const Hits& hits, std::size_t lane,
-                                     core::ShapeId shape, const CutUnion& cut) {
+core::Value TransparencyWalk::is_cut_face(const Paths& paths, const Hits& hits, std::size_t lane,
+                                          core::ShapeId shape, const CutUnion& cut) {
     const core::Ray<double> ray = ray_of(paths, lane);
     const double t = hits.t[lane];
     double size = t;
@@ -220,10 +221,10 @@ core::Value LookThrough::is_cut_face(const Paths& paths, const Hits& hits, std::
 }
 
 /// Restarts a ray behind its hit. The ray has been moved to the hit point.
-void LookThrough::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
+void TransparencyWalk::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
     passed_[to] += hits.t[lane];
     const std::uint32_t slot = hits.slot[lane];
-    onward_paths_.start_on(to, slot, scene_.occupant_of(slot), hits.hit[lane], /*through=*/true);
+    onward_paths_.start_on(to, slot, scene_.record_of(slot), hits.hit[lane], /*through=*/true);
 }
 
 } // namespace raylane::simd

@@ -1,4 +1,4 @@
-#include "simd/query/refinery.hpp"
+#include "simd/query/candidate_resolver.hpp"
 
 #include "core/numbers/infinity.hpp"
 #include "core/reference/rounding.hpp"
@@ -29,7 +29,7 @@ bool crosses(std::uint32_t hit) {
 
 } // namespace
 
-void Refinery::take_from(Arena& arena) {
+void CandidateResolver::take_from(Arena& arena) {
     paths_.take_from(arena, most + beyond, false, !for_points_);
     hits_.take_from(arena, most + beyond, scene_.smooth());
     lower_ = arena.take<double>(most);
@@ -43,9 +43,9 @@ void Refinery::take_from(Arena& arena) {
     points_.reserve(64);
 }
 
-std::size_t Refinery::refine(const Paths& paths, const CandidateSearch& search,
-                             const std::uint8_t* doubtful, std::span<std::uint32_t> lanes,
-                             const Hits& hits, EngineCounters& counters) {
+std::size_t CandidateResolver::refine(const Paths& paths, const CandidateSearch& search,
+                                      const std::uint8_t* doubtful, std::span<std::uint32_t> lanes,
+                                      const Hits& hits, EngineCounters& counters) {
     counters.refined += lanes.size();
     points_.clear();
     std::size_t met_several = 0;
@@ -87,8 +87,8 @@ std::size_t Refinery::refine(const Paths& paths, const CandidateSearch& search,
 }
 
 /// Lists all shapes that a ray may cross before the limit, or before a certain crossing.
-void Refinery::list(const Paths& paths, const CandidateSearch& search, std::size_t lane,
-                    double limit, EngineCounters& counters) {
+void CandidateResolver::list(const Paths& paths, const CandidateSearch& search, std::size_t lane,
+                             double limit, EngineCounters& counters) {
     const double before = search.approach().before(lane);
     for (std::size_t room = at_first;; room *= 8) {
         // The limit is so far behind a certain crossing that crossings that cannot be distinguished
@@ -119,7 +119,7 @@ void Refinery::list(const Paths& paths, const CandidateSearch& search, std::size
 
 /// Lists the shape that has been found, too: a part of a solid may be crossed outside of its
 /// bounds, which enclose its visible surface only.
-void Refinery::list_too(std::uint32_t slot) {
+void CandidateResolver::list_too(std::uint32_t slot) {
     if (!scene_.scene().solids().any() ||
         std::any_of(listed_.begin(), listed_.end(),
                     [slot](const Listed& listed) { return listed.slot == slot; }))
@@ -128,7 +128,7 @@ void Refinery::list_too(std::uint32_t slot) {
 }
 
 /// Takes candidates in the order of their bounds.
-void Refinery::take(const CandidateList& list, double before) {
+void CandidateResolver::take(const CandidateList& list, double before) {
     listed_.clear();
     for (std::size_t i = 0; i < list.count; ++i)
         if (list.lower[i] <= list.limit) // the limit may have decreased
@@ -139,7 +139,8 @@ void Refinery::take(const CandidateList& list, double before) {
 }
 
 /// Returns an upper bound of the first crossing's t, from the nearest listed candidates.
-double Refinery::end_of_first(const Paths& paths, std::size_t lane, EngineCounters& counters) {
+double CandidateResolver::end_of_first(const Paths& paths, std::size_t lane,
+                                       EngineCounters& counters) {
     const std::size_t begin = count_;
     add(paths, lane, std::span(listed_).first(std::min({at_first, listed_.size(), most - begin})));
     finish(begin);
@@ -148,7 +149,8 @@ double Refinery::end_of_first(const Paths& paths, std::size_t lane, EngineCounte
     return end;
 }
 
-void Refinery::add(const Paths& paths, std::size_t lane, std::span<const Listed> candidates) {
+void CandidateResolver::add(const Paths& paths, std::size_t lane,
+                            std::span<const Listed> candidates) {
     for (const Listed& candidate : candidates) {
         hits_.slot[count_] = candidate.slot;
         lower_[count_] = candidate.lower;
@@ -157,7 +159,7 @@ void Refinery::add(const Paths& paths, std::size_t lane, std::span<const Listed>
 }
 
 /// Finishes candidates from `begin` on.
-void Refinery::finish(std::size_t begin) {
+void CandidateResolver::finish(std::size_t begin) {
     Found found = hits_.found(paths_, begin, count_ - begin);
     found.holds_points = for_points_;
     tracing_.method().finish_all(scene_.view(), found);
@@ -165,8 +167,8 @@ void Refinery::finish(std::size_t begin) {
 }
 
 /// Same as first_of() for all listed candidates, which exceed the capacity.
-std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
-                                    EngineCounters& counters) {
+std::size_t CandidateResolver::first_of_many(const Paths& paths, std::size_t lane,
+                                             EngineCounters& counters) {
     count_ = 0;
     for (std::size_t next = 0; next < listed_.size();) {
         const std::size_t found = count_;
@@ -182,7 +184,8 @@ std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
 
 /// Returns an upper bound of the first crossing's t with candidates `begin` to `end`. Solves those
 /// in doubt.
-double Refinery::end_of_first(std::size_t begin, std::size_t end, EngineCounters& counters) {
+double CandidateResolver::end_of_first(std::size_t begin, std::size_t end,
+                                       EngineCounters& counters) {
     double last = core::infinity<double>;
     for (std::size_t i = begin; i < end; ++i)
         if (crosses(hits_.hit[i])) last = std::min(last, hits_.t[i] + hits_.error[i]);
@@ -196,7 +199,8 @@ double Refinery::end_of_first(std::size_t begin, std::size_t end, EngineCounters
 
 /// Moves the candidate that its ray crosses first to `begin` and, behind it, another one that the
 /// ray crosses at the same point. Returns the number of these: 0, 1 or 2.
-std::size_t Refinery::first_of(std::size_t begin, std::size_t end, EngineCounters& counters) {
+std::size_t CandidateResolver::first_of(std::size_t begin, std::size_t end,
+                                        EngineCounters& counters) {
     const double last = end_of_first(begin, end, counters);
     close_.clear();
     for (std::size_t i = begin; i < end; ++i)
@@ -209,7 +213,7 @@ std::size_t Refinery::first_of(std::size_t begin, std::size_t end, EngineCounter
 }
 
 /// Computes the hits of the close candidates, with as many digits of t as cost little.
-void Refinery::widen_close() {
+void CandidateResolver::widen_close() {
     const std::size_t count = close_.size();
     wide_.resize(3 * count);
     const WideCrossings wide = {wide_.data(), wide_.data() + count, wide_.data() + 2 * count};
@@ -222,7 +226,7 @@ void Refinery::widen_close() {
 }
 
 /// Same as first_of() for the close candidates, in core's order.
-std::size_t Refinery::first_of_close(std::size_t begin) {
+std::size_t CandidateResolver::first_of_close(std::size_t begin) {
     const core::Ray<double> ray = ray_of(paths_, begin);
     const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths_, begin);
     const core::CrossingOrder order(scene_.scene(), {ray, origins});
@@ -236,10 +240,10 @@ std::size_t Refinery::first_of_close(std::size_t begin) {
     hits_.t[chosen] = sharp.t * paths_.length_of(chosen);
     hits_.error[chosen] = sharp.error * paths_.length_of(chosen) +
                           (paths_.stand_for_others() ? 0x1p-50 * hits_.t[chosen] : 0.0);
-    const core::ShapeId shape = scene_.occupant_of(hits_.slot[chosen]).coplanar.first;
+    const core::ShapeId shape = scene_.record_of(hits_.slot[chosen]).coplanar.first;
     std::size_t other = first;
     for (std::size_t k = 0; k < sharp_.size() && other == first; ++k)
-        if (scene_.occupant_of(hits_.slot[close_[k]]).coplanar.first != shape &&
+        if (scene_.record_of(hits_.slot[close_[k]]).coplanar.first != shape &&
             order.compare(sharp_[k], sharp_[first]) == 0)
             other = k;
     const std::size_t with = close_[other];
@@ -250,13 +254,13 @@ std::size_t Refinery::first_of_close(std::size_t begin) {
 }
 
 /// Solves a ray's first crossing with one shape, certified, without the normal.
-void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
+void CandidateResolver::solve(std::size_t candidate, EngineCounters& counters) {
     ++counters.doubtful;
     const std::uint32_t slot = hits_.slot[candidate];
-    const core::Kind kind = scene_.occupant_of(slot).kind;
+    const core::Kind kind = scene_.record_of(slot).kind;
     const core::Ray<double> ray = ray_of(paths_, candidate);
     const core::Start start =
-        origin_surfaces_of(scene_, paths_, candidate).start_on(scene_.occupant_of(slot).id);
+        origin_surfaces_of(scene_, paths_, candidate).start_on(scene_.record_of(slot).id);
     hits_.hit[candidate] = hit_none;
     core::with_table(scene_.scene().shapes(), kind, [&](const auto& table) {
         for (const core::Crossing<double>& crossing :
@@ -276,9 +280,10 @@ void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
 }
 
 /// Returns true if a crossing with the candidate counts by the lower limit.
-bool Refinery::counts(std::size_t candidate, const core::Crossing<double>& crossing) const {
+bool CandidateResolver::counts(std::size_t candidate,
+                               const core::Crossing<double>& crossing) const {
     if (paths_.t_after == nullptr || !(paths_.t_after[candidate] > 0.0)) return true;
-    const SceneData::Occupant shape = scene_.occupant_of(hits_.slot[candidate]);
+    const SceneData::ShapeRecord shape = scene_.record_of(hits_.slot[candidate]);
     const core::Hit<double> hit(crossing, shape.id, shape.kind,
                                 scene_.place_of(hits_.slot[candidate]), shape.reversed);
     const core::Ray<double> ray = ray_of(paths_, candidate);
@@ -288,17 +293,17 @@ bool Refinery::counts(std::size_t candidate, const core::Crossing<double>& cross
     return side > 0 || (side == 0 && (paths_.origin_bits[candidate] & stream_tie_counts) != 0);
 }
 
-core::Hit<double> Refinery::hit_of(std::size_t candidate) const {
+core::Hit<double> CandidateResolver::hit_of(std::size_t candidate) const {
     return simd::hit_of(scene_, paths_, hits_, candidate);
 }
 
-void Refinery::swap(std::size_t a, std::size_t b) {
+void CandidateResolver::swap(std::size_t a, std::size_t b) {
     if (a == b) return;
     hits_.swap(a, b);
     std::swap(lower_[a], lower_[b]);
 }
 
-void Refinery::hand_over(std::size_t candidate, const Hits& hits, std::uint32_t lane) {
+void CandidateResolver::hand_over(std::size_t candidate, const Hits& hits, std::uint32_t lane) {
     if (for_points_ && (hits_.hit[candidate] & hit_normal_unknown) != 0) {
         const core::Ray<double> ray = ray_of(paths_, candidate);
         const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths_, candidate);

@@ -11,9 +11,9 @@ namespace raylane::simd {
 
 /// Third step of the search for hits, for images: rays pass surfaces that are invisible from their
 /// side, and parts of solids where these have no surface. Hits have the form Asked::points.
-class LookThrough {
+class TransparencyWalk {
   public:
-    LookThrough(const SceneData& scene, const Tracing& tracing);
+    TransparencyWalk(const SceneData& scene, const Tracing& tracing);
 
     void take_from(Arena& arena, std::size_t capacity);
 

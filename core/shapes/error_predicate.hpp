@@ -12,12 +12,13 @@
 namespace raylane::core {
 
 /// Answers the yes-or-no questions of a solver about its numbers. For a plain real type, the number
-/// decides. For numbers with bounds, the judge remembers whether any answer was within the error.
+/// decides. For numbers with bounds, the predicate remembers whether any answer was within the
+/// error.
 template <class Real>
-class Judge {
+class ErrorPredicate {
   public:
-    Judge() = default;
-    explicit Judge(Precision precision) : textbook_(precision == Precision::fast) {}
+    ErrorPredicate() = default;
+    explicit ErrorPredicate(Precision precision) : textbook_(precision == Precision::fast) {}
 
     /// Returns true if the solver must use the textbook formulas.
     bool textbook() const { return textbook_; }
@@ -73,10 +74,10 @@ class Divisor {
 /// right float or to a neighbour.
 inline constexpr double needed_accuracy = 0x1p-27;
 
-/// A judge of numbers with bounds. An answer within the error, or a t that is not accurate enough,
-/// leaves a doubt. The caller must then solve again in a wider type.
+/// A predicate of numbers with bounds. An answer within the error, or a t that is not accurate
+/// enough, leaves a doubt. The caller must then solve again in a wider type.
 template <class T>
-class Judge<Bounded<T>> {
+class ErrorPredicate<Bounded<T>> {
   public:
     using Real = Bounded<T>;
 
