@@ -2,7 +2,7 @@
 
 #include "core/hierarchy/hierarchy.hpp"
 #include "core/hierarchy/workers.hpp"
-#include "core/scene/staging.hpp"
+#include "core/scene/auto_camera.hpp"
 #include "core/shapes/material_indices.hpp"
 #include "core/shapes/shape_table.hpp"
 
@@ -18,7 +18,7 @@ struct BuiltShapes {
     MaterialIndices material_of;   ///< by shape id
     std::vector<IdRange> polygons; ///< polygons of more than one triangle, ascending
     Hierarchy hierarchy;
-    Staging staging; ///< produced the camera, fog and lights
+    AutoCamera auto_camera; ///< produced the camera, fog and lights
     std::size_t own_light_count = 0;
 };
 

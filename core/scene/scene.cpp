@@ -297,13 +297,13 @@ void SceneBuilder::finish(const NameOfShape& name_of_shape) {
 
 Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     check_as_a_whole();
-    if (wants_light && !staging.lights && scene_.lights_.empty() && shape_count() > 0)
+    if (wants_light && !auto_camera.lights && scene_.lights_.empty() && shape_count() > 0)
         throw InvalidValue("lights", "must have at least one light if there are objects, got none");
     build_shapes();
     finish(name_of_shape);
-    if (!staging.any()) return std::move(scene_);
-    const View view = staged(scene_, staging, settings);
-    return std::move(scene_).seen(staging, view);
+    if (!auto_camera.any()) return std::move(scene_);
+    const View view = staged(scene_, auto_camera, settings);
+    return std::move(scene_).seen(auto_camera, view);
 }
 
 Scene SceneBuilder::build(BuiltShapes shapes) && {
@@ -316,17 +316,17 @@ Scene SceneBuilder::build(BuiltShapes shapes) && {
     scene_.polygons_ = std::move(shapes.polygons);
     scene_.hierarchy_ = std::move(shapes.hierarchy);
     finish(nullptr);
-    scene_.staging_ = shapes.staging;
+    scene_.auto_camera_ = shapes.auto_camera;
     scene_.own_light_count_ = std::min(shapes.own_light_count, scene_.lights_.size());
     return std::move(scene_);
 }
 
-Scene Scene::seen(const Staging& staging, const View& view) && {
+Scene Scene::seen(const AutoCamera& auto_camera, const View& view) && {
     validate_in("camera", view.camera);
     validate_in("fog", view.fog);
     for (const Light& light : view.lights)
         validate(light);
-    staging_ = staging;
+    auto_camera_ = auto_camera;
     camera_ = view.camera;
     fog_ = view.fog;
     lights_.resize(own_light_count_);

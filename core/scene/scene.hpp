@@ -2,9 +2,9 @@
 
 #include "core/hierarchy/hierarchy.hpp"
 #include "core/hierarchy/packing.hpp"
+#include "core/scene/auto_camera.hpp"
 #include "core/scene/built_shapes.hpp"
 #include "core/scene/material.hpp"
-#include "core/scene/staging.hpp"
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/invalid_value.hpp"
 #include "core/shapes/material_indices.hpp"
@@ -79,12 +79,12 @@ class Scene {
     Scene in_light_of(double wavelength) const;
 
     /// Returns how the camera found its position, and which lights and fog came with it.
-    const Staging& staging() const { return staging_; }
+    const AutoCamera& auto_camera() const { return auto_camera_; }
     /// Returns the number of lights that did not come with the camera; they are the first ones.
     std::size_t own_light_count() const { return own_light_count_; }
     /// Returns the same shapes with another view. Throws InvalidValue if the camera or the fog is
     /// invalid.
-    Scene seen(const Staging& staging, const View& view) &&;
+    Scene seen(const AutoCamera& auto_camera, const View& view) &&;
 
     /// Returns the shapes in one flat polygon with `id`: only `id` itself unless added by
     /// add_polygon.
@@ -116,7 +116,7 @@ class Scene {
     Color background_{0.0F};
     Settings settings_;
     std::vector<double> wavelengths_;
-    Staging staging_;
+    AutoCamera auto_camera_;
     std::size_t own_light_count_ = 0;
 };
 
@@ -131,7 +131,7 @@ class SceneBuilder {
     std::vector<double> wavelengths; ///< checked by build(), field "spectrum/wavelengths/..."
     /// Which of camera, fog and lights build() computes. build() throws InvalidValue, field
     /// "camera", if the scene has nothing from which a camera could find its position.
-    Staging staging;
+    AutoCamera auto_camera;
     bool wants_light = true; ///< true if build() refuses shapes without a light
     /// If set, build() moves each point light that is on a surface off it, to the side that the
     /// camera sees, and calls this with the light's index. By default build() refuses such lights.
@@ -177,8 +177,8 @@ class SceneBuilder {
     /// `name_of_shape` returns a name.
     Scene build(const NameOfShape& name_of_shape = nullptr) &&;
     /// Returns a scene with these shapes alone, and with the camera, fog and lights that their
-    /// staging produced. No shape may have been added. Also throws InvalidValue for anything that
-    /// check() refuses.
+    /// auto_camera produced. No shape may have been added. Also throws InvalidValue for anything
+    /// that check() refuses.
     Scene build(BuiltShapes shapes) &&;
 
   private:

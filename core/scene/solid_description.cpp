@@ -12,9 +12,9 @@ namespace {
 
 using Op = Solids::Op;
 
-class Describer {
+class SolidWriter {
   public:
-    Describer(const Scene& scene, Solids::Index solid)
+    SolidWriter(const Scene& scene, Solids::Index solid)
         : scene_(scene), solids_(scene.solids()), whole_(solids_.medium(solid)) {}
 
     /// Describes a node or, if `outside`, its complement. The description uses only solids that
@@ -126,7 +126,7 @@ class Describer {
 } // namespace
 
 Solid description_of(const Scene& scene, Solids::Index solid) {
-    Solid described = Describer(scene, solid).describe(solid, false);
+    Solid described = SolidWriter(scene, solid).describe(solid, false);
     if (described.made == Made::of_shape) { // otherwise it would be an ordinary shape
         Solid alone{Made::by_union};
         alone.parts.push_back(std::move(described));

@@ -97,7 +97,7 @@ class Reader {
         const auto polygons = directory_.array<core::IdRange>(layout::polygons);
         shapes.polygons.assign(polygons.begin(), polygons.end());
         shapes.hierarchy = core::hierarchy_of(directory_.array<core::WideNode>(layout::nodes));
-        read_staging(shapes);
+        read_auto_camera(shapes);
         return shapes;
     }
 
@@ -133,8 +133,8 @@ class Reader {
         return {std::move(stored), static_cast<int>(width), count};
     }
 
-    void read_staging(core::BuiltShapes& shapes) const {
-        const auto numbers = directory_.array<double>(layout::staging);
+    void read_auto_camera(core::BuiltShapes& shapes) const {
+        const auto numbers = directory_.array<double>(layout::auto_camera);
         std::size_t next = 0;
         constexpr std::size_t count = 14;
         if (numbers.size() != count || !std::ranges::all_of(numbers, [](double number) {
@@ -149,20 +149,20 @@ class Reader {
         };
         const double lights = std::clamp(numbers[next++], 0.0, 4294967295.0);
         shapes.own_light_count = static_cast<std::size_t>(lights);
-        const bool has_framing = flag();
-        core::Framing framing;
-        framing.projection =
+        const bool has_fit_camera = flag();
+        core::FitCamera fit_camera;
+        fit_camera.projection =
             flag() ? core::Projection::orthographic : core::Projection::perspective;
-        framing.direction = vector();
-        framing.up = vector();
-        framing.field_of_view = number();
-        framing.zoom = number();
-        if (has_framing) shapes.staging.framing = framing;
-        shapes.staging.lights = flag();
-        shapes.staging.depth_cue = number();
-        if (!(shapes.staging.depth_cue >= 0.0F && shapes.staging.depth_cue < 1.0F))
+        fit_camera.direction = vector();
+        fit_camera.up = vector();
+        fit_camera.field_of_view = number();
+        fit_camera.zoom = number();
+        if (has_fit_camera) shapes.auto_camera.fit_camera = fit_camera;
+        shapes.auto_camera.lights = flag();
+        shapes.auto_camera.depth_cue = number();
+        if (!(shapes.auto_camera.depth_cue >= 0.0F && shapes.auto_camera.depth_cue < 1.0F))
             directory_.refuse_damaged("invalid fog");
-        shapes.staging.turning = flag();
+        shapes.auto_camera.turning = flag();
     }
 
     const Directory& directory_;

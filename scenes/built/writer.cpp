@@ -69,22 +69,16 @@ class Writer {
 };
 
 std::vector<double> numbers_of(const core::Scene& scene) {
-    const core::Staging& staging = scene.staging();
-    const core::Framing framing = staging.framing.value_or(core::Framing{});
-    return {static_cast<double>(scene.own_light_count()),
-            staging.framing ? 1.0 : 0.0,
-            static_cast<double>(framing.projection),
-            static_cast<double>(framing.direction.x),
-            static_cast<double>(framing.direction.y),
-            static_cast<double>(framing.direction.z),
-            static_cast<double>(framing.up.x),
-            static_cast<double>(framing.up.y),
-            static_cast<double>(framing.up.z),
-            static_cast<double>(framing.field_of_view),
-            static_cast<double>(framing.zoom),
-            staging.lights ? 1.0 : 0.0,
-            static_cast<double>(staging.depth_cue),
-            staging.turning ? 1.0 : 0.0};
+    const core::AutoCamera& auto_camera = scene.auto_camera();
+    const core::FitCamera fit_camera = auto_camera.fit_camera.value_or(core::FitCamera{});
+    return {
+        static_cast<double>(scene.own_light_count()), auto_camera.fit_camera ? 1.0 : 0.0,
+        static_cast<double>(fit_camera.projection),   static_cast<double>(fit_camera.direction.x),
+        static_cast<double>(fit_camera.direction.y),  static_cast<double>(fit_camera.direction.z),
+        static_cast<double>(fit_camera.up.x),         static_cast<double>(fit_camera.up.y),
+        static_cast<double>(fit_camera.up.z),         static_cast<double>(fit_camera.field_of_view),
+        static_cast<double>(fit_camera.zoom),         auto_camera.lights ? 1.0 : 0.0,
+        static_cast<double>(auto_camera.depth_cue),   auto_camera.turning ? 1.0 : 0.0};
 }
 
 } // namespace
@@ -108,8 +102,8 @@ void write_built(AtomicFile& file, const core::Scene& scene) {
     write_json_without_objects(text, scene);
     text.flush();
     writer.add(layout::scene, json.data(), json.size());
-    const std::vector<double> staging = numbers_of(scene);
-    writer.add(layout::staging, staging.data(), staging.size());
+    const std::vector<double> auto_camera = numbers_of(scene);
+    writer.add(layout::auto_camera, auto_camera.data(), auto_camera.size());
     writer.add(layout::nodes, scene.hierarchy().nodes);
     const std::span<const std::uint8_t> materials = scene.material_indices().stored();
     writer.add(layout::materials, materials.data(), materials.size());

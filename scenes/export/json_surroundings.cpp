@@ -88,16 +88,16 @@ void write_fields(JsonObject& object, const Of& of, const char* group) {
         of, usual);
 }
 
-void write_framing(JsonObject& object, const core::Framing& framing, float depth_cue) {
-    const core::Framing usual;
+void write_fit_camera(JsonObject& object, const core::FitCamera& fit_camera, float depth_cue) {
+    const core::FitCamera usual;
     object.text("type", "auto");
-    object.vector("view", framing.direction);
-    object.vector("up", framing.up);
-    if (framing.zoom != usual.zoom) object.number("zoom", framing.zoom);
-    if (framing.projection == core::Projection::orthographic)
+    object.vector("view", fit_camera.direction);
+    object.vector("up", fit_camera.up);
+    if (fit_camera.zoom != usual.zoom) object.number("zoom", fit_camera.zoom);
+    if (fit_camera.projection == core::Projection::orthographic)
         object.key("orthographic") << "true";
-    else if (framing.field_of_view != usual.field_of_view)
-        object.number("field_of_view", framing.field_of_view);
+    else if (fit_camera.field_of_view != usual.field_of_view)
+        object.number("field_of_view", fit_camera.field_of_view);
     if (depth_cue > 0.0F) object.number("depth_cue", depth_cue);
 }
 
@@ -116,11 +116,12 @@ void write_settings(JsonObject& root, const core::Settings& settings) {
     }
 }
 
-void write_surroundings(JsonObject& root, const core::Scene& scene, const core::Staging& staging) {
+void write_surroundings(JsonObject& root, const core::Scene& scene,
+                        const core::AutoCamera& auto_camera) {
     {
         JsonObject object(root.key("camera"));
-        if (staging.framing)
-            write_framing(object, *staging.framing, staging.depth_cue);
+        if (auto_camera.fit_camera)
+            write_fit_camera(object, *auto_camera.fit_camera, auto_camera.depth_cue);
         else
             write_fields(object, scene.camera());
     }
@@ -133,17 +134,17 @@ void write_surroundings(JsonObject& root, const core::Scene& scene, const core::
         list << "]}";
     }
     const core::Fog& fog = scene.fog();
-    if (fog.kind != core::FogKind::none && !(staging.depth_cue > 0.0F)) {
+    if (fog.kind != core::FogKind::none && !(auto_camera.depth_cue > 0.0F)) {
         JsonObject object(root.key("fog"));
         write_fields(object, fog);
     }
 }
 
 void write_lights(JsonObject& root, TextFile& file, const core::Scene& scene,
-                  const core::Staging& staging) {
+                  const core::AutoCamera& auto_camera) {
     root.key("lights") << "[";
     const char* separator = "\n";
-    const std::size_t count = staging.lights ? scene.own_light_count() : scene.lights().size();
+    const std::size_t count = auto_camera.lights ? scene.own_light_count() : scene.lights().size();
     for (std::size_t i = 0; i < count; ++i) {
         const core::Light& light = scene.lights()[i];
         file << std::exchange(separator, ",\n");
@@ -151,7 +152,7 @@ void write_lights(JsonObject& root, TextFile& file, const core::Scene& scene,
         write_fields(object, light);
         object.vector("color", light.color);
     }
-    if (staging.lights) file << separator << R"({"type": "camera"})";
+    if (auto_camera.lights) file << separator << R"({"type": "camera"})";
     file << "]";
 }
 

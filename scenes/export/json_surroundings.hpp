@@ -9,12 +9,14 @@
 namespace raylane::scenes {
 
 void write_settings(JsonObject& root, const core::Settings& settings);
-/// Writes camera, background, spectrum and fog. If camera and fog follow from `staging`, writes the
-/// staging instead, from which the reader derives them.
-void write_surroundings(JsonObject& root, const core::Scene& scene, const core::Staging& staging);
-/// Writes the lights. If `staging` has the camera's own lights, omits these for the reader to add.
+/// Writes camera, background, spectrum and fog. If camera and fog follow from `auto_camera`, writes
+/// the auto_camera instead, from which the reader derives them.
+void write_surroundings(JsonObject& root, const core::Scene& scene,
+                        const core::AutoCamera& auto_camera);
+/// Writes the lights. If `auto_camera` has the camera's own lights, omits these for the reader to
+/// add.
 void write_lights(JsonObject& root, TextFile& file, const core::Scene& scene,
-                  const core::Staging& staging);
+                  const core::AutoCamera& auto_camera);
 /// The names of materials in a JSON file, quoted. All differ.
 class MaterialNames {
   public:

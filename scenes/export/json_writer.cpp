@@ -1,6 +1,6 @@
+#include "scenes/export/auto_camera_in_json.hpp"
 #include "scenes/export/json_shapes.hpp"
 #include "scenes/export/json_surroundings.hpp"
-#include "scenes/export/staging_in_json.hpp"
 #include "scenes/export/writers.hpp"
 
 namespace raylane::scenes {
@@ -8,23 +8,23 @@ namespace raylane::scenes {
 namespace {
 
 void write_all_but_objects(JsonObject& root, TextFile& file, const core::Scene& scene,
-                           const core::Staging& staging, const MaterialNames& names) {
+                           const core::AutoCamera& auto_camera, const MaterialNames& names) {
     write_settings(root, scene.settings());
-    write_surroundings(root, scene, staging);
-    write_lights(root, file, scene, staging);
+    write_surroundings(root, scene, auto_camera);
+    write_lights(root, file, scene, auto_camera);
     write_materials(root, file, scene, names);
 }
 
 } // namespace
 
 void write_json(TextFile& file, const core::Scene& scene, Differences& differences) {
-    const core::Staging staging = staging_in_json(scene);
-    differences.merge(lost_staging(scene.staging(), staging));
+    const core::AutoCamera auto_camera = auto_camera_in_json(scene);
+    differences.merge(lost_auto_camera(scene.auto_camera(), auto_camera));
     if (!scene.polygons().empty()) differences.insert(lost_polygons);
     JsonObject root(file, ",\n");
     file << "\n";
     const MaterialNames names = MaterialNames::own(scene);
-    write_all_but_objects(root, file, scene, staging, names);
+    write_all_but_objects(root, file, scene, auto_camera, names);
     write_objects(root, file, scene, names);
 }
 

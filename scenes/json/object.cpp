@@ -35,10 +35,10 @@ constexpr std::size_t most_parts = std::size_t{1} << 20;
 constexpr int most_depth = 256;
 
 /// Describes objects within one object of the file.
-class Describer {
+class SolidReader {
   public:
     /// `parts`: shapes of instances that already count.
-    explicit Describer(const ObjectContext& given, std::size_t parts = 0)
+    explicit SolidReader(const ObjectContext& given, std::size_t parts = 0)
         : context(given), parts_(parts) {}
 
     std::vector<Solid> described(const JsonValue& object, Use use);
@@ -59,7 +59,7 @@ class ObjectReader {
     ObjectReader(const JsonValue& object, core::SceneBuilder& builder, const ObjectContext& context)
         : object_(object), builder_(&builder), context_(context), use_(Use::object) {}
     /// Reads an object that is described.
-    ObjectReader(const JsonValue& object, Describer& describer, Use use, Solid& described)
+    ObjectReader(const JsonValue& object, SolidReader& describer, Use use, Solid& described)
         : object_(object), context_(describer.context), describer_(&describer), use_(use),
           described_(&described) {}
 
@@ -207,7 +207,7 @@ class ObjectReader {
     const JsonValue& object_;
     core::SceneBuilder* builder_ = nullptr;
     const ObjectContext& context_;
-    Describer* describer_ = nullptr;
+    SolidReader* describer_ = nullptr;
     Use use_;
     Solid* described_ = nullptr;
 };
@@ -285,8 +285,8 @@ void ObjectReader::read(std::type_identity<core::Quadric>) {
 void ObjectReader::made(Made by) {
     allow({"type", "material", "objects"});
     Solid solid{.made = by, .material = material_if_any()};
-    Describer own(context_);
-    Describer& describer = describer_ != nullptr ? *describer_ : own;
+    SolidReader own(context_);
+    SolidReader& describer = describer_ != nullptr ? *describer_ : own;
     for (const JsonValue& object : object_.at("objects").array("objects")) {
         std::vector<Solid> parts = describer.described(object, Use::part);
         if (parts.size() == 1) {
@@ -329,7 +329,7 @@ void ObjectReader::lens() {
 
 /// Adds the shapes of a group, an instance or a transformed object.
 void ObjectReader::several() {
-    for (const Solid& solid : Describer(context_).described(object_, Use::member)) {
+    for (const Solid& solid : SolidReader(context_).described(object_, Use::member)) {
         if (solid.material == core::no_material && solid.made == Made::of_shape)
             static_cast<void>(object_.at("material")); // throws, as it is missing
         checked(object_, [&] {
@@ -416,7 +416,7 @@ bool is_quadric(const Solid& solid) {
            std::holds_alternative<core::QuadricOf<double>>(solid.shape);
 }
 
-std::vector<Solid> Describer::instance_of(const JsonValue& object, Use use) {
+std::vector<Solid> SolidReader::instance_of(const JsonValue& object, Use use) {
     const JsonValue name = object.at("of");
     const Definition& definition = context.definitions.named_by(name);
     parts_ += definition.parts;
@@ -431,7 +431,7 @@ std::vector<Solid> Describer::instance_of(const JsonValue& object, Use use) {
 }
 
 /// Returns all solids of an object, transformed by its keys, with the materials that it gives.
-std::vector<Solid> Describer::described(const JsonValue& object, Use use) {
+std::vector<Solid> SolidReader::described(const JsonValue& object, Use use) {
     std::vector<std::string_view> keys = {"type", "material"};
     keys.insert(keys.end(), transform_keys.begin(), transform_keys.end());
     const std::string_view type = object.at("type").string();
@@ -495,7 +495,7 @@ void add_object(const JsonValue& object, core::SceneBuilder& builder,
 }
 
 Definition described_object(const JsonValue& object, const ObjectContext& context) {
-    Describer describer(context, context.definitions.kept_parts);
+    SolidReader describer(context, context.definitions.kept_parts);
     Definition definition{describer.described(object, Use::member), 0};
     context.definitions.kept_parts = describer.parts();
     for (const Solid& solid : definition.solids) {

@@ -220,7 +220,7 @@ void SceneReader::take_outline(const JsonValue& value) {
 
 void SceneReader::take_camera(const JsonValue& value) {
     missed_.insert("camera"); // an invalid camera may be meant to bring light along
-    const core::Camera camera = read_camera(value, builder_.staging);
+    const core::Camera camera = read_camera(value, builder_.auto_camera);
     checked(value, [&] { core::validate(camera); });
     builder_.camera = camera;
     missed_.erase("camera");
@@ -255,7 +255,7 @@ void SceneReader::take_light(const JsonValue& value) {
     has_lights_ = true;
     const std::optional<core::Light> light = read_light(value);
     if (!light) {
-        builder_.staging.lights = true;
+        builder_.auto_camera.lights = true;
         return;
     }
     checked(value, [&] { builder_.add_light(*light); });
@@ -358,9 +358,9 @@ core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
                 {unknown.file, unknown.position, unknown.pointer, complaint_about_name(name)});
     // A camera that finds its place by itself brings light, too. An empty list is intended.
     builder_.wants_light = has_lights_ || !outline.has("lights");
-    if (!has_lights_ && builder_.wants_light && builder_.staging.framing)
-        builder_.staging.lights = true;
-    if (has_objects_ && !has_lights_ && builder_.wants_light && !builder_.staging.lights &&
+    if (!has_lights_ && builder_.wants_light && builder_.auto_camera.fit_camera)
+        builder_.auto_camera.lights = true;
+    if (has_objects_ && !has_lights_ && builder_.wants_light && !builder_.auto_camera.lights &&
         !misses("lights") && !misses("camera"))
         errors.add({file_, outline.of("lights"), "/lights",
                     "must have at least one light if there are objects, or be [] for no lights, "

@@ -11,20 +11,20 @@ using core::Projection;
 namespace {
 
 /// Reads a view: its name, or the direction in which the camera looks.
-void read_view(const JsonValue& value, core::Framing& framing) {
+void read_view(const JsonValue& value, core::FitCamera& fit_camera) {
     if (value.type() == JsonType::array) {
-        framing.direction = value.vector();
-        if (framing.direction == core::Vec3f(0.0F))
+        fit_camera.direction = value.vector();
+        if (fit_camera.direction == core::Vec3f(0.0F))
             value.fail("must be a direction other than [0, 0, 0]");
-        framing.up = core::upright(framing.direction);
+        fit_camera.up = core::upright(fit_camera.direction);
         return;
     }
     std::vector<std::pair<std::string_view, const core::NamedView*>> choices;
     for (const core::NamedView& view : core::named_views())
         choices.emplace_back(view.name, &view);
     const auto* view = value.choice(JsonValue::Choices<const core::NamedView*>(choices));
-    framing.direction = view->direction;
-    framing.up = view->up;
+    fit_camera.direction = view->direction;
+    fit_camera.up = view->up;
 }
 
 float number_between(const JsonValue& value, float least, float most, const char* expected) {
@@ -33,26 +33,26 @@ float number_between(const JsonValue& value, float least, float most, const char
     return number;
 }
 
-core::Framing read_framing(const JsonValue& value) {
+core::FitCamera read_fit_camera(const JsonValue& value) {
     value.allow_only({"type", "view", "up", "zoom", "orthographic", "field_of_view", "depth_cue"});
     value.exclude("orthographic", "field_of_view");
-    core::Framing framing;
-    if (const auto view = value.find("view")) read_view(*view, framing);
+    core::FitCamera fit_camera;
+    if (const auto view = value.find("view")) read_view(*view, fit_camera);
     if (const auto up = value.find("up")) {
-        framing.up = up->vector();
-        const auto across = core::cross(core::convert<double>(framing.up),
-                                        core::convert<double>(framing.direction));
+        fit_camera.up = up->vector();
+        const auto across = core::cross(core::convert<double>(fit_camera.up),
+                                        core::convert<double>(fit_camera.direction));
         if (across == core::Vec3d(0.0))
             up->fail("must not be 0 or parallel to the direction of view");
     }
     if (const auto zoom = value.find("zoom"))
-        framing.zoom = number_between(*zoom, 0.01F, 1000.0F, "from 0.01 to 1000");
+        fit_camera.zoom = number_between(*zoom, 0.01F, 1000.0F, "from 0.01 to 1000");
     if (const auto orthographic = value.find("orthographic"))
-        framing.projection =
+        fit_camera.projection =
             orthographic->boolean() ? Projection::orthographic : Projection::perspective;
     if (const auto angle = value.find("field_of_view"))
-        framing.field_of_view = number_between(*angle, 0.01F, 179.0F, "from 0.01 to 179");
-    return framing;
+        fit_camera.field_of_view = number_between(*angle, 0.01F, 179.0F, "from 0.01 to 179");
+    return fit_camera;
 }
 
 } // namespace
@@ -80,18 +80,18 @@ core::Outline read_outline(const JsonValue& value) {
     return outline;
 }
 
-core::Camera read_camera(const JsonValue& value, core::Staging& staging) {
+core::Camera read_camera(const JsonValue& value, core::AutoCamera& auto_camera) {
     core::Camera camera;
     if (value.type() == JsonType::string) {
-        staging.framing = value.choice<core::Framing>({{"auto", {}}});
+        auto_camera.fit_camera = value.choice<core::FitCamera>({{"auto", {}}});
         return camera;
     }
     if (const auto type = value.find("type")) {
         const std::size_t kind = read_word(*type, core::fields::projection, "auto");
         if (kind == std::size(core::fields::projection_words)) {
-            staging.framing = read_framing(value);
+            auto_camera.fit_camera = read_fit_camera(value);
             if (const auto cue = value.find("depth_cue"))
-                staging.depth_cue = number_between(*cue, 0.0F, 0.99F, "from 0 to 0.99");
+                auto_camera.depth_cue = number_between(*cue, 0.0F, 0.99F, "from 0 to 0.99");
             return camera;
         }
         camera.projection = static_cast<Projection>(kind);

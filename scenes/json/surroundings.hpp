@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/staging.hpp"
+#include "core/scene/auto_camera.hpp"
 #include "scenes/json/value.hpp"
 
 #include <optional>
@@ -12,8 +12,8 @@ namespace raylane::scenes {
 /// Adds a parameter, or marks it as invalid.
 void read_parameter(std::string_view name, const JsonValue& value, Parameters& parameters);
 core::Outline read_outline(const JsonValue& value);
-/// Reads a camera. If it finds its place by itself, sets `staging` instead.
-core::Camera read_camera(const JsonValue& value, core::Staging& staging);
+/// Reads a camera. If it finds its place by itself, sets `auto_camera` instead.
+core::Camera read_camera(const JsonValue& value, core::AutoCamera& auto_camera);
 core::Fog read_fog(const JsonValue& value);
 /// Returns nothing for the lights that the camera brings along.
 std::optional<core::Light> read_light(const JsonValue& value);

@@ -1,6 +1,6 @@
 #include "core/scene/scene.hpp"
 
-#include "core/scene/staging.hpp"
+#include "core/scene/auto_camera.hpp"
 #include "core/scene/validate.hpp"
 #include "raylane/scene.hpp"
 #include "scenes/export/export.hpp"
@@ -96,13 +96,13 @@ Settings Scene::settings() const {
 
 Scene Scene::seen_by(const Camera& camera) const {
     return translated([&] {
-        core::Staging staging = scene_->staging();
-        staging.framing.reset(); // the new camera's position is given
+        core::AutoCamera auto_camera = scene_->auto_camera();
+        auto_camera.fit_camera.reset(); // the new camera's position is given
         core::Scene same = core::Scene(*scene_).seen(
-            staging, {converted<core::Camera>(camera), scene_->fog(), {}});
-        if (staging.any()) {
-            const core::View view = core::staged(same, staging, same.settings());
-            same = std::move(same).seen(staging, view);
+            auto_camera, {converted<core::Camera>(camera), scene_->fog(), {}});
+        if (auto_camera.any()) {
+            const core::View view = core::staged(same, auto_camera, same.settings());
+            same = std::move(same).seen(auto_camera, view);
         }
         return owning(std::move(same));
     });

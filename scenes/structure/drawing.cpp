@@ -27,11 +27,11 @@ constexpr float stick_with_balls = 0.12F, stick = 0.16F, licorice_stick = 0.3F, 
 constexpr double apart = 0.13; // distance of a double bond's sticks from its line
 constexpr float cell_stick = 0.06F;
 
-class Artist {
+class SceneFromAtoms {
   public:
-    Artist(const Structure& structure, const Drawing& drawing, const std::string& file,
-           core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape,
-           const OnRemark& on_remark)
+    SceneFromAtoms(const Structure& structure, const Drawing& drawing, const std::string& file,
+                   core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape,
+                   const OnRemark& on_remark)
         : structure_(structure), drawing_(drawing), file_(file), builder_(builder),
           palette_(builder, drawing.opacity), atoms_of_shape_(atoms_of_shape),
           on_remark_(on_remark) {}
@@ -427,8 +427,8 @@ class Artist {
         const bool is_filled = scale_.style == Style::spheres || scale_.style == Style::points;
         builder_.settings.quality = is_filled ? 40.0F : 46.0F;
         builder_.background = core::Color(1.0F);
-        builder_.staging = {
-            .framing = drawing_.framing, .lights = true, .depth_cue = drawing_.depth_cue};
+        builder_.auto_camera = {
+            .fit_camera = drawing_.fit_camera, .lights = true, .depth_cue = drawing_.depth_cue};
     }
 
     const Structure& structure_;
@@ -453,7 +453,7 @@ class Artist {
 DrawingScale draw(const Structure& structure, const Drawing& drawing, const std::string& file,
                   core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape,
                   const OnRemark& on_remark) {
-    return Artist(structure, drawing, file, builder, atoms_of_shape, on_remark).draw();
+    return SceneFromAtoms(structure, drawing, file, builder, atoms_of_shape, on_remark).draw();
 }
 
 } // namespace raylane::scenes

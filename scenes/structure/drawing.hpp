@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/framing.hpp"
+#include "core/scene/fit_camera.hpp"
 #include "core/scene/scene.hpp"
 #include "scenes/input_file.hpp"
 #include "scenes/structure/structure.hpp"
@@ -37,7 +37,7 @@ struct Drawing {
     std::array<int, 3> repeat = {1, 1, 1}; ///< cells side by side along the edges
     bool show_cell = false;                ///< the cell's edges
     bool ellipsoids = false; ///< ellipsoids and spheres that hold half of a displacement
-    core::Framing framing{};
+    core::FitCamera fit_camera{};
     int width = 1200, height = 900; ///< pixels of the image
     float opacity = 1.0F;           ///< of atoms and bonds, in (0, 1]
     float depth_cue = 0.3F;         ///< share of the background in the farthest atoms, in [0, 1)

@@ -48,9 +48,9 @@ void check_same(const core::Scene& again, const core::Scene& scene) {
     CHECK(again.hierarchy().bounds.lower == scene.hierarchy().bounds.lower);
     CHECK(again.hierarchy().bounds.upper == scene.hierarchy().bounds.upper);
     CHECK(again.own_light_count() == scene.own_light_count());
-    CHECK(again.staging().framing.has_value() == scene.staging().framing.has_value());
-    CHECK(again.staging().lights == scene.staging().lights);
-    CHECK(again.staging().depth_cue == scene.staging().depth_cue);
+    CHECK(again.auto_camera().fit_camera.has_value() == scene.auto_camera().fit_camera.has_value());
+    CHECK(again.auto_camera().lights == scene.auto_camera().lights);
+    CHECK(again.auto_camera().depth_cue == scene.auto_camera().depth_cue);
     CHECK(again.polygons().size() == scene.polygons().size());
     for (const core::Precision precision : {core::Precision::exact, core::Precision::robust})
         CHECK(picture_of(again, precision) == picture_of(scene, precision));

@@ -248,7 +248,7 @@ TEST_CASE("Materials keep their names from JSON to JSON") {
 
 TEST_CASE("Materials with equal names or without names differ in JSON") {
     core::SceneBuilder builder;
-    builder.staging.framing.emplace();
+    builder.auto_camera.fit_camera.emplace();
     builder.wants_light = false;
     for (const char* name : {"", "red", "red", "0", "red-2", "\xFF", "\xFE"}) {
         const core::MaterialIndex material = builder.add_material({});
@@ -271,7 +271,7 @@ TEST_CASE("Materials with equal names or without names differ in JSON") {
 TEST_CASE("Materials keep the names that are valid in POV-Ray's language") {
     const auto written = [](const std::vector<const char*>& names) {
         core::SceneBuilder builder;
-        builder.staging.framing.emplace();
+        builder.auto_camera.fit_camera.emplace();
         builder.wants_light = false;
         for (const char* name : names) {
             core::Material of;

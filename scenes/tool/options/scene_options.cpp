@@ -92,19 +92,19 @@ std::optional<ParameterSweep> parameter_sweep_of(const std::string& text) {
 
 } // namespace
 
-core::Staging ViewChange::staging(const core::Scene& scene, core::Camera& camera) const {
-    core::Staging staging = scene.staging();
-    staging.turning = turning;
-    staging.depth_cue = depth_cue.value_or(staging.depth_cue);
+core::AutoCamera ViewChange::auto_camera(const core::Scene& scene, core::Camera& camera) const {
+    core::AutoCamera auto_camera = scene.auto_camera();
+    auto_camera.turning = turning;
+    auto_camera.depth_cue = depth_cue.value_or(auto_camera.depth_cue);
     if (way) {
-        if (!staging.framing) staging.framing = core::framing_of(camera);
-        staging.framing->direction = way->direction;
-        staging.framing->up = way->up;
+        if (!auto_camera.fit_camera) auto_camera.fit_camera = core::fit_camera_of(camera);
+        auto_camera.fit_camera->direction = way->direction;
+        auto_camera.fit_camera->up = way->up;
     }
     if (up) {
-        core::Vec3f& of_camera = staging.framing ? staging.framing->up : camera.up;
-        const core::Vec3f along =
-            staging.framing ? staging.framing->direction : core::framing_of(camera).direction;
+        core::Vec3f& of_camera = auto_camera.fit_camera ? auto_camera.fit_camera->up : camera.up;
+        const core::Vec3f along = auto_camera.fit_camera ? auto_camera.fit_camera->direction
+                                                         : core::fit_camera_of(camera).direction;
         of_camera = *up;
         const auto wide_up = core::convert<double>(*up), forward = core::convert<double>(along);
         constexpr double least_sine = 1e-5;
@@ -112,14 +112,14 @@ core::Staging ViewChange::staging(const core::Scene& scene, core::Camera& camera
             least_sine * core::length(wide_up) * core::length(forward))
             throw BadInput("--up", "", "must not be parallel to the direction of view");
     }
-    if (staging.framing) {
-        staging.framing->zoom = zoom.value_or(staging.framing->zoom);
-        if (orthographic) staging.framing->projection = core::Projection::orthographic;
+    if (auto_camera.fit_camera) {
+        auto_camera.fit_camera->zoom = zoom.value_or(auto_camera.fit_camera->zoom);
+        if (orthographic) auto_camera.fit_camera->projection = core::Projection::orthographic;
     } else {
         if (orthographic) make_orthographic(camera);
         if (zoom) zoom_in(camera, *zoom);
     }
-    return staging;
+    return auto_camera;
 }
 
 core::View view_of(const core::Scene& scene) {
@@ -130,15 +130,17 @@ core::View view_of(const core::Scene& scene) {
 core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settings& settings,
                  const std::optional<core::Frame>& frame) {
     core::Camera camera = scene.camera();
-    const core::Staging own = scene.staging(), staging = change.staging(scene, camera);
+    const core::AutoCamera own = scene.auto_camera(),
+                           auto_camera = change.auto_camera(scene, camera);
     const core::Fog fog = scene.fog();
-    const bool is_staged = staging.any() || own.any();
+    const bool is_staged = auto_camera.any() || own.any();
     try {
         scene = std::move(scene).seen(own, {camera, fog, {}});
         if (!is_staged) return scene;
-        const core::View view = frame && staging.framing ? core::staged(scene, staging, *frame)
-                                                         : core::staged(scene, staging, settings);
-        return std::move(scene).seen(staging, view);
+        const core::View view = frame && auto_camera.fit_camera
+                                    ? core::staged(scene, auto_camera, *frame)
+                                    : core::staged(scene, auto_camera, settings);
+        return std::move(scene).seen(auto_camera, view);
     } catch (const core::InvalidValue& invalid) {
         throw BadInput(change.way ? "--view" : "camera", "", invalid.expectation);
     }

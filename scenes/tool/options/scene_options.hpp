@@ -118,9 +118,9 @@ struct ViewChange {
     bool orthographic = false;
     bool turning = false; ///< the camera will turn around the scene
 
-    /// Returns the scene's staging with these changes. If the scene keeps its own camera, changes
-    /// are made to `camera` instead. Throws BadInput.
-    core::Staging staging(const core::Scene& scene, core::Camera& camera) const;
+    /// Returns the scene's auto_camera with these changes. If the scene keeps its own camera,
+    /// changes are made to `camera` instead. Throws BadInput.
+    core::AutoCamera auto_camera(const core::Scene& scene, core::Camera& camera) const;
 };
 
 /// Returns a scene's camera and fog, and the lights that came with the camera.

@@ -113,20 +113,21 @@ class Stage {
                 fixed_ = view_of(scene);
             is_set_up_ = true;
         }
-        const core::Staging staging = scene.staging();
+        const core::AutoCamera auto_camera = scene.auto_camera();
         core::View view = view_of(scene);
-        if (fixed_ && (staging.framing || is_still())) {
+        if (fixed_ && (auto_camera.fit_camera || is_still())) {
             const core::Fog own = view.fog;
             view = *fixed_;
-            if (!(staging.depth_cue > 0.0F)) view.fog = own;
+            if (!(auto_camera.depth_cue > 0.0F)) view.fog = own;
         }
         if (strip_.turn) {
-            const core::Vec3f up = staging.framing ? staging.framing->up : view.camera.up;
+            const core::Vec3f up =
+                auto_camera.fit_camera ? auto_camera.fit_camera->up : view.camera.up;
             view = core::turned(view, up,
                                 strip_.turn->degrees * static_cast<double>(place) /
                                     static_cast<double>(strip_.turn->count));
         }
-        return std::move(scene).seen(staging, view);
+        return std::move(scene).seen(auto_camera, view);
     }
 
     /// Reads all scenes once to find the frame that contains their shapes.
@@ -137,10 +138,11 @@ class Stage {
         for (; strip_.source->next(); ++count) {
             const core::Scene scene = strip_.source->scene();
             core::Camera camera = scene.camera();
-            const core::Staging staging = change_.staging(scene, camera);
-            if (staging.framing) {
+            const core::AutoCamera auto_camera = change_.auto_camera(scene, camera);
+            if (auto_camera.fit_camera) {
                 if (!frame_)
-                    frame_ = core::empty_frame(scene, staging, strip_.settings(scene.settings()));
+                    frame_ =
+                        core::empty_frame(scene, auto_camera, strip_.settings(scene.settings()));
                 core::include_shapes(scene, *frame_);
             }
         }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/staging.hpp"
+#include "core/scene/auto_camera.hpp"
 
 namespace raylane::scenes {
 

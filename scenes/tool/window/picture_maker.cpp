@@ -80,8 +80,8 @@ void PictureMaker::run(const std::stop_token& stop) {
                 progress_.abandon = false;
             }
             const std::lock_guard lock(scene_mutex_);
-            const core::Staging staging = scene_.staging();
-            scene_ = std::move(scene_).seen(staging, wish->view);
+            const core::AutoCamera auto_camera = scene_.auto_camera();
+            scene_ = std::move(scene_).seen(auto_camera, wish->view);
             draw(stop, wish->settings);
         }
     } catch (...) {

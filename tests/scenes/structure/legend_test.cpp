@@ -82,7 +82,7 @@ TEST_CASE("transparent atoms have no walls inside") {
         options.drawing.opacity = 0.25F;
         options.drawing.width = options.drawing.height = 31;
         options.drawing.depth_cue = 0.0F;
-        options.drawing.framing.direction = {0, 0, -1};
+        options.drawing.fit_camera.direction = {0, 0, -1};
         const raylane::core::Scene scene = parse_scene("a.xyz", text, options);
         raylane::core::Settings settings = scene.settings();
         settings.alpha = true;

@@ -325,7 +325,7 @@ TEST_CASE("transparent atoms have the camera of opaque ones") {
         LoadOptions options;
         options.drawing.style = Style::balls;
         options.drawing.opacity = opacity;
-        options.drawing.framing.direction = {-1, -0.5F, 0.3F};
+        options.drawing.fit_camera.direction = {-1, -0.5F, 0.3F};
         return parse_scene("a.xyz", "3\n\nC 0 0 0\nO 1.2 0 0\nN 0 1.3 0.2\n", options).camera();
     };
     CHECK(camera_of(0.5F).from == camera_of(1.0F).from);
@@ -337,8 +337,8 @@ TEST_CASE("a file of atoms is a scene with a camera that sees them all") {
     options.drawing.height = 200;
     const auto projection =
         GENERATE(raylane::core::Projection::perspective, raylane::core::Projection::orthographic);
-    options.drawing.framing.projection = projection;
-    options.drawing.framing.direction = {-1, -0.5F, 0.3F};
+    options.drawing.fit_camera.projection = projection;
+    options.drawing.fit_camera.direction = {-1, -0.5F, 0.3F};
     const raylane::core::Scene scene = parse_scene("a.xyz", xyz_of(30), options);
     CHECK(scene.settings().width == 320);
     CHECK(scene.camera().projection == projection);
@@ -424,7 +424,7 @@ TEST_CASE("one atom and atoms at one point can be drawn") {
         for (const auto projection :
              {raylane::core::Projection::perspective, raylane::core::Projection::orthographic}) {
             LoadOptions options;
-            options.drawing.framing.projection = projection;
+            options.drawing.fit_camera.projection = projection;
             CHECK_NOTHROW(parse_scene("a.xyz", text, options));
         }
 }

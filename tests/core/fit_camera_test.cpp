@@ -1,4 +1,4 @@
-#include "core/scene/framing.hpp"
+#include "core/scene/fit_camera.hpp"
 #include "tests/catch.hpp"
 #include "tests/random.hpp"
 
@@ -55,8 +55,8 @@ Extent extent_of(const Camera& camera, double aspect, const std::vector<Ball>& b
     return extent;
 }
 
-bool projection_is_limited(const Framing& framing, double near, double size) {
-    return framing.projection == Projection::perspective && near < 1.001 * size / 64;
+bool projection_is_limited(const FitCamera& fit_camera, double near, double size) {
+    return fit_camera.projection == Projection::perspective && near < 1.001 * size / 64;
 }
 
 } // namespace
@@ -64,15 +64,15 @@ bool projection_is_limited(const Framing& framing, double near, double size) {
 TEST_CASE("a camera that frames balls shows all of them as large as possible") {
     Random random(20261125);
     for (int round = 0; round < 200; ++round) {
-        Framing framing;
-        framing.projection = round % 2 == 0 ? Projection::perspective : Projection::orthographic;
-        framing.direction = convert<float>(
+        FitCamera fit_camera;
+        fit_camera.projection = round % 2 == 0 ? Projection::perspective : Projection::orthographic;
+        fit_camera.direction = convert<float>(
             Vec3d(random.uniform(-1, 1), random.uniform(-0.9, 0.9), random.uniform(0.1, 1)));
-        framing.field_of_view = static_cast<float>(random.uniform(5, 100));
+        fit_camera.field_of_view = static_cast<float>(random.uniform(5, 100));
         const double aspect = random.log_uniform(0.25, 4.0);
         std::vector<Ball> balls;
         const double size = random.log_uniform(1e-3, 1e3);
-        Frame frame(framing, aspect);
+        Frame frame(fit_camera, aspect);
         for (int i = 0; i < 30; ++i) {
             balls.push_back(
                 {size * Vec3d(random.uniform(-3, 9), random.uniform(-1, 1), random.uniform(-2, 2)),
@@ -87,7 +87,7 @@ TEST_CASE("a camera that frames balls shows all of them as large as possible") {
         CHECK(far > near);
         // A wide field of view may need a larger distance, so that everything is in front of the
         // eye.
-        if (projection_is_limited(framing, near, std::max(far - near, frame.width()))) continue;
+        if (projection_is_limited(fit_camera, near, std::max(far - near, frame.width()))) continue;
         // The margin is exact on both sides of one direction.
         CHECK(extent.most() == Approx(1.0 / 1.05).epsilon(1e-4));
         const bool fills_width =
@@ -96,8 +96,8 @@ TEST_CASE("a camera that frames balls shows all of them as large as possible") {
             std::abs(extent.above - extent.below) < 1e-4 && extent.above > extent.most() - 1e-4;
         CHECK((fills_width || fills_height));
 
-        framing.zoom = 2.0F;
-        Frame nearer(framing, aspect);
+        fit_camera.zoom = 2.0F;
+        Frame nearer(fit_camera, aspect);
         for (const Ball& ball : balls)
             nearer.include(ball.center, ball.radius);
         CHECK(extent_of(nearer.camera(), aspect, balls).most() == Approx(2.0 / 1.05).epsilon(1e-4));
@@ -106,18 +106,18 @@ TEST_CASE("a camera that frames balls shows all of them as large as possible") {
 
 TEST_CASE("a point and a box and an empty frame have cameras") {
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
-        Framing framing;
-        framing.projection = projection;
-        Frame nothing(framing, 1.0);
+        FitCamera fit_camera;
+        fit_camera.projection = projection;
+        Frame nothing(fit_camera, 1.0);
         CHECK(nothing.empty());
         nothing.include(Bounds{});
         CHECK(nothing.empty());
         CHECK(nothing.camera().from.z > 0.0F);
-        Frame point(framing, 1.0);
+        Frame point(fit_camera, 1.0);
         point.include(Vec3d(3, 4, 5), 0.0);
         CHECK(point.camera().from != point.camera().at);
         CHECK(point.camera().at.x == 3.0F);
-        Frame box(framing, 2.0);
+        Frame box(fit_camera, 2.0);
         box.include(Bounds{Vec3f(-1, -2, -3), Vec3f(1, 2, 3)});
         CHECK(box.width() == 4.0);
         CHECK(box.camera().from.z > 3.0F);

@@ -1,4 +1,4 @@
-#include "scenes/export/staging_in_json.hpp"
+#include "scenes/export/auto_camera_in_json.hpp"
 
 #include "core/scene/fields.hpp"
 
@@ -46,41 +46,42 @@ std::span<const core::Light> brought_lights(const core::Scene& scene) {
     return std::span(scene.lights()).subspan(scene.own_light_count());
 }
 
-/// Returns true if scenes/json/surroundings.cpp accepts the framing.
-bool is_read(const core::Framing& framing) {
-    const bool perspective = framing.projection == core::Projection::perspective;
-    const auto across =
-        core::cross(core::convert<double>(framing.up), core::convert<double>(framing.direction));
-    return framing.direction != core::Vec3f(0.0F) && across != core::Vec3d(0.0) &&
-           framing.zoom >= 0.01F && framing.zoom <= 1000.0F &&
-           (!perspective || (framing.field_of_view >= 0.01F && framing.field_of_view <= 179.0F));
+/// Returns true if scenes/json/surroundings.cpp accepts the fit_camera.
+bool is_read(const core::FitCamera& fit_camera) {
+    const bool perspective = fit_camera.projection == core::Projection::perspective;
+    const auto across = core::cross(core::convert<double>(fit_camera.up),
+                                    core::convert<double>(fit_camera.direction));
+    return fit_camera.direction != core::Vec3f(0.0F) && across != core::Vec3d(0.0) &&
+           fit_camera.zoom >= 0.01F && fit_camera.zoom <= 1000.0F &&
+           (!perspective ||
+            (fit_camera.field_of_view >= 0.01F && fit_camera.field_of_view <= 179.0F));
 }
 
 /// Returns nothing if the camera is to find its place by the shapes, and no shape has bounds.
-std::optional<core::View> found_by(const core::Scene& scene, const core::Staging& staging) {
-    core::Frame frame = core::empty_frame(scene, staging, scene.settings());
+std::optional<core::View> found_by(const core::Scene& scene, const core::AutoCamera& auto_camera) {
+    core::Frame frame = core::empty_frame(scene, auto_camera, scene.settings());
     core::include_shapes(scene, frame);
-    if (staging.framing && frame.empty()) return std::nullopt;
-    return core::staged(scene, staging, frame);
+    if (auto_camera.fit_camera && frame.empty()) return std::nullopt;
+    return core::staged(scene, auto_camera, frame);
 }
 
 } // namespace
 
-core::Staging staging_in_json(const core::Scene& scene) {
-    core::Staging said = scene.staging();
+core::AutoCamera auto_camera_in_json(const core::Scene& scene) {
+    core::AutoCamera said = scene.auto_camera();
     said.turning = false;
     std::optional<core::View> view;
-    if (said.framing && is_read(*said.framing)) {
+    if (said.fit_camera && is_read(*said.fit_camera)) {
         // The file omits the angle of an orthographic camera, so the reader has the default angle.
-        if (said.framing->projection == core::Projection::orthographic)
-            said.framing->field_of_view = core::Framing{}.field_of_view;
+        if (said.fit_camera->projection == core::Projection::orthographic)
+            said.fit_camera->field_of_view = core::FitCamera{}.field_of_view;
         view = found_by(scene, said);
     }
     if (!view || !is_same_in_files(view->camera, scene.camera())) {
-        said.framing.reset();
+        said.fit_camera.reset();
         if (said.lights) view = found_by(scene, said);
     }
-    const bool is_cue_read = said.framing && said.depth_cue <= 0.99F;
+    const bool is_cue_read = said.fit_camera && said.depth_cue <= 0.99F;
     if (!is_cue_read || !is_same_in_files(view->fog, scene.fog())) said.depth_cue = 0.0F;
     const auto same = [](const core::Light& a, const core::Light& b) {
         return is_same_in_files(a, b);
@@ -91,11 +92,11 @@ core::Staging staging_in_json(const core::Scene& scene) {
     return said;
 }
 
-Differences lost_staging(const core::Staging& staging, const core::Staging& said) {
+Differences lost_auto_camera(const core::AutoCamera& auto_camera, const core::AutoCamera& said) {
     Differences lost;
-    if (staging.framing && !said.framing) lost.insert("automatic camera");
-    if (staging.lights && !said.lights) lost.insert("automatic lights");
-    if (staging.depth_cue > 0.0F && !(said.depth_cue > 0.0F)) lost.insert("automatic fog");
+    if (auto_camera.fit_camera && !said.fit_camera) lost.insert("automatic camera");
+    if (auto_camera.lights && !said.lights) lost.insert("automatic lights");
+    if (auto_camera.depth_cue > 0.0F && !(said.depth_cue > 0.0F)) lost.insert("automatic fog");
     return lost;
 }
 

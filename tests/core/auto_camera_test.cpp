@@ -22,10 +22,10 @@ SceneBuilder some_balls() {
     return builder;
 }
 
-Scene staged_balls(const Staging& staging) {
+Scene staged_balls(const AutoCamera& auto_camera) {
     SceneBuilder builder = some_balls();
-    builder.staging = staging;
-    if (!staging.lights) builder.add_light({.position = {0, 50, 0}});
+    builder.auto_camera = auto_camera;
+    if (!auto_camera.lights) builder.add_light({.position = {0, 50, 0}});
     return std::move(builder).build();
 }
 
@@ -59,7 +59,7 @@ bool same(const Vec3f& a, const Vec3f& b) {
 } // namespace
 
 TEST_CASE("a camera that finds its place sees all bounded shapes and little more") {
-    const Scene scene = staged_balls({.framing = Framing{.direction = {-1, -1, -1}}});
+    const Scene scene = staged_balls({.fit_camera = FitCamera{.direction = {-1, -1, -1}}});
     CHECK(reach_of_balls(scene.camera()) < 1.0);
     CHECK(reach_of_balls(scene.camera()) > 0.9);
     CHECK(scene.lights().size() == 1);
@@ -69,7 +69,7 @@ TEST_CASE("a camera that finds its place sees all bounded shapes and little more
 TEST_CASE("a camera that has nothing to find its place by is refused") {
     SceneBuilder builder;
     builder.add(Plane{{0, 0, 0}, {0, 1, 0}}, builder.add_material({}));
-    builder.staging = {.framing = Framing{}, .lights = true};
+    builder.auto_camera = {.fit_camera = FitCamera{}, .lights = true};
     try {
         static_cast<void>(std::move(builder).build());
         FAIL("it was taken");
@@ -80,7 +80,8 @@ TEST_CASE("a camera that has nothing to find its place by is refused") {
 }
 
 TEST_CASE("a camera brings lights and a depth cue to a scene without lights") {
-    const Scene scene = staged_balls({.framing = Framing{}, .lights = true, .depth_cue = 0.5F});
+    const Scene scene =
+        staged_balls({.fit_camera = FitCamera{}, .lights = true, .depth_cue = 0.5F});
     CHECK(scene.own_light_count() == 0);
     REQUIRE(scene.lights().size() == 2);
     CHECK(scene.lights()[0].kind == LightKind::sky);
@@ -89,15 +90,15 @@ TEST_CASE("a camera brings lights and a depth cue to a scene without lights") {
     CHECK(scene.fog().start > 0.0F);
     CHECK(scene.fog().end > scene.fog().start);
     // A camera with a given place brings the same lights.
-    const Scene own = staged_balls({.framing = std::nullopt, .lights = true});
+    const Scene own = staged_balls({.fit_camera = std::nullopt, .lights = true});
     CHECK(own.lights().size() == 2);
     CHECK(same(own.camera().from, {0, 2, 20}));
 }
 
 TEST_CASE("an orbiting camera keeps its target and height and sees all balls") {
-    const Staging staging{
-        .framing = Framing{.direction = {-1, -1, -1}}, .lights = true, .turning = true};
-    const Scene scene = staged_balls(staging);
+    const AutoCamera auto_camera{
+        .fit_camera = FitCamera{.direction = {-1, -1, -1}}, .lights = true, .turning = true};
+    const Scene scene = staged_balls(auto_camera);
     const View view{scene.camera(), scene.fog(), scene.lights()};
     const Vec3f up = {0, 1, 0};
     for (const double degrees : {0.0, 37.0, 90.0, 180.0, 271.5, -45.0, 720.0}) {
@@ -120,7 +121,7 @@ TEST_CASE("solids of solids are framed as wholes and discs as discs") {
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
     const auto camera_of = [&](SceneBuilder from) {
-        from.staging = {.framing = Framing{}, .lights = true};
+        from.auto_camera = {.fit_camera = FitCamera{}, .lights = true};
         return std::move(from).build().camera();
     };
     // The intersection of a large ball with a small box is as small as the box.

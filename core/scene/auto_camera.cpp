@@ -1,4 +1,4 @@
-#include "core/scene/staging.hpp"
+#include "core/scene/auto_camera.hpp"
 
 #include "core/numbers/elementary.hpp"
 #include "core/numbers/primitives.hpp"
@@ -51,16 +51,16 @@ Vec3d center_of(const Scene& scene) {
 
 /// Returns the fog that did not come with the camera.
 Fog own_fog_of(const Scene& scene) {
-    return scene.staging().depth_cue > 0.0F ? Fog{} : scene.fog();
+    return scene.auto_camera().depth_cue > 0.0F ? Fog{} : scene.fog();
 }
 
 /// Returns fog in the background's colour, between the nearest and the farthest point.
-Fog depth_cue(const Scene& scene, const Staging& staging, const Frame& frame,
+Fog depth_cue(const Scene& scene, const AutoCamera& auto_camera, const Frame& frame,
               const Camera& camera) {
     const auto [near, far] = frame.depths(camera);
     // Flat contents have less depth to show.
     const double cue =
-        static_cast<double>(staging.depth_cue) * std::min(1.0, (far - near) / frame.width());
+        static_cast<double>(auto_camera.depth_cue) * std::min(1.0, (far - near) / frame.width());
     if (!(cue > 0.0 && far > near && far > 0.0)) return own_fog_of(scene);
     return {.kind = FogKind::linear,
             .color = scene.background(),
@@ -87,10 +87,10 @@ std::vector<Light> lights_of(const Frame& frame, const Camera& camera) {
 
 } // namespace
 
-Frame empty_frame(const Scene& scene, const Staging& staging, const Settings& settings) {
-    Frame frame(staging.framing ? *staging.framing : framing_of(scene.camera()),
+Frame empty_frame(const Scene& scene, const AutoCamera& auto_camera, const Settings& settings) {
+    Frame frame(auto_camera.fit_camera ? *auto_camera.fit_camera : fit_camera_of(scene.camera()),
                 static_cast<double>(settings.width) / settings.height);
-    if (staging.turning && staging.framing) frame.turn_about(center_of(scene));
+    if (auto_camera.turning && auto_camera.fit_camera) frame.turn_about(center_of(scene));
     return frame;
 }
 
@@ -114,23 +114,23 @@ void include_shapes(const Scene& scene, Frame& frame) {
     });
 }
 
-View staged(const Scene& scene, const Staging& staging, const Frame& frame) {
+View staged(const Scene& scene, const AutoCamera& auto_camera, const Frame& frame) {
     View view{.camera = scene.camera(), .fog = own_fog_of(scene), .lights = {}};
-    if (staging.framing) {
+    if (auto_camera.fit_camera) {
         if (frame.empty())
             throw InvalidValue("camera", "must have a bounded shape to frame, got none");
         view.camera = frame.camera();
     }
-    if (staging.depth_cue > 0.0F && !frame.empty())
-        view.fog = depth_cue(scene, staging, frame, view.camera);
-    if (staging.lights) view.lights = lights_of(frame, view.camera);
+    if (auto_camera.depth_cue > 0.0F && !frame.empty())
+        view.fog = depth_cue(scene, auto_camera, frame, view.camera);
+    if (auto_camera.lights) view.lights = lights_of(frame, view.camera);
     return view;
 }
 
-View staged(const Scene& scene, const Staging& staging, const Settings& settings) {
-    Frame frame = empty_frame(scene, staging, settings);
+View staged(const Scene& scene, const AutoCamera& auto_camera, const Settings& settings) {
+    Frame frame = empty_frame(scene, auto_camera, settings);
     include_shapes(scene, frame);
-    return staged(scene, staging, frame);
+    return staged(scene, auto_camera, frame);
 }
 
 View turned(const View& view, const Vec3f& up, double degrees) {

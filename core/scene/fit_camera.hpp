@@ -10,7 +10,7 @@
 namespace raylane::core {
 
 /// How a camera looks at contents from which it computes its position and scale.
-struct Framing {
+struct FitCamera {
     Projection projection = Projection::perspective;
     /// From the camera to the contents, any length but zero.
     Vec3f direction{0.0F, 0.0F, -1.0F};
@@ -29,17 +29,17 @@ std::span<const NamedView> named_views();
 /// Returns the usual up direction for a camera that looks in this direction.
 Vec3f upright(const Vec3f& direction);
 
-/// Returns the framing of a camera that has a position.
-Framing framing_of(const Camera& camera);
+/// Returns the fit_camera of a camera that has a position.
+FitCamera fit_camera_of(const Camera& camera);
 
 /// Collects the extent of the contents that a camera must see, and computes that camera.
 class Frame {
   public:
     /// `aspect`: the image's width divided by its height.
-    Frame(const Framing& framing, double aspect);
+    Frame(const FitCamera& fit_camera, double aspect);
 
     /// Makes the contents that are included from now on visible from all around. They turn about
-    /// the line through `center` in the framing's up direction.
+    /// the line through `center` in the fit_camera's up direction.
     void turn_about(const Vec3d& center) { center_ = center; }
 
     void include(const Vec3d& center, double radius);
@@ -72,9 +72,9 @@ class Frame {
     /// Includes balls with centres on a circle of radius `ring` about an axis of length 1.
     void include_ring(const Vec3d& center, const Vec3d& axis, double ring, double radius);
 
-    Framing framing_;
+    FitCamera fit_camera_;
     Vec3d right_, up_, back_;
-    Vec3d axis_;                           // the framing's up, of length 1
+    Vec3d axis_;                           // the fit_camera's up, of length 1
     std::optional<Vec3d> center_;          // the contents turn about it
     double sine_[2] = {}, cosine_[2] = {}; // of half the angles of view, across and upward
     double aspect_;

@@ -1,4 +1,4 @@
-#include "core/scene/staging.hpp"
+#include "core/scene/auto_camera.hpp"
 #include "scenes/export/export.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
@@ -40,22 +40,22 @@ std::vector<float> view_of(const core::Scene& scene) {
 
 /// Returns the scene as the tool's --view shows it.
 core::Scene seen_from(core::Scene scene, const core::Vec3f& direction) {
-    core::Staging staging = scene.staging();
-    if (!staging.framing) staging.framing = core::framing_of(scene.camera());
-    staging.framing->direction = direction;
-    staging.framing->up = core::upright(direction);
-    const core::View view = core::staged(scene, staging, scene.settings());
-    return std::move(scene).seen(staging, view);
+    core::AutoCamera auto_camera = scene.auto_camera();
+    if (!auto_camera.fit_camera) auto_camera.fit_camera = core::fit_camera_of(scene.camera());
+    auto_camera.fit_camera->direction = direction;
+    auto_camera.fit_camera->up = core::upright(direction);
+    const core::View view = core::staged(scene, auto_camera, scene.settings());
+    return std::move(scene).seen(auto_camera, view);
 }
 
 /// Returns the scene as seen by a camera with a fixed position.
 core::Scene seen_by(core::Scene scene, const core::Camera& camera) {
-    core::Staging staging = scene.staging();
-    staging.framing.reset();
+    core::AutoCamera auto_camera = scene.auto_camera();
+    auto_camera.fit_camera.reset();
     const core::Fog fog = scene.fog();
-    scene = std::move(scene).seen(staging, {camera, fog, {}});
-    const core::View view = core::staged(scene, staging, scene.settings());
-    return std::move(scene).seen(staging, view);
+    scene = std::move(scene).seen(auto_camera, {camera, fog, {}});
+    const core::View view = core::staged(scene, auto_camera, scene.settings());
+    return std::move(scene).seen(auto_camera, view);
 }
 
 const core::Vec3f directions[] = {{0, 0, -1}, {-0.0F, -1, 0}, {-3, 1, 2}, {0.1F, 0.2F, 0.3F}};
@@ -78,7 +78,7 @@ core::Scene water() {
 
 } // namespace
 
-TEST_CASE("JSON keeps to the bit the camera's framing and the lights and fog that follow it") {
+TEST_CASE("JSON keeps to the bit the camera's fit_camera and the lights and fog that follow it") {
     const std::string camera_lights = R"("lights": [{"type": "camera"}], )";
     const std::string both = R"("lights": [{"type": "point", "position": [9, 9, 9]},
                                            {"type": "camera"}], )";
@@ -112,9 +112,10 @@ TEST_CASE("JSON keeps to the bit the camera's framing and the lights and fog tha
         const core::Scene again = written(scenes[i]);
         CHECK(view_of(again) == view_of(scenes[i]));
         CHECK(again.own_light_count() == scenes[i].own_light_count());
-        CHECK(again.staging().framing.has_value() == scenes[i].staging().framing.has_value());
-        CHECK(again.staging().lights == scenes[i].staging().lights);
-        CHECK(again.staging().depth_cue == scenes[i].staging().depth_cue);
+        CHECK(again.auto_camera().fit_camera.has_value() ==
+              scenes[i].auto_camera().fit_camera.has_value());
+        CHECK(again.auto_camera().lights == scenes[i].auto_camera().lights);
+        CHECK(again.auto_camera().depth_cue == scenes[i].auto_camera().depth_cue);
         CHECK(picture_of(again) == picture_of(scenes[i]));
         CHECK(view_of(seen_by(again, aside)) == view_of(seen_by(scenes[i], aside)));
         for (const core::Vec3f& direction : directions) {
@@ -142,7 +143,7 @@ TEST_CASE("JSON export reports lost camera features and keeps the image") {
     const std::string place = "automatic camera", fog = "automatic fog",
                       lights = "automatic lights";
     const core::Scene again = check(seen_by(scene, aside), {fog});
-    CHECK(again.staging().lights);
+    CHECK(again.auto_camera().lights);
     const core::Camera another{.from = {-6, 3, 8}, .at = {1, 0, 0}};
     const auto lights_of = [](const core::Scene& of) {
         return std::pair(of.lights()[1].position.x, of.lights()[1].radius);
@@ -151,11 +152,11 @@ TEST_CASE("JSON export reports lost camera features and keeps the image") {
 
     const core::View own{scene.camera(), scene.fog(), scene.lights()};
     const core::View turned = core::turned(own, {0, 1, 0}, 30.0);
-    check(core::Scene(scene).seen(scene.staging(), turned), {place, fog, lights});
+    check(core::Scene(scene).seen(scene.auto_camera(), turned), {place, fog, lights});
 
-    core::Staging near = scene.staging();
+    core::AutoCamera near = scene.auto_camera();
     near.lights = false;
     near.depth_cue = 0.0F;
-    near.framing->zoom = 2000.0F;
+    near.fit_camera->zoom = 2000.0F;
     check(core::Scene(scene).seen(near, core::staged(scene, near, scene.settings())), {place});
 }

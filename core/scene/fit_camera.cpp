@@ -1,4 +1,4 @@
-#include "core/scene/framing.hpp"
+#include "core/scene/fit_camera.hpp"
 
 #include "core/scene/field_of_view.hpp"
 
@@ -36,26 +36,27 @@ Vec3f upright(const Vec3f& direction) {
     return is_steep ? Vec3f(0, 0, -1) : Vec3f(0, 1, 0);
 }
 
-Framing framing_of(const Camera& camera) {
+FitCamera fit_camera_of(const Camera& camera) {
     return {.projection = camera.projection,
             .direction = convert<float>(convert<double>(camera.at) - convert<double>(camera.from)),
             .up = camera.up,
             .field_of_view = camera.field_of_view};
 }
 
-Frame::Frame(const Framing& framing, double aspect) : framing_(framing), aspect_(aspect) {
-    const Vec3d direction = convert<double>(framing.direction);
+Frame::Frame(const FitCamera& fit_camera, double aspect)
+    : fit_camera_(fit_camera), aspect_(aspect) {
+    const Vec3d direction = convert<double>(fit_camera.direction);
     back_ = -1.0 / length(direction) * direction;
-    const Vec3d across = cross(convert<double>(framing.up), back_);
+    const Vec3d across = cross(convert<double>(fit_camera.up), back_);
     right_ = 1.0 / length(across) * across;
     up_ = cross(back_, right_);
-    axis_ = convert<double>(framing.up);
+    axis_ = convert<double>(fit_camera.up);
     axis_ = 1.0 / length(axis_) * axis_;
-    if (framing.projection == Projection::orthographic) {
+    if (fit_camera.projection == Projection::orthographic) {
         cosine_[0] = cosine_[1] = 1.0;
         return;
     }
-    const double upward = slope_of_view(framing.field_of_view) / margin;
+    const double upward = slope_of_view(fit_camera.field_of_view) / margin;
     const double slopes[2] = {upward * aspect, upward};
     for (int axis = 0; axis < 2; ++axis) {
         cosine_[axis] = 1.0 / std::sqrt(1.0 + slopes[axis] * slopes[axis]);
@@ -109,15 +110,15 @@ void Frame::include(const Bounds& bounds) {
 }
 
 Camera Frame::camera() const {
-    Camera camera{.projection = framing_.projection,
+    Camera camera{.projection = fit_camera_.projection,
                   .up = convert<float>(up_),
-                  .field_of_view = framing_.field_of_view};
+                  .field_of_view = fit_camera_.field_of_view};
     if (empty_) {
         camera.from = convert<float>(5.0 * back_);
         return camera;
     }
     // The planes at both sides of the image touch its contents. The eye is on both planes.
-    const auto zoom = static_cast<double>(framing_.zoom);
+    const auto zoom = static_cast<double>(fit_camera_.zoom);
     double places[2], depth = along_.positive;
     const double thickness = along_.positive + along_.negative;
     double away = std::abs(along_.positive);
@@ -128,7 +129,7 @@ Camera Frame::camera() const {
     // A point has no size, and floats must distinguish the eye from its target.
     const double least = away > 0.0 ? 0x1p-16 * away : 1.0;
     const double size = std::max({thickness, width(), least});
-    if (framing_.projection == Projection::orthographic) {
+    if (fit_camera_.projection == Projection::orthographic) {
         double height = 0.0;
         for (int axis = 0; axis < 2; ++axis) {
             const double extent = reach_[axis].positive + reach_[axis].negative;
@@ -143,7 +144,7 @@ Camera Frame::camera() const {
                 std::max(eye, 0.5 * (reach_[axis].positive + reach_[axis].negative) / sine_[axis]);
         // Flat contents seen edge-on must still be in front of the eye.
         depth = std::max(eye, depth + closest * size);
-        camera.field_of_view = field_of_view(slope_of_view(framing_.field_of_view) / zoom);
+        camera.field_of_view = field_of_view(slope_of_view(fit_camera_.field_of_view) / zoom);
     }
     const Vec3d in_plane = places[0] * right_ + places[1] * up_;
     const double middle = 0.5 * (along_.positive - along_.negative);
