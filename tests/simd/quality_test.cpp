@@ -19,7 +19,7 @@ using raylane::tests::shown;
 namespace {
 
 /// Returns balls and sticks on a checkered floor, some of them mirrors, some of glass.
-Scene workshop(std::pair<int, int> size = {96, 64}) {
+Scene fixture(std::pair<int, int> size = {96, 64}) {
     Builder builder;
     builder.settings.width = size.first;
     builder.settings.height = size.second;
@@ -79,7 +79,7 @@ double psnr(const Film& a, const Film& b) {
 
 TEST_CASE("an image has the requested quality", "[long]") {
     // In smaller images, the survey has too few pixels.
-    const Scene scene = workshop({288, 192});
+    const Scene scene = fixture({288, 192});
     const Film truth = converged(scene, 20);
     std::uint64_t last = 0;
     for (const float quality : {30.0F, 36.0F, 42.0F}) {
@@ -152,7 +152,7 @@ TEST_CASE("an image with details everywhere is sampled without middles of pixels
 
 TEST_CASE("an image of a quality does not depend on threads or tiles or instruction sets",
           "[long]") {
-    const Scene scene = workshop();
+    const Scene scene = fixture();
     simd::RenderOptions options;
     options.threads = 1;
     const simd::Rendering expected = rendered(scene, 38.0F, options);
@@ -171,7 +171,7 @@ TEST_CASE("an image of a quality does not depend on threads or tiles or instruct
 }
 
 TEST_CASE("the reference renders a quality like the vector engine", "[long]") {
-    const Scene scene = workshop();
+    const Scene scene = fixture();
     const simd::Rendering reference = rendered(scene, 32.0F, {.engine = simd::Engine::reference});
     const simd::Rendering vector = rendered(scene, 32.0F);
     CHECK(psnr(reference.film, vector.film) > 60.0);

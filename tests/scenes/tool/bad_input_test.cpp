@@ -3,7 +3,7 @@
 #include "tests/sanitized.hpp"
 #include "tests/scenes/json_scenes.hpp"
 #include "tests/scenes/nff_scenes.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <fstream>
 #include <unistd.h>
@@ -21,28 +21,28 @@ struct Row {
 };
 
 /// Checks that both commands that read scenes report the message in one line and write no file.
-void check(const Workshop& workshop, const std::string& file, const std::string& message) {
+void check(const ToolFixture& fixture, const std::string& file, const std::string& message) {
     const std::string line = "raylane: " + file + ": " + message + "\n";
     for (const auto& arguments :
          {std::vector<std::string>{"render", file, "-o", "out/p.png", "--stats", "out/stats.json"},
           {"info", file},
           {"info", file, "--json"}}) {
-        const Outcome outcome = workshop.run(arguments);
+        const Outcome outcome = fixture.run(arguments);
         CHECK(outcome.code == 2);
         CHECK(outcome.exited);
         CHECK(outcome.out.empty());
         CHECK(in_words(outcome.err) == line);
         CHECK(is_one_line(outcome.err));
     }
-    CHECK(workshop.is_output_empty());
+    CHECK(fixture.is_output_empty());
 }
 
 void check(const std::vector<Row>& rows) {
     for (const Row& row : rows) {
         INFO(row.name);
-        const Workshop workshop;
-        workshop.write(row.file, row.content);
-        check(workshop, row.file, row.message);
+        const ToolFixture fixture;
+        fixture.write(row.file, row.content);
+        check(fixture, row.file, row.message);
     }
 }
 
@@ -68,12 +68,12 @@ Row in_nff(const std::string& name, const std::string& lines, const std::string&
 } // namespace
 
 TEST_CASE("a path without a scene file gives an error of one line") {
-    const Workshop workshop;
-    check(workshop, "none.json", "no such file");
-    check(workshop, "none/a.nff", "no such file");
-    check(workshop, "scene.json/a.json", "no such file");
-    check(workshop, "out", "must be a file, got a directory");
-    check(workshop, ".", "must be a file, got a directory");
+    const ToolFixture fixture;
+    check(fixture, "none.json", "no such file");
+    check(fixture, "none/a.nff", "no such file");
+    check(fixture, "scene.json/a.json", "no such file");
+    check(fixture, "out", "must be a file, got a directory");
+    check(fixture, ".", "must be a file, got a directory");
     check({
         {"an empty JSON file", "a.json", "", "must be a scene or atoms, got an empty file"},
         {"an empty NFF file", "a.nff", "", "must be a scene or atoms, got an empty file"},
@@ -96,8 +96,8 @@ TEST_CASE("a path without a scene file gives an error of one line") {
          R"(line 1: must be one of v, b, l, f, s, c, p and pp, got "\x89PNG")"},
     });
     // Control characters in a file's name do not add a line.
-    workshop.write("a\n\x1B[31m.json", "[]");
-    const Outcome outcome = workshop.run({"info", "a\n\x1B[31m.json"});
+    fixture.write("a\n\x1B[31m.json", "[]");
+    const Outcome outcome = fixture.run({"info", "a\n\x1B[31m.json"});
     CHECK(outcome.code == 2);
     CHECK(outcome.err == "raylane: a\\x0A\\x1B[31m.json:1:1: must be an object, got an array\n");
 }
@@ -133,9 +133,9 @@ TEST_CASE("invalid JSON and JSON that is not a scene give an error of one line")
 }
 
 TEST_CASE("several mistakes in JSON give a line each") {
-    const Workshop workshop;
-    workshop.write("a.json", "{\"fog\": 3,\n \"camera\": 4}");
-    const Outcome outcome = workshop.run({"info", "a.json"});
+    const ToolFixture fixture;
+    fixture.write("a.json", "{\"fog\": 3,\n \"camera\": 4}");
+    const Outcome outcome = fixture.run({"info", "a.json"});
     CHECK(outcome.code == 2);
     CHECK(outcome.err == "raylane: a.json:1:1: must have the key \"objects\"\n"
                          "raylane: a.json:1:9: /fog: must be an object, got 3\n"
@@ -242,9 +242,9 @@ TEST_CASE("a mistake in an NFF file gives an error of one line") {
 }
 
 TEST_CASE("an NFF scene from a pipe is read once") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::string scene = view_and_light + "s 0 0 0 1\ns 4 3 19 1\n";
-    workshop.write("a.nff", scene);
+    fixture.write("a.nff", scene);
     Setup from_pipe;
     from_pipe.in_child = [&] {
         int ends[2];
@@ -252,7 +252,7 @@ TEST_CASE("an NFF scene from a pipe is read once") {
         static_cast<void>(::write(ends[1], scene.data(), scene.size()) < 0);
         ::close(ends[1]);
     };
-    const Outcome outcome = workshop.run({"info", "/dev/stdin"}, from_pipe);
+    const Outcome outcome = fixture.run({"info", "/dev/stdin"}, from_pipe);
     CHECK(outcome.code == 0);
     CHECK(outcome.err.find("/dev/stdin:8: l: a light on a surface is moved off it") !=
           std::string::npos);
@@ -279,8 +279,8 @@ TEST_CASE("a line of 200 MB gives an error in seconds and takes little memory") 
     };
     for (const Long& row : rows) {
         if (sanitized && row.file == "a.json" && row.filling == ' ') continue; // takes a minute
-        const Workshop workshop;
-        const std::filesystem::path path = workshop.write(row.file, row.start);
+        const ToolFixture fixture;
+        const std::filesystem::path path = fixture.write(row.file, row.start);
         if (row.filling != '\0') { // a file of zeros takes no disk space
             std::ofstream stream(path, std::ios::binary | std::ios::app);
             const std::string piece(1 << 20, row.filling);
@@ -288,22 +288,22 @@ TEST_CASE("a line of 200 MB gives an error in seconds and takes little memory") 
                 stream << piece;
         }
         std::filesystem::resize_file(path, size);
-        const Outcome outcome = workshop.run({"render", row.file, "-o", "out/picture.png"});
+        const Outcome outcome = fixture.run({"render", row.file, "-o", "out/picture.png"});
         CHECK(outcome.code == 2);
         CHECK(in_words(outcome.err) == "raylane: " + row.file + ": " + row.message + "\n");
         if (!sanitized) CHECK(outcome.peak_memory < 64);
-        CHECK(workshop.is_output_empty());
+        CHECK(fixture.is_output_empty());
     }
 }
 
 TEST_CASE("a scene without objects renders the background") {
-    const Workshop workshop(R"({"image": {"width": 3, "height": 2, "transfer": "linear"},
+    const ToolFixture fixture(R"({"image": {"width": 3, "height": 2, "transfer": "linear"},
         "camera": {"from": [0, 0, 9], "at": [0, 0, 0]}, "background": [0.25, 0.5, 1], "objects": []})");
-    const Outcome outcome = workshop.render("out/picture.pfm");
+    const Outcome outcome = fixture.render("out/picture.pfm");
     CHECK(outcome.code == 0);
     CHECK(outcome.err.find("has no objects: the image shows only the background") !=
           std::string::npos);
-    const scenes::Image picture = scenes::read_image(workshop.output() / "picture.pfm");
+    const scenes::Image picture = scenes::read_image(fixture.output() / "picture.pfm");
     REQUIRE(picture.width == 3);
     REQUIRE(picture.height == 2);
     for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {

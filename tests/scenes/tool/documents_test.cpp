@@ -1,6 +1,6 @@
 #include "tests/catch.hpp"
 #include "tests/places.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <regex>
 #include <set>
@@ -10,8 +10,8 @@ using namespace raylane::tests;
 
 namespace {
 
-std::string said(const Workshop& workshop, const std::vector<std::string>& arguments) {
-    const Outcome outcome = workshop.run(arguments);
+std::string said(const ToolFixture& fixture, const std::vector<std::string>& arguments) {
+    const Outcome outcome = fixture.run(arguments);
     CAPTURE(arguments, outcome.err);
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
@@ -28,13 +28,13 @@ std::set<std::string> all_of(const std::string& text, const std::string& pattern
     return found;
 }
 
-std::set<std::string> commands_in_help(const Workshop& workshop) {
-    const std::string help = said(workshop, {"--help"});
+std::set<std::string> commands_in_help(const ToolFixture& fixture) {
+    const std::string help = said(fixture, {"--help"});
     return all_of(help.substr(help.find("Subcommands:")), "\n  ([a-z]+) ");
 }
 
-std::set<std::string> options_in_help(const Workshop& workshop, const std::string& command) {
-    return all_of(said(workshop, {command, "--help"}), "\n  (?:-[a-z],)?--([a-z-]+)");
+std::set<std::string> options_in_help(const ToolFixture& fixture, const std::string& command) {
+    return all_of(said(fixture, {command, "--help"}), "\n  (?:-[a-z],)?--([a-z-]+)");
 }
 
 bool holds(const std::string& text, const std::string& part) {
@@ -44,14 +44,14 @@ bool holds(const std::string& text, const std::string& part) {
 } // namespace
 
 TEST_CASE("manual pages and completions have every command and option of the help") {
-    const Workshop workshop;
-    const std::set<std::string> commands = commands_in_help(workshop);
+    const ToolFixture fixture;
+    const std::set<std::string> commands = commands_in_help(fixture);
     CHECK(commands.size() >= 6);
-    const std::string bash = said(workshop, {"completion", "bash"}),
-                      whole = said(workshop, {"manual"});
+    const std::string bash = said(fixture, {"completion", "bash"}),
+                      whole = said(fixture, {"manual"});
     for (const std::string& command : commands) {
         CAPTURE(command);
-        const std::string page = said(workshop, {"manual", command});
+        const std::string page = said(fixture, {"manual", command});
         CHECK(page.starts_with(".TH RAYLANE\\-"));
         CHECK(holds(whole, "raylane\\-" + command + " (1)"));
         if (command == "tachyon") { // has the options of another program
@@ -59,7 +59,7 @@ TEST_CASE("manual pages and completions have every command and option of the hel
             continue;
         }
         CHECK(holds(bash, "        " + command + ":-*) words=\"-h --help"));
-        for (const std::string& option : options_in_help(workshop, command)) {
+        for (const std::string& option : options_in_help(fixture, command)) {
             CAPTURE(option);
             CHECK(holds(bash, "--" + option));
             CHECK(holds(page, "\\-\\-" + std::regex_replace(option, std::regex("-"), "\\-")));
@@ -70,9 +70,9 @@ TEST_CASE("manual pages and completions have every command and option of the hel
 }
 
 TEST_CASE("help has the ranges and defaults of options") {
-    const Workshop workshop;
-    const std::string render = said(workshop, {"render", "--help"}),
-                      merge = said(workshop, {"merge", "--help"});
+    const ToolFixture fixture;
+    const std::string render = said(fixture, {"render", "--help"}),
+                      merge = said(fixture, {"merge", "--help"});
     for (const char* part :
          {"--size WxH                  Image width and height in pixels. Default for atoms: "
           "1200x900; for scenes: as the file says.\n",
@@ -81,30 +81,30 @@ TEST_CASE("help has the ranges and defaults of options") {
           "slow. Default: vector.\n", "--bits 8|16|32 ", "Default: 8 (PNG), 16 (EXR).\n"})
         CHECK(holds(render, part));
     CHECK(holds(merge, "Default: 8 (PNG), 32 (EXR), same as the parts.\n"));
-    CHECK(holds(said(workshop, {"compare", "--help"}), "Range: 0 or more. Default: 0.\n"));
+    CHECK(holds(said(fixture, {"compare", "--help"}), "Range: 0 or more. Default: 0.\n"));
 }
 
 TEST_CASE("help prints each page that it lists and the help of commands") {
-    const Workshop workshop;
-    const std::string list = said(workshop, {"help"});
+    const ToolFixture fixture;
+    const std::string list = said(fixture, {"help"});
     const std::set<std::string> topics = all_of(list, "\n  ([a-z]+) ");
     CHECK(topics.size() == 9);
     for (const std::string& topic : topics) {
         CAPTURE(topic);
-        CHECK(said(workshop, {"help", topic}).starts_with("# "));
+        CHECK(said(fixture, {"help", topic}).starts_with("# "));
     }
-    CHECK(said(workshop, {"help", "raylane"}) == content_of(RAYLANE_SOURCE_DIR "/README.md"));
-    CHECK(said(workshop, {"help", "render"}) == said(workshop, {"render", "--help"}));
-    const Outcome unknown = workshop.run({"help", "scene"});
+    CHECK(said(fixture, {"help", "raylane"}) == content_of(RAYLANE_SOURCE_DIR "/README.md"));
+    CHECK(said(fixture, {"help", "render"}) == said(fixture, {"render", "--help"}));
+    const Outcome unknown = fixture.run({"help", "scene"});
     CHECK(unknown.code == 2);
     CHECK(holds(unknown.err, "did you mean \"scenes\"?"));
 }
 
 TEST_CASE("a manual page has no unintended requests or escapes") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::set<std::string> requests = {"TH", "SH", "SS", "TP", "BR", "EX", "EE"};
-    for (const std::string& command : commands_in_help(workshop)) {
-        const std::string page = said(workshop, {"manual", command});
+    for (const std::string& command : commands_in_help(fixture)) {
+        const std::string page = said(fixture, {"manual", command});
         for (const std::string& request : all_of(page, "(?:^|\n)[.']([^ \n]*)"))
             CHECK(requests.contains(request));
         for (const std::string& escape : all_of(page, "\\\\(.)"))
@@ -113,23 +113,23 @@ TEST_CASE("a manual page has no unintended requests or escapes") {
 }
 
 TEST_CASE("manual writes the pages of all commands into a folder") {
-    const Workshop workshop;
-    CHECK(said(workshop, {"manual", "--all", "out"}).empty());
-    for (const std::string& command : commands_in_help(workshop))
-        CHECK(std::filesystem::exists(workshop.output() / ("raylane-" + command + ".1")));
-    CHECK(std::filesystem::exists(workshop.output() / "raylane.1"));
-    CHECK(workshop.run({"manual", "render", "--all", "out"}).err ==
+    const ToolFixture fixture;
+    CHECK(said(fixture, {"manual", "--all", "out"}).empty());
+    for (const std::string& command : commands_in_help(fixture))
+        CHECK(std::filesystem::exists(fixture.output() / ("raylane-" + command + ".1")));
+    CHECK(std::filesystem::exists(fixture.output() / "raylane.1"));
+    CHECK(fixture.run({"manual", "render", "--all", "out"}).err ==
           "raylane: --all: goes without COMMAND\n");
 }
 
 TEST_CASE("a manual page or a completion that does not exist gives an error of one line") {
-    const Workshop workshop;
-    const Outcome page = workshop.run({"manual", "rendr"});
+    const ToolFixture fixture;
+    const Outcome page = fixture.run({"manual", "rendr"});
     CHECK(page.code == 2);
     CHECK(is_one_line(page.err));
     CHECK(page.err.starts_with("raylane: COMMAND: must be render, info, "));
     CHECK(holds(page.err, "did you mean"));
-    const Outcome shell = workshop.run({"completion", "csh"});
+    const Outcome shell = fixture.run({"completion", "csh"});
     CHECK(shell.code == 2);
     CHECK(shell.err.starts_with("raylane: SHELL: must be bash, got "));
 }

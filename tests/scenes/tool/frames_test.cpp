@@ -1,5 +1,5 @@
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -31,12 +31,12 @@ const std::string growing = R"({
     "objects": [{"type": "sphere", "material": "red", "center": ["$x", 0, 0], "radius": "$r"}]
 })";
 
-std::string picture(const Workshop& workshop, const std::string& name) {
-    return content_of(workshop.path() / name);
+std::string picture(const ToolFixture& fixture, const std::string& name) {
+    return content_of(fixture.path() / name);
 }
 
-std::string complaint(const Workshop& workshop, const Options& options) {
-    const Outcome outcome = workshop.run(joined({"render"}, options));
+std::string complaint(const ToolFixture& fixture, const Options& options) {
+    const Outcome outcome = fixture.run(joined({"render"}, options));
     CHECK(outcome.code == 2);
     CHECK(is_one_line(outcome.err));
     return outcome.err;
@@ -47,17 +47,17 @@ const Options small = {"--size", "16x12", "--spp", "1"};
 } // namespace
 
 TEST_CASE("the frames of a range are drawn with their numbers") {
-    const Workshop workshop;
-    workshop.write("move.xyz", trajectory(7));
+    const ToolFixture fixture;
+    fixture.write("move.xyz", trajectory(7));
     const auto drawn = [&](const std::string& frames) {
-        std::filesystem::remove_all(workshop.output());
-        std::filesystem::create_directory(workshop.output());
-        const Outcome outcome = workshop.run(
+        std::filesystem::remove_all(fixture.output());
+        std::filesystem::create_directory(fixture.output());
+        const Outcome outcome = fixture.run(
             joined({"render", "move.xyz", "-o", "out/f%02d.pfm", "--frames", frames}, small));
         CHECK(outcome.code == 0);
         CHECK(outcome.err.empty());
         std::vector<std::string> names;
-        for (const auto& entry : std::filesystem::directory_iterator(workshop.output()))
+        for (const auto& entry : std::filesystem::directory_iterator(fixture.output()))
             names.push_back(entry.path().stem().string());
         std::sort(names.begin(), names.end());
         return names;
@@ -71,24 +71,23 @@ TEST_CASE("the frames of a range are drawn with their numbers") {
     CHECK(drawn("3") == Options{"f03"});
     // With a camera for each frame, a frame has the bits of its separate image.
     const Options each = joined(small, {"--camera-from", "each"});
-    CHECK(workshop.run(joined({"render", "move.xyz", "-o", "out/e%d.pfm", "--frames", "2:4"}, each))
+    CHECK(fixture.run(joined({"render", "move.xyz", "-o", "out/e%d.pfm", "--frames", "2:4"}, each))
               .code == 0);
-    CHECK(
-        workshop.run(joined({"render", "move.xyz", "-o", "out/alone.pfm", "--frames", "-4"}, each))
-            .code == 0);
-    CHECK(picture(workshop, "out/e3.pfm") == picture(workshop, "out/alone.pfm"));
+    CHECK(fixture.run(joined({"render", "move.xyz", "-o", "out/alone.pfm", "--frames", "-4"}, each))
+              .code == 0);
+    CHECK(picture(fixture, "out/e3.pfm") == picture(fixture, "out/alone.pfm"));
 }
 
 TEST_CASE("a camera fits the first frame or all frames or each frame") {
-    const Workshop workshop;
-    workshop.write("move.xyz", trajectory(3));
+    const ToolFixture fixture;
+    fixture.write("move.xyz", trajectory(3));
     const auto draw = [&](const std::string& fit) {
-        CHECK(workshop
+        CHECK(fixture
                   .run(joined({"render", "move.xyz", "-o", fit + "%d.pfm", "--frames", ":",
                                "--camera-from", fit},
                               small))
                   .code == 0);
-        return Options{picture(workshop, fit + "0.pfm"), picture(workshop, fit + "2.pfm")};
+        return Options{picture(fixture, fit + "0.pfm"), picture(fixture, fit + "2.pfm")};
     };
     const Options first = draw("first"), all = draw("all"), each = draw("each");
     CHECK(first[0] == each[0]);
@@ -98,155 +97,155 @@ TEST_CASE("a camera fits the first frame or all frames or each frame") {
 }
 
 TEST_CASE("parameters can be swept alone and together") {
-    const Workshop workshop(growing);
+    const ToolFixture fixture(growing);
     const auto render = [&](const std::string& name, const Options& options) {
-        const Outcome outcome = workshop.render(name, options);
+        const Outcome outcome = fixture.render(name, options);
         CHECK(outcome.err.empty());
         CHECK(outcome.code == 0);
     };
     render("s%d.pfm", {"--set", "r=1:2:3", "--set", "x=0:0.5:3", "--camera-from", "each"});
-    CHECK(!std::filesystem::exists(workshop.path() / "s3.pfm"));
+    CHECK(!std::filesystem::exists(fixture.path() / "s3.pfm"));
     render("one.pfm", {"--set", "r=1.5", "--set", "x=0.25"});
-    CHECK(picture(workshop, "s1.pfm") == picture(workshop, "one.pfm"));
+    CHECK(picture(fixture, "s1.pfm") == picture(fixture, "one.pfm"));
     render("last.pfm", {"--set=r=2", "--set=x=0.5"});
-    CHECK(picture(workshop, "s2.pfm") == picture(workshop, "last.pfm"));
+    CHECK(picture(fixture, "s2.pfm") == picture(fixture, "last.pfm"));
     // The camera of the first image shows that the ball grows.
     render("g%d.pfm", {"--set", "r=1:2:2"});
-    CHECK(picture(workshop, "g0.pfm") != picture(workshop, "g1.pfm"));
+    CHECK(picture(fixture, "g0.pfm") != picture(fixture, "g1.pfm"));
     // Other commands accept --set, too.
-    const Outcome converted = workshop.run({"convert", "scene.json", "-", "--set", "r=3"});
+    const Outcome converted = fixture.run({"convert", "scene.json", "-", "--set", "r=3"});
     CHECK(nlohmann::json::parse(converted.out)["objects"][0]["radius"] == 3);
 }
 
 TEST_CASE("a sweep of one value makes a numbered image") {
-    const Workshop workshop(growing);
+    const ToolFixture fixture(growing);
     for (const Options& sweep : {Options{"--set", "r=2:3:1"}, {"--set", "r=2", "--turn", "9/1"}}) {
-        std::filesystem::remove(workshop.path() / "f0.png");
-        CHECK(workshop.render("f%d.png", sweep).code == 0);
-        CHECK(!std::filesystem::exists(workshop.path() / "f%d.png"));
-        CHECK(picture(workshop, "f0.png").size() > 0);
-        const Outcome verified = workshop.run({"verify", "f0.png", "scene.json", "--quiet"});
+        std::filesystem::remove(fixture.path() / "f0.png");
+        CHECK(fixture.render("f%d.png", sweep).code == 0);
+        CHECK(!std::filesystem::exists(fixture.path() / "f%d.png"));
+        CHECK(picture(fixture, "f0.png").size() > 0);
+        const Outcome verified = fixture.run({"verify", "f0.png", "scene.json", "--quiet"});
         CHECK(verified.err.empty());
         CHECK(verified.code == 0);
     }
-    CHECK(workshop.render("s%d.pfm", {"--set", "r=2:3:1"}).code == 0);
-    CHECK(workshop.render("one.pfm", {"--set", "r=2"}).code == 0);
-    CHECK(picture(workshop, "s0.pfm") == picture(workshop, "one.pfm"));
-    CHECK(complaint(workshop, {"scene.json", "-o", "f.png", "--set", "r=2:3:1"})
+    CHECK(fixture.render("s%d.pfm", {"--set", "r=2:3:1"}).code == 0);
+    CHECK(fixture.render("one.pfm", {"--set", "r=2"}).code == 0);
+    CHECK(picture(fixture, "s0.pfm") == picture(fixture, "one.pfm"));
+    CHECK(complaint(fixture, {"scene.json", "-o", "f.png", "--set", "r=2:3:1"})
               .find("--output: must have one placeholder") != std::string::npos);
 }
 
 TEST_CASE("whole numbers stay whole in a sweep") {
-    const Workshop workshop(R"({"image": {"width": "$w", "height": 1}, "camera": "auto",
+    const ToolFixture fixture(R"({"image": {"width": "$w", "height": 1}, "camera": "auto",
         "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})");
-    const Outcome outcome = workshop.render("w%d.pfm", {"--set", "w=1:23:23"});
+    const Outcome outcome = fixture.render("w%d.pfm", {"--set", "w=1:23:23"});
     CHECK(outcome.err.empty());
     CHECK(outcome.code == 0);
-    CHECK(std::filesystem::exists(workshop.path() / "w22.pfm"));
+    CHECK(std::filesystem::exists(fixture.path() / "w22.pfm"));
 }
 
 TEST_CASE("each image of a sweep has the fog of its scene for any camera") {
     std::string foggy = growing;
     foggy.insert(1, R"("fog": {"type": "exponential", "density": "$d"},)");
-    const Workshop workshop(foggy);
-    CHECK(workshop.render("f%d.pfm", {"--set", "d=0.01:0.1:2"}).code == 0);
-    CHECK(workshop.render("one.pfm", {"--set", "d=0.1"}).code == 0);
-    CHECK(picture(workshop, "f0.pfm") != picture(workshop, "f1.pfm"));
-    CHECK(picture(workshop, "f1.pfm") == picture(workshop, "one.pfm"));
+    const ToolFixture fixture(foggy);
+    CHECK(fixture.render("f%d.pfm", {"--set", "d=0.01:0.1:2"}).code == 0);
+    CHECK(fixture.render("one.pfm", {"--set", "d=0.1"}).code == 0);
+    CHECK(picture(fixture, "f0.pfm") != picture(fixture, "f1.pfm"));
+    CHECK(picture(fixture, "f1.pfm") == picture(fixture, "one.pfm"));
 }
 
 TEST_CASE("the option --turn moves automatic and fixed cameras around the scene") {
-    const Workshop workshop;
-    CHECK(workshop.render("t%03d.pfm", {"--turn", "360/4"}).code == 0);
-    CHECK(!std::filesystem::exists(workshop.path() / "t004.pfm"));
-    CHECK(workshop.render("scene.pfm").code == 0);
-    CHECK(picture(workshop, "t000.pfm") == picture(workshop, "scene.pfm"));
-    CHECK(picture(workshop, "t001.pfm") != picture(workshop, "scene.pfm"));
-    const Workshop other(growing);
+    const ToolFixture fixture;
+    CHECK(fixture.render("t%03d.pfm", {"--turn", "360/4"}).code == 0);
+    CHECK(!std::filesystem::exists(fixture.path() / "t004.pfm"));
+    CHECK(fixture.render("scene.pfm").code == 0);
+    CHECK(picture(fixture, "t000.pfm") == picture(fixture, "scene.pfm"));
+    CHECK(picture(fixture, "t001.pfm") != picture(fixture, "scene.pfm"));
+    const ToolFixture other(growing);
     CHECK(other.render("t%d.pfm", {"--turn", "90/2", "--set", "x=0:1:2"}).code == 0);
     CHECK(complaint(other, {"scene.json", "-o", "t%d.pfm", "--turn", "90/2", "--set", "x=0:1:3"})
               .find("as many images as the sequence, 3, got 2") != std::string::npos);
 }
 
 TEST_CASE("the option --turn must have as many images as there are frames") {
-    const Workshop workshop;
-    workshop.write("move.xyz", trajectory(5));
+    const ToolFixture fixture;
+    fixture.write("move.xyz", trajectory(5));
     const auto film = [&](const std::string& frames, const std::string& turn,
                           const Options& options = {}) {
-        std::filesystem::remove_all(workshop.output());
-        std::filesystem::create_directory(workshop.output());
+        std::filesystem::remove_all(fixture.output());
+        std::filesystem::create_directory(fixture.output());
         return joined(
             joined({"move.xyz", "-o", "out/f%d.pfm", "--frames", frames, "--turn", turn}, small),
             options);
     };
     const auto drawn = [&] {
-        return std::distance(std::filesystem::directory_iterator(workshop.output()), {});
+        return std::distance(std::filesystem::directory_iterator(fixture.output()), {});
     };
     const std::string must = "raylane: --turn: must have as many images as the sequence, ";
-    CHECK(complaint(workshop, film("0:5", "90/9")) == must + "5, got 9\n");
+    CHECK(complaint(fixture, film("0:5", "90/9")) == must + "5, got 9\n");
     CHECK(drawn() == 0);
     // Too few frames are noticed at the end,
-    CHECK(complaint(workshop, film("0:9", "90/9")) == must + "5, got 9\n");
+    CHECK(complaint(fixture, film("0:9", "90/9")) == must + "5, got 9\n");
     CHECK(drawn() == 5);
-    CHECK(complaint(workshop, film("0:", "360/120")) == must + "5, got 120\n");
+    CHECK(complaint(fixture, film("0:", "360/120")) == must + "5, got 120\n");
     CHECK(drawn() == 5);
     // too many frames before the first one in excess,
-    CHECK(complaint(workshop, film("0:", "360/3")) == must + "at least 4, got 3\n");
+    CHECK(complaint(fixture, film("0:", "360/3")) == must + "at least 4, got 3\n");
     CHECK(drawn() == 3);
-    CHECK(complaint(workshop, film("::2", "360/1", {"--part", "2/2"})) ==
+    CHECK(complaint(fixture, film("::2", "360/1", {"--part", "2/2"})) ==
           must + "at least 2, got 1\n");
     CHECK(drawn() == 0);
     // and both before all if all frames are read first.
     for (const char* turn : {"360/3", "360/9"})
-        CHECK(complaint(workshop, film(":", turn, {"--camera-from", "all"})) ==
+        CHECK(complaint(fixture, film(":", turn, {"--camera-from", "all"})) ==
               must + "5, got " + (turn + 4) + "\n");
     CHECK(drawn() == 0);
     for (const char* frames : {":", "0:5", "-5:"}) {
-        CHECK(workshop.run(joined({"render"}, film(frames, "90/5"))).code == 0);
+        CHECK(fixture.run(joined({"render"}, film(frames, "90/5"))).code == 0);
         CHECK(drawn() == 5);
     }
 }
 
 TEST_CASE("existing images are kept unless --overwrite is given") {
-    const Workshop workshop(growing);
+    const ToolFixture fixture(growing);
     const Options sweep = {"--set", "r=1:2:3"};
-    CHECK(workshop.render("s%d.pfm", sweep).code == 0);
-    const std::string first = picture(workshop, "s0.pfm"), last = picture(workshop, "s2.pfm");
-    workshop.write("s0.pfm", "mine");
-    std::filesystem::remove(workshop.path() / "s2.pfm");
-    const Outcome again = workshop.render("s%d.pfm", sweep);
+    CHECK(fixture.render("s%d.pfm", sweep).code == 0);
+    const std::string first = picture(fixture, "s0.pfm"), last = picture(fixture, "s2.pfm");
+    fixture.write("s0.pfm", "mine");
+    std::filesystem::remove(fixture.path() / "s2.pfm");
+    const Outcome again = fixture.render("s%d.pfm", sweep);
     CHECK(again.code == 0);
     CHECK(again.err == "2 of 3 images exist already; --overwrite renders them again\n");
-    CHECK(picture(workshop, "s0.pfm") == "mine");
-    CHECK(picture(workshop, "s2.pfm") == last);
-    CHECK(workshop.render("s%d.pfm", joined(sweep, {"--force"})).code == 0);
-    CHECK(picture(workshop, "s0.pfm") == first);
+    CHECK(picture(fixture, "s0.pfm") == "mine");
+    CHECK(picture(fixture, "s2.pfm") == last);
+    CHECK(fixture.render("s%d.pfm", joined(sweep, {"--force"})).code == 0);
+    CHECK(picture(fixture, "s0.pfm") == first);
 }
 
 TEST_CASE("a film that was interrupted goes on where it was") {
-    const Workshop workshop(growing);
-    workshop.write("out/f0.pfm", "drawn");
+    const ToolFixture fixture(growing);
+    fixture.write("out/f0.pfm", "drawn");
     const Options film = {"render", "scene.json", "-o", "out/f%d.pfm", "--set", "r=1:2:3"};
-    Process process = workshop.start(joined(film, minutes));
-    REQUIRE(workshop.wait_for_files(process, 2)); // during the second image
-    REQUIRE(workshop.wait_for(workshop.output() / "f1.pfm.part"));
+    Process process = fixture.start(joined(film, minutes));
+    REQUIRE(fixture.wait_for_files(process, 2)); // during the second image
+    REQUIRE(fixture.wait_for(fixture.output() / "f1.pfm.part"));
     process.send(SIGINT);
     CHECK(process.wait().code == 128 + SIGINT);
-    CHECK(std::filesystem::exists(workshop.output() / "f1.pfm.part"));
-    CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 2);
-    CHECK(workshop.run(film).err ==
+    CHECK(std::filesystem::exists(fixture.output() / "f1.pfm.part"));
+    CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 2);
+    CHECK(fixture.run(film).err ==
           "raylane: out/f1.pfm.part: belongs to other options or another version; not resumed, "
           "kept until this image is complete\n"
           "1 of 3 images exist already; --overwrite renders them again\n");
-    CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 3);
-    CHECK(picture(workshop, "out/f0.pfm") == "drawn");
-    CHECK(std::filesystem::exists(workshop.output() / "f2.pfm"));
+    CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 3);
+    CHECK(picture(fixture, "out/f0.pfm") == "drawn");
+    CHECK(std::filesystem::exists(fixture.output() / "f2.pfm"));
 }
 
 TEST_CASE("the option --view works for any scene and moves the lights that follow the camera") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto convert = [&](const Options& options) {
-        const Outcome outcome = workshop.run(joined({"convert", "scene.json", "-"}, options));
+        const Outcome outcome = fixture.run(joined({"convert", "scene.json", "-"}, options));
         CHECK(outcome.code == 0);
         return nlohmann::json::parse(outcome.out);
     };
@@ -259,33 +258,33 @@ TEST_CASE("the option --view works for any scene and moves the lights that follo
     CHECK(convert({"--up", "x"})["camera"]["up"] == nlohmann::json({1, 0, 0}));
     CHECK(convert({"--view", "1,1,0", "--up", "0,0,1"})["camera"]["up"] ==
           nlohmann::json({0, 0, 1}));
-    CHECK(complaint(workshop, {"scene.json", "--view", "top", "--up", "y"}) ==
+    CHECK(complaint(fixture, {"scene.json", "--view", "top", "--up", "y"}) ==
           "raylane: --up: must not be parallel to the direction of view\n");
-    CHECK(complaint(workshop, {"scene.json", "--view", "1,2,3", "--up", "0.1,0.2,0.3"}) ==
+    CHECK(complaint(fixture, {"scene.json", "--view", "1,2,3", "--up", "0.1,0.2,0.3"}) ==
           "raylane: --up: must not be parallel to the direction of view\n");
     CHECK(convert({"--up", "-x"})["camera"]["up"] == nlohmann::json({-1, 0, 0}));
-    CHECK(complaint(workshop, {"scene.json", "--up", "0,0,0"})
+    CHECK(complaint(fixture, {"scene.json", "--up", "0,0,0"})
               .starts_with(
                   "raylane: --up: must be x, y, z, -x, -y or -z, or a direction such as 0,1,1"));
     // --zoom does not move a fixed camera.
     const auto near = convert({"--zoom", "2"});
     CHECK(near["camera"]["from"][2] == 5);
     CHECK(near["camera"]["field_of_view"] < 25);
-    workshop.write("floor.json", R"({"camera": {"from": [0, 1, 0], "at": [0, 0, 1]},
+    fixture.write("floor.json", R"({"camera": {"from": [0, 1, 0], "at": [0, 0, 1]},
         "lights": [{"type": "camera"}],
         "objects": [{"type": "plane", "material": {}, "point": [0, 0, 0], "normal": [0, 1, 0]}]})");
-    CHECK(workshop.run({"render", "floor.json"}).code == 0);
-    CHECK(complaint(workshop, {"floor.json", "--view", "top"})
+    CHECK(fixture.run({"render", "floor.json"}).code == 0);
+    CHECK(complaint(fixture, {"floor.json", "--view", "top"})
               .find("--view: must have a bounded shape to frame") != std::string::npos);
 }
 
 TEST_CASE("scenes of other programs accept --view and --turn but not --frames") {
-    const Workshop workshop;
-    workshop.write("ball.pov", R"(camera { location <0, 0, -5> look_at 0 angle 40 }
+    const ToolFixture fixture;
+    fixture.write("ball.pov", R"(camera { location <0, 0, -5> look_at 0 angle 40 }
 light_source { <9, 9, -9> color rgb 1 }
 sphere { <0, 0, 0>, 1 pigment { color rgb <1, 0, 0> } }
 )");
-    workshop.write("ball.dat", R"(BEGIN_SCENE
+    fixture.write("ball.dat", R"(BEGIN_SCENE
 RESOLUTION 16 12
 CAMERA
 ZOOM 1 ASPECTRATIO 1 ANTIALIASING 0 RAYDEPTH 9
@@ -299,7 +298,7 @@ END_SCENE
     for (const std::string name : {"ball.pov", "ball.dat"}) {
         CAPTURE(name);
         const auto camera = [&](const Options& options) {
-            const Outcome outcome = workshop.run(joined({"convert", name, "-"}, options));
+            const Outcome outcome = fixture.run(joined({"convert", name, "-"}, options));
             CAPTURE(outcome.err);
             CHECK(outcome.code == 0);
             return nlohmann::json::parse(outcome.out)["camera"];
@@ -313,24 +312,24 @@ END_SCENE
         const auto right = camera({"--view", "right"});
         CHECK(right["view"] == nlohmann::json({-1, 0, 0}));
         CHECK(right["field_of_view"] == own["field_of_view"]);
-        CHECK(workshop
+        CHECK(fixture
                   .run(joined({"render", name, "-o", name + "%d.pfm", "--turn", "180/2", "--quiet"},
                               small))
                   .code == 0);
-        CHECK(picture(workshop, name + "0.pfm") != picture(workshop, name + "1.pfm"));
-        CHECK(complaint(workshop, {name, "--frames", "0:2"}) ==
+        CHECK(picture(fixture, name + "0.pfm") != picture(fixture, name + "1.pfm"));
+        CHECK(complaint(fixture, {name, "--frames", "0:2"}) ==
               "raylane: --frames: goes with a file of atoms, but " + name + " is a scene\n");
-        CHECK(complaint(workshop, {name, "--set", "n=1:2:2"})
+        CHECK(complaint(fixture, {name, "--set", "n=1:2:2"})
                   .find("only JSON scenes have parameters") != std::string::npos);
     }
 }
 
 TEST_CASE("mistakes about several images give an error of one line") {
-    const Workshop workshop(growing);
-    workshop.write("move.xyz", trajectory(2));
+    const ToolFixture fixture(growing);
+    fixture.write("move.xyz", trajectory(2));
     const auto says = [&](const Options& options, const std::string& what) {
         INFO(what);
-        const std::string said = complaint(workshop, options);
+        const std::string said = complaint(fixture, options);
         INFO(said);
         CHECK(said.find(what) != std::string::npos);
     };
@@ -356,7 +355,7 @@ TEST_CASE("mistakes about several images give an error of one line") {
     says({"move.xyz", "--frames", "-3", "-o", "x.png"},
          "--frames: must select some of the 2 frames that move.xyz has, numbered from 0, got "
          "none\n");
-    workshop.write("nothing", "");
+    fixture.write("nothing", "");
     says({"nothing", "--frames", "0:2"}, "nothing: must be a scene or atoms, got an empty file");
     says({"move.xyz", "--frames", "0:2", "-o", "f%d.gif"}, "f0.gif: must end in");
     says({"move.xyz", "--frames", "1:1"}, "--frames: must select at least one frame");
@@ -365,18 +364,18 @@ TEST_CASE("mistakes about several images give an error of one line") {
     says({"scene.json", "--turn", "360/4", "--camera-from", "last"}, "--camera-from: must be");
     says({"scene.json", "--turn", "360/4", "--stats", "s.json"},
          "--stats: goes with a single image");
-    CHECK(workshop.run({"info", "scene.json", "--set", "r=1:2:3"})
+    CHECK(fixture.run({"info", "scene.json", "--set", "r=1:2:3"})
               .err.find("must be NAME=NUMBER for this command") != std::string::npos);
 }
 
 TEST_CASE("a malformed frame ends the sequence after the frames before it") {
-    const Workshop workshop;
-    workshop.write("move.xyz", trajectory(2) + "3\n\nO 0 0 zero\nH 1 0 0\nH 0 1 0\n");
+    const ToolFixture fixture;
+    fixture.write("move.xyz", trajectory(2) + "3\n\nO 0 0 zero\nH 1 0 0\nH 0 1 0\n");
     const Outcome outcome =
-        workshop.run(joined({"render", "move.xyz", "-o", "f%d.pfm", "--frames", ":"}, small));
+        fixture.run(joined({"render", "move.xyz", "-o", "f%d.pfm", "--frames", ":"}, small));
     CHECK(outcome.code == 2);
     CHECK(is_one_line(outcome.err));
     CHECK(outcome.err.find("13") != std::string::npos);
-    CHECK(std::filesystem::exists(workshop.path() / "f1.pfm"));
-    CHECK(!std::filesystem::exists(workshop.path() / "f2.pfm"));
+    CHECK(std::filesystem::exists(fixture.path() / "f1.pfm"));
+    CHECK(!std::filesystem::exists(fixture.path() / "f2.pfm"));
 }

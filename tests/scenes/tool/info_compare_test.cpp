@@ -1,6 +1,6 @@
 #include "scenes/image/reader.hpp"
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -23,15 +23,15 @@ bool contains(const std::string& text, const std::string& part) {
 } // namespace
 
 TEST_CASE("info lists the content and the needs of a scene") {
-    const Workshop workshop;
-    const Outcome text = workshop.run({"info", "scene.json"});
+    const ToolFixture fixture;
+    const Outcome text = fixture.run({"info", "scene.json"});
     CHECK(text.code == 0);
     CHECK(text.err.empty());
     for (const char* line : {"shapes     1: 1 sphere\n", "lights     1\n", "fog        none\n",
                              "image      16 x 12 pixels, ", "limits     depth 8, weight 0.001\n"})
         CHECK(contains(text.out, line));
 
-    const Outcome outcome = workshop.run({"info", "--json", "scene.json"});
+    const Outcome outcome = fixture.run({"info", "--json", "scene.json"});
     CHECK(outcome.code == 0);
     const Json info = json_of(outcome);
     CHECK(info["scene"] == "scene.json");
@@ -46,20 +46,20 @@ TEST_CASE("info lists the content and the needs of a scene") {
     };
     CHECK(has("needed", "reflected rays"));
     CHECK(has("left_out", "refracted rays"));
-    CHECK(workshop.names() == std::vector<std::string>{"out", "scene.json"});
+    CHECK(fixture.names() == std::vector<std::string>{"out", "scene.json"});
 }
 
 TEST_CASE("info gives the memory of doubles") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto info_with = [&](const std::string& radius) {
-        workshop.write("ball.json", R"({
+        fixture.write("ball.json", R"({
             "camera": {"from": [0, 0, 6], "at": [0, 0, 0]},
             "lights": [{"type": "directional", "direction": [0, -1, -1]}],
             "materials": {"plain": {}},
             "objects": [{"type": "sphere", "material": "plain", "center": [0, 0, 0],
                          "radius": )" + radius +
-                                        "}]}");
-        return json_of(workshop.run({"info", "--json", "ball.json"}));
+                                       "}]}");
+        return json_of(fixture.run({"info", "--json", "ball.json"}));
     };
     const auto needs = [](const Json& info) {
         const auto needed = info["needed"].get<std::vector<std::string>>();
@@ -71,29 +71,28 @@ TEST_CASE("info gives the memory of doubles") {
     CHECK(needs(in_doubles));
     CHECK(in_doubles["double_bytes"] == 5 * 16 * 8); // a block of four numbers, and one more row
     CHECK(in_doubles["scene_bytes"] == in_floats["scene_bytes"].get<int>() + 5 * 16 * 8);
-    CHECK(workshop.run({"info", "ball.json"}).out.find("640 bytes of doubles") !=
-          std::string::npos);
+    CHECK(fixture.run({"info", "ball.json"}).out.find("640 bytes of doubles") != std::string::npos);
 }
 
 TEST_CASE("compare reports whether and by how much images differ") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     for (const char* name : {"a.png", "b.png", "a.hdr", "b.hdr", "a.pfm", "b.pfm"})
-        REQUIRE(workshop.render(name).code == 0);
+        REQUIRE(fixture.render(name).code == 0);
     for (const char* ending : {".png", ".hdr", ".pfm"}) {
         const Outcome same =
-            workshop.run({"compare", std::string("a") + ending, std::string("b") + ending});
+            fixture.run({"compare", std::string("a") + ending, std::string("b") + ending});
         CHECK(same.code == 0);
         CHECK(same.err.empty());
         CHECK(contains(same.out, "differing  0 of 192 pixels"));
     }
     // HDR has eight bits of mantissa alone.
-    CHECK(workshop.run({"compare", "a.hdr", "a.pfm"}).code == 1);
-    CHECK(workshop.run({"compare", "a.hdr", "a.pfm", "--tolerance", "0.01"}).code == 0);
+    CHECK(fixture.run({"compare", "a.hdr", "a.pfm"}).code == 1);
+    CHECK(fixture.run({"compare", "a.hdr", "a.pfm", "--tolerance", "0.01"}).code == 0);
 
-    REQUIRE(workshop.render("a.png", {"--transfer", "linear"}).code == 0);
-    REQUIRE(workshop.render("b.png", {"--transfer", "linear", "--max-depth", "0"}).code == 0);
+    REQUIRE(fixture.render("a.png", {"--transfer", "linear"}).code == 0);
+    REQUIRE(fixture.render("b.png", {"--transfer", "linear", "--max-depth", "0"}).code == 0);
     const Outcome different =
-        workshop.run({"compare", "a.png", "b.png", "--json", "--diff", "out/difference.png"});
+        fixture.run({"compare", "a.png", "b.png", "--json", "--diff", "out/difference.png"});
     CHECK(different.code == 1);
     const Json json = json_of(different);
     CHECK(json["pixels"] == 192);
@@ -102,9 +101,9 @@ TEST_CASE("compare reports whether and by how much images differ") {
     CHECK(json["rmse"] > 0.0);
     CHECK(json["psnr"] > 0.0);
     CHECK(json["tolerance"] == 0.0);
-    const scenes::Image a = scenes::read_image(workshop.path() / "a.png"),
-                        b = scenes::read_image(workshop.path() / "b.png"),
-                        difference = scenes::read_image(workshop.output() / "difference.png");
+    const scenes::Image a = scenes::read_image(fixture.path() / "a.png"),
+                        b = scenes::read_image(fixture.path() / "b.png"),
+                        difference = scenes::read_image(fixture.output() / "difference.png");
     REQUIRE(difference.rgb.size() == a.rgb.size());
     float largest = 0.0F;
     for (std::size_t i = 0; i < a.rgb.size(); ++i) {
@@ -114,21 +113,21 @@ TEST_CASE("compare reports whether and by how much images differ") {
     CHECK(largest == 1.0F);
 
     const std::string tolerance = json["largest"].dump();
-    CHECK(workshop.run({"compare", "a.png", "b.png", "--tolerance", "0.1"}).code == 1);
-    CHECK(workshop.run({"compare", "a.png", "b.png", "--tolerance", "1"}).code == 0);
-    CHECK(json_of(workshop.run({"compare", "a.png", "a.png", "--json"}))["psnr"].is_null());
-    CHECK(json_of(workshop.run(
+    CHECK(fixture.run({"compare", "a.png", "b.png", "--tolerance", "0.1"}).code == 1);
+    CHECK(fixture.run({"compare", "a.png", "b.png", "--tolerance", "1"}).code == 0);
+    CHECK(json_of(fixture.run({"compare", "a.png", "a.png", "--json"}))["psnr"].is_null());
+    CHECK(json_of(fixture.run(
               {"compare", "a.png", "b.png", "--json", "--tolerance", "0.1"}))["tolerance"]
               .dump() == "0.1");
 }
 
 TEST_CASE("images that cannot be compared give an error of one line") {
-    const Workshop workshop;
-    REQUIRE(workshop.render("a.png").code == 0);
-    REQUIRE(workshop.render("b.png", {"--size", "4x5"}).code == 0);
-    REQUIRE(workshop.render("c.pfm").code == 0);
-    workshop.write("cut.png", content_of(workshop.path() / "a.png").substr(0, 60));
-    workshop.write("empty.png", "");
+    const ToolFixture fixture;
+    REQUIRE(fixture.render("a.png").code == 0);
+    REQUIRE(fixture.render("b.png", {"--size", "4x5"}).code == 0);
+    REQUIRE(fixture.render("c.pfm").code == 0);
+    fixture.write("cut.png", content_of(fixture.path() / "a.png").substr(0, 60));
+    fixture.write("empty.png", "");
     const std::vector<std::pair<std::string, std::string>> rows = {
         {"b.png", "must have 16 x 12 pixels as a.png has, got 4 x 5 pixels"},
         {"c.pfm", "must have integer codes as a.png has, got linear floats"},
@@ -140,10 +139,10 @@ TEST_CASE("images that cannot be compared give an error of one line") {
     };
     for (const auto& [file, message] : rows) {
         const Outcome outcome =
-            workshop.run({"compare", "a.png", file, "--diff", "out/difference.png"});
+            fixture.run({"compare", "a.png", file, "--diff", "out/difference.png"});
         CHECK(outcome.code == 2);
         CHECK(outcome.out.empty());
         CHECK(outcome.err == "raylane: " + file + ": " + message + "\n");
-        CHECK(workshop.is_output_empty());
+        CHECK(fixture.is_output_empty());
     }
 }

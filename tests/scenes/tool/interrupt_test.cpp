@@ -1,5 +1,5 @@
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <csignal>
 #include <fcntl.h>
@@ -17,24 +17,24 @@ const std::vector<std::string> render_for_hours =
     joined({"render", "scene.json", "-o", "out/picture.png", "--stats", "out/stats.json"}, hours);
 
 /// Checks that the signal ends the process, which leaves no file. Returns its standard error.
-std::string end_of(const Workshop& workshop, Process& process, int signal) {
+std::string end_of(const ToolFixture& fixture, Process& process, int signal) {
     process.send(signal);
     const Outcome outcome = process.wait();
     CHECK(outcome.code == 128 + signal);
     CHECK(outcome.exited);
     CHECK(outcome.out.empty());
-    CHECK(workshop.is_output_empty());
+    CHECK(fixture.is_output_empty());
     return outcome.err;
 }
 
 /// Checks the same, and that standard error is empty.
-void check_end(const Workshop& workshop, Process& process, int signal) {
-    CHECK(end_of(workshop, process, signal).empty());
+void check_end(const ToolFixture& fixture, Process& process, int signal) {
+    CHECK(end_of(fixture, process, signal).empty());
 }
 
 /// Checks the same on a terminal, where the progress line ends in a line break.
-void check_end_on_terminal(const Workshop& workshop, Process& process, int signal) {
-    const std::string err = end_of(workshop, process, signal);
+void check_end_on_terminal(const ToolFixture& fixture, Process& process, int signal) {
+    const std::string err = end_of(fixture, process, signal);
     CAPTURE(err);
     CHECK(err.ends_with("\x1B[K\r\n"));
     CHECK(count_of("\n", err) == 1);
@@ -44,67 +44,67 @@ void check_end_on_terminal(const Workshop& workshop, Process& process, int signa
 
 TEST_CASE("an interrupted rendering ends and leaves no file") {
     for (const int signal : {SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1}) {
-        const Workshop workshop;
-        Process process = workshop.start(render_for_hours, on_terminal());
-        REQUIRE(workshop.wait_for_files(process, 2));
+        const ToolFixture fixture;
+        Process process = fixture.start(render_for_hours, on_terminal());
+        REQUIRE(fixture.wait_for_files(process, 2));
         REQUIRE(process.wait_for_err("rays/s")); // the rendering has begun
-        check_end_on_terminal(workshop, process, signal);
+        check_end_on_terminal(fixture, process, signal);
     }
     // A pipe gets its first progress line after a second.
-    const Workshop workshop;
-    Process process = workshop.start(joined(render_for_hours, {"--verbose"}));
+    const ToolFixture fixture;
+    Process process = fixture.start(joined(render_for_hours, {"--verbose"}));
     REQUIRE(process.wait_for_err("rays/s"));
-    CHECK(end_of(workshop, process, SIGHUP).find("raylane") == std::string::npos);
+    CHECK(end_of(fixture, process, SIGHUP).find("raylane") == std::string::npos);
 }
 
 TEST_CASE("an interrupted rendering keeps the existing image") {
-    const Workshop workshop;
-    workshop.write("out/picture.png", "old");
-    Process process = workshop.start(render_for_hours);
-    REQUIRE(workshop.wait_for_files(process, 3));
+    const ToolFixture fixture;
+    fixture.write("out/picture.png", "old");
+    Process process = fixture.start(render_for_hours);
+    REQUIRE(fixture.wait_for_files(process, 3));
     process.send(SIGHUP);
     CHECK(process.wait().code == 128 + SIGHUP);
-    CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
-    CHECK(content_of(workshop.output() / "picture.png") == "old");
+    CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 1);
+    CHECK(content_of(fixture.output() / "picture.png") == "old");
 }
 
 TEST_CASE("reading a scene can be interrupted") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::vector<std::string> arguments = {"render", "pipe", "-o", "out/picture.png"};
-    const std::filesystem::path pipe = workshop.path() / "pipe";
+    const std::filesystem::path pipe = fixture.path() / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     {
         // No process has opened the other end.
-        Process process = workshop.start(arguments);
-        REQUIRE(workshop.wait_for_files(process, 1));
-        check_end(workshop, process, SIGINT);
+        Process process = fixture.start(arguments);
+        REQUIRE(fixture.wait_for_files(process, 1));
+        check_end(fixture, process, SIGINT);
     }
     {
         // A process has, but writes no more.
-        Process process = workshop.start(arguments);
+        Process process = fixture.start(arguments);
         const int writer = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
         CHECK(::write(writer, "v\nfrom 0", 8) == 8);
-        REQUIRE(workshop.wait_for_files(process, 1));
-        check_end(workshop, process, SIGINT);
+        REQUIRE(fixture.wait_for_files(process, 1));
+        check_end(fixture, process, SIGINT);
         ::close(writer);
     }
     {
         // A scene that takes seconds and hundreds of megabytes to build. If it is built before the
         // first progress line, the rendering without a journal ends in the same way.
-        workshop.write("scene.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+        fixture.write("scene.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
             "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
             "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
                          "depth": 7}]})");
-        Process process = workshop.start(joined(render_for_hours, {"--no-resume"}), on_terminal());
+        Process process = fixture.start(joined(render_for_hours, {"--no-resume"}), on_terminal());
         REQUIRE(process.wait_for_err("\r"));
-        check_end_on_terminal(workshop, process, SIGTERM);
+        check_end_on_terminal(fixture, process, SIGTERM);
     }
 }
 
 TEST_CASE("the first signal ends a rendering whose tiles take hours") {
     for (const int signal : {SIGINT, SIGTERM}) {
-        const Workshop workshop;
-        Process process = workshop.start(
+        const ToolFixture fixture;
+        Process process = fixture.start(
             {"render", "scene.json", "-o", "out/picture.png", "--spp", "65536", "--size", "32x32"},
             on_terminal());
         REQUIRE(process.wait_for_err("rays/s"));
@@ -117,49 +117,49 @@ TEST_CASE("the first signal ends a rendering whose tiles take hours") {
 }
 
 TEST_CASE("waiting for a reader of the image can be interrupted") {
-    const Workshop workshop;
-    REQUIRE(::mkfifo((workshop.path() / "pipe.png").c_str(), 0600) == 0);
+    const ToolFixture fixture;
+    REQUIRE(::mkfifo((fixture.path() / "pipe.png").c_str(), 0600) == 0);
     Process process =
-        workshop.start({"render", "scene.json", "--stats", "out/stats.json", "-o", "pipe.png"});
+        fixture.start({"render", "scene.json", "--stats", "out/stats.json", "-o", "pipe.png"});
     REQUIRE(comes_true([&] { return process.waits_in_open(); }));
-    check_end(workshop, process, SIGINT);
+    check_end(fixture, process, SIGINT);
 }
 
 TEST_CASE("a signal at any moment leaves the whole image or at most a journal") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::vector<std::string> arguments = {"render", "scene.json", "-o", "out/picture.png"};
     const auto start = Clock::now();
-    REQUIRE(workshop.run(arguments).code == 0);
+    REQUIRE(fixture.run(arguments).code == 0);
     const auto duration = Clock::now() - start;
-    std::filesystem::remove(workshop.output() / "picture.png");
+    std::filesystem::remove(fixture.output() / "picture.png");
     constexpr int count = 60;
     for (int i = 0; i < count; ++i) {
-        Process process = workshop.start(arguments);
+        Process process = fixture.start(arguments);
         // The moments range from the start to after the end. Each check holds at any moment.
         std::this_thread::sleep_for(duration * i / (count - 10));
         process.send(SIGINT);
         const Outcome outcome = process.wait();
-        const bool there = std::filesystem::remove(workshop.output() / "picture.png");
-        std::filesystem::remove(workshop.output() / "picture.png.part");
-        CHECK(workshop.is_output_empty());
+        const bool there = std::filesystem::remove(fixture.output() / "picture.png");
+        std::filesystem::remove(fixture.output() / "picture.png.part");
+        CHECK(fixture.is_output_empty());
         CHECK((outcome.code == 0 || outcome.code == 128 + SIGINT));
         CHECK((there || outcome.code != 0));
     }
 }
 
 TEST_CASE("signals that the caller ignores stay ignored") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     Setup ignoring = on_terminal();
     ignoring.in_child = [prepare = ignoring.in_child] {
         prepare();
         ::signal(SIGINT, SIG_IGN);
     };
     // A rendering with a journal goes on for a while after the first signal. This one has none.
-    Process process = workshop.start(joined(render_for_hours, {"--no-resume"}), ignoring);
+    Process process = fixture.start(joined(render_for_hours, {"--no-resume"}), ignoring);
     REQUIRE(process.wait_for_err("rays/s"));
     process.send(SIGINT);
     for (int line = 0; line < 3; ++line)
         CHECK(process.wait_for_further_err("rays/s"));
-    CHECK(workshop.wait_for_files(process, 2));
-    check_end_on_terminal(workshop, process, SIGHUP);
+    CHECK(fixture.wait_for_files(process, 2));
+    check_end_on_terminal(fixture, process, SIGHUP);
 }

@@ -1,5 +1,5 @@
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 #include "tests/simd/rounds.hpp"
 
 #include <cstdlib>
@@ -27,7 +27,7 @@ struct Heap {
     bool for_good = false; ///< all later allocations fail, too
 };
 
-Outcome render(const Workshop& workshop, const std::string& scene, const std::string& threads,
+Outcome render(const ToolFixture& fixture, const std::string& scene, const std::string& threads,
                const Heap& heap) {
     Setup setup;
     setup.in_child = [heap] {
@@ -36,19 +36,19 @@ Outcome render(const Workshop& workshop, const std::string& scene, const std::st
         ::setenv("RAYLANE_FAIL_AT", std::to_string(heap.at).c_str(), 1);
         if (heap.for_good) ::setenv("RAYLANE_FAIL_ON", "1", 1);
     };
-    return workshop.run({"render", scene, "-o", "out/picture.png", "--size", "40x30", "--quiet",
-                         "--threads", threads},
-                        setup);
+    return fixture.run({"render", scene, "-o", "out/picture.png", "--size", "40x30", "--quiet",
+                        "--threads", threads},
+                       setup);
 }
 
 /// Returns true if the tool made the expected image or ended with one line of error and no file.
 /// Some allocations can be done without: then a refusal changes nothing.
-bool is_right(const Workshop& workshop, const Outcome& outcome, const std::string& expected) {
-    const auto picture = workshop.output() / "picture.png";
+bool is_right(const ToolFixture& fixture, const Outcome& outcome, const std::string& expected) {
+    const auto picture = fixture.output() / "picture.png";
     const bool is_there = std::filesystem::exists(picture);
     if (is_there && content_of(picture) != expected) return false;
     std::filesystem::remove(picture);
-    if (!workshop.is_output_empty() || !outcome.exited || !outcome.out.empty()) return false;
+    if (!fixture.is_output_empty() || !outcome.exited || !outcome.out.empty()) return false;
     if (outcome.code == 0) return is_there && outcome.err.empty();
     return outcome.code == 3 && is_one_line(outcome.err) && outcome.err.starts_with("raylane: ");
 }
@@ -61,23 +61,23 @@ long stride() {
 }
 
 void check_all(const std::string& name, const std::string& scene) {
-    const Workshop workshop;
-    workshop.write(name, scene);
+    const ToolFixture fixture;
+    fixture.write(name, scene);
     for (const char* threads : {"1", "2"})
         for (const bool for_good : {false, true}) {
-            const Outcome usual = render(workshop, name, threads, {});
+            const Outcome usual = render(fixture, name, threads, {});
             REQUIRE(usual.code == 0);
-            const std::string expected = content_of(workshop.output() / "picture.png");
-            std::filesystem::remove(workshop.output() / "picture.png");
+            const std::string expected = content_of(fixture.output() / "picture.png");
+            std::filesystem::remove(fixture.output() / "picture.png");
             long count = 0;
-            std::ifstream(workshop.path() / "allocations") >> count;
+            std::ifstream(fixture.path() / "allocations") >> count;
             REQUIRE(count > 500);
             long refused = 0;
             // The last thousand, which render and write, are tested more densely.
             for (long at = 1; at <= count; at += at + 1000 < count ? stride() : 1 + stride() / 4) {
-                const Outcome outcome = render(workshop, name, threads, {at, for_good});
+                const Outcome outcome = render(fixture, name, threads, {at, for_good});
                 CAPTURE(name, threads, for_good, at, count, outcome.code, outcome.err);
-                REQUIRE(is_right(workshop, outcome, expected));
+                REQUIRE(is_right(fixture, outcome, expected));
                 refused += outcome.code == 3 ? 1 : 0;
             }
             CHECK(refused > 10);

@@ -2,7 +2,7 @@
 #include "scenes/image/reader.hpp"
 #include "scenes/image/writer.hpp"
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -29,8 +29,8 @@ Options merged(std::vector<int> numbers, const std::string& output) {
     return joined(words, {"-o", output});
 }
 
-std::string content(const Workshop& workshop, const std::string& name) {
-    return content_of(workshop.path() / name);
+std::string content(const ToolFixture& fixture, const std::string& name) {
+    return content_of(fixture.path() / name);
 }
 
 /// Returns options for an output with the floats that parts and merged EXR have.
@@ -38,16 +38,16 @@ Options floats_in(const std::string& output) {
     return output.ends_with(".exr") ? Options{"--bits", "32"} : Options{};
 }
 
-void draw_parts(const Workshop& workshop, int count, const Options& options = {}) {
+void draw_parts(const ToolFixture& fixture, int count, const Options& options = {}) {
     for (int number = 1; number <= count; ++number)
-        REQUIRE(workshop.run(part(number, count, options)).code == 0);
+        REQUIRE(fixture.run(part(number, count, options)).code == 0);
 }
 
 } // namespace
 
 TEST_CASE("merged parts of an image are the same file as the whole") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
+    const ToolFixture fixture;
     for (const Options& options :
          {Options{"--size", "150x90"},
           {"--size", "150x90", "--quality", "35"},
@@ -56,81 +56,81 @@ TEST_CASE("merged parts of an image are the same file as the whole") {
           {"--engine", "reference", "--transfer", "linear"},
           {"--size", "150x90", "--layers"}}) {
         CAPTURE(options);
-        draw_parts(workshop, 3, options);
+        draw_parts(fixture, 3, options);
         const bool layers = options.back() == "--layers";
         const std::string ending = layers ? ".exr" : ".png";
-        REQUIRE(workshop.render("whole" + ending, joined(options, floats_in(ending))).code == 0);
-        const Outcome outcome = workshop.run(merged({2, 3, 1}, "merged" + ending));
+        REQUIRE(fixture.render("whole" + ending, joined(options, floats_in(ending))).code == 0);
+        const Outcome outcome = fixture.run(merged({2, 3, 1}, "merged" + ending));
         CHECK(outcome.err.empty());
         CHECK(outcome.code == 0);
-        CHECK(content_of(workshop.path() / ("merged" + ending)) ==
-              content_of(workshop.path() / ("whole" + ending)));
+        CHECK(content_of(fixture.path() / ("merged" + ending)) ==
+              content_of(fixture.path() / ("whole" + ending)));
     }
     // More parts than tiles.
-    draw_parts(workshop, 5);
-    REQUIRE(workshop.render("whole.png").code == 0);
-    CHECK(workshop.run(merged({1, 2, 3, 4, 5}, "merged.png")).code == 0);
-    CHECK(content_of(workshop.path() / "merged.png") == content_of(workshop.path() / "whole.png"));
+    draw_parts(fixture, 5);
+    REQUIRE(fixture.render("whole.png").code == 0);
+    CHECK(fixture.run(merged({1, 2, 3, 4, 5}, "merged.png")).code == 0);
+    CHECK(content_of(fixture.path() / "merged.png") == content_of(fixture.path() / "whole.png"));
 }
 
 TEST_CASE("Merged EXR have the floats of their parts or halves on request") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
-    draw_parts(workshop, 2, {"--bits", "32"});
+    const ToolFixture fixture;
+    draw_parts(fixture, 2, {"--bits", "32"});
     for (const auto& [bits, expected] :
          {std::pair{Options{}, 32}, {{"--bits", "32"}, 32}, {{"--bits", "16"}, 16}}) {
         CAPTURE(bits);
-        REQUIRE(workshop.run(joined(merged({1, 2}, "merged.exr"), bits)).code == 0);
-        CHECK(scenes::read_image(workshop.path() / "merged.exr").bits == expected);
+        REQUIRE(fixture.run(joined(merged({1, 2}, "merged.exr"), bits)).code == 0);
+        CHECK(scenes::read_image(fixture.path() / "merged.exr").bits == expected);
         const Options same = {"--bits", std::to_string(expected)};
-        REQUIRE(workshop.render("whole.exr", same).code == 0);
-        CHECK((content(workshop, "merged.exr") == content(workshop, "whole.exr")));
+        REQUIRE(fixture.render("whole.exr", same).code == 0);
+        CHECK((content(fixture, "merged.exr") == content(fixture, "whole.exr")));
     }
 }
 
 TEST_CASE("parts that do not make a whole give an error of one line") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto refusal = [&](const Options& command) {
-        const Outcome outcome = workshop.run(command);
+        const Outcome outcome = fixture.run(command);
         CHECK(outcome.code == 2);
         CHECK(is_one_line(outcome.err));
         return outcome.err;
     };
-    draw_parts(workshop, 3);
+    draw_parts(fixture, 3);
     CHECK(refusal(merged({1, 3}, "out/a.png")) ==
           "raylane: PARTS: must be all parts, 1 to 3; missing: 2\n");
     CHECK(refusal(merged({3}, "out/a.png")) ==
           "raylane: PARTS: must be all parts, 1 to 3; missing: 1, 2\n");
     CHECK(refusal(merged({1, 1}, "out/a.png")) == "raylane: part-1.exr: repeats part 1/3\n");
-    REQUIRE(workshop.run(part(2, 4)).code == 0);
+    REQUIRE(fixture.run(part(2, 4)).code == 0);
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
           "raylane: part-2.exr: belongs to another division into parts than part-1.exr\n");
-    REQUIRE(workshop.run(part(2, 3, {"--tile", "8"})).code == 0);
+    REQUIRE(fixture.run(part(2, 3, {"--tile", "8"})).code == 0);
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
           "raylane: part-2.exr: belongs to another division into parts than part-1.exr\n");
-    REQUIRE(workshop.run(part(2, 3, {"--max-depth", "1"})).code == 0);
+    REQUIRE(fixture.run(part(2, 3, {"--max-depth", "1"})).code == 0);
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
           "raylane: part-2.exr: belongs to another image than part-1.exr: Comment differs\n");
-    REQUIRE(workshop.render("part-2.exr").code == 0);
+    REQUIRE(fixture.render("part-2.exr").code == 0);
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
           "raylane: part-2.exr: must be written by render --part\n");
     {
-        scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / "part-1.exr");
+        scenes::ExrPicture picture = scenes::read_own_exr(fixture.path() / "part-1.exr");
         picture.film.at(3, 4) += core::Color(1.0F);
-        scenes::OutputFile(workshop.path() / "part-2.exr", scenes::exr_of)
+        scenes::OutputFile(fixture.path() / "part-2.exr", scenes::exr_of)
             .commit(picture.film, {.bits = 32, .texts = picture.texts});
         CHECK(refusal(merged({2, 3}, "out/a.png")) ==
               "raylane: part-2.exr: has pixels that differ from its Pixels attribute\n");
     }
-    workshop.write("part-2.exr", "mine");
+    fixture.write("part-2.exr", "mine");
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
           "raylane: part-2.exr: must be an EXR rendered by raylane\n");
     CHECK(refusal(merged({1, 4}, "out/a.png")) == "raylane: part-4.exr: no such file\n");
     CHECK(refusal(merged({1, 3}, "part-1.exr")).starts_with("raylane: --output: "));
     CHECK(refusal({"verify", "part-1.exr", "scene.json", "--quiet"}) ==
           "raylane: part-1.exr: must be a whole image, got a part: merge the parts first\n");
-    CHECK(workshop.is_output_empty());
+    CHECK(fixture.is_output_empty());
 }
 
 TEST_CASE("parts of scenes with different settings are refused even if the Comments are equal") {
@@ -148,55 +148,55 @@ TEST_CASE("parts of scenes with different settings are refused even if the Comme
           {outlined, R"("outline": {"width": 3, "creases": 20}, )"},
           {"", R"("sampling": {"pattern": "stratified"}, )"}}) {
         CAPTURE(settings.other);
-        const Workshop workshop(with(settings.one));
-        draw_parts(workshop, 2);
-        workshop.write("scene.json", with(settings.other));
-        REQUIRE(workshop.run(part(2, 2)).code == 0);
-        const Outcome outcome = workshop.run(merged({1, 2}, "out/a.png"));
+        const ToolFixture fixture(with(settings.one));
+        draw_parts(fixture, 2);
+        fixture.write("scene.json", with(settings.other));
+        REQUIRE(fixture.run(part(2, 2)).code == 0);
+        const Outcome outcome = fixture.run(merged({1, 2}, "out/a.png"));
         CHECK(outcome.code == 2);
         CHECK(outcome.err ==
               "raylane: part-2.exr: belongs to another image than part-1.exr: Options differs\n");
-        CHECK(workshop.is_output_empty());
+        CHECK(fixture.is_output_empty());
     }
 }
 
 TEST_CASE("parts with and without layers are not merged") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
-    draw_parts(workshop, 2);
-    REQUIRE(workshop.run(part(2, 2, {"--layers"})).code == 0);
-    CHECK(workshop.run(merged({1, 2}, "out/a.exr")).err ==
+    const ToolFixture fixture;
+    draw_parts(fixture, 2);
+    REQUIRE(fixture.run(part(2, 2, {"--layers"})).code == 0);
+    CHECK(fixture.run(merged({1, 2}, "out/a.exr")).err ==
           "raylane: part-2.exr: has layers, but part-1.exr has none\n");
-    CHECK(workshop.run(merged({2, 1}, "out/a.exr")).err ==
+    CHECK(fixture.run(merged({2, 1}, "out/a.exr")).err ==
           "raylane: part-1.exr: has no layers, but part-2.exr has some\n");
-    CHECK(workshop.is_output_empty());
+    CHECK(fixture.is_output_empty());
 }
 
 TEST_CASE("parts without an Options attribute can be merged") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
-    draw_parts(workshop, 2);
+    const ToolFixture fixture;
+    draw_parts(fixture, 2);
     for (const char* name : {"part-1.exr", "part-2.exr"}) {
-        const scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / name);
+        const scenes::ExrPicture picture = scenes::read_own_exr(fixture.path() / name);
         scenes::PictureOptions options{.bits = 32, .texts = picture.texts};
         CHECK(std::erase_if(options.texts,
                             [](const auto& text) { return text.first == "Options"; }) == 1);
-        scenes::OutputFile(workshop.path() / name, scenes::exr_of).commit(picture.film, options);
+        scenes::OutputFile(fixture.path() / name, scenes::exr_of).commit(picture.film, options);
     }
-    CHECK(workshop.run(merged({1, 2}, "a.png")).err.empty());
-    CHECK(workshop.run({"verify", "a.png", "scene.json", "--quiet"}).code == 0);
+    CHECK(fixture.run(merged({1, 2}, "a.png")).err.empty());
+    CHECK(fixture.run({"verify", "a.png", "scene.json", "--quiet"}).code == 0);
     // They cannot be merged with a part that has Options.
-    REQUIRE(workshop.run(part(2, 2)).code == 0);
-    CHECK(workshop.run(merged({1, 2}, "out/a.png")).err.ends_with(": Options differs\n"));
+    REQUIRE(fixture.run(part(2, 2)).code == 0);
+    CHECK(fixture.run(merged({1, 2}, "out/a.png")).err.ends_with(": Options differs\n"));
 }
 
 TEST_CASE("one frame of several can be drawn in parts") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
-    workshop.write("move.xyz", "2\n\nC 0 0 0\nO 0 0 1\n2\n\nC 0 0 0\nO 0 1 1\n"
-                               "2\n\nC 0 0 0\nO 1 1 2\n");
+    const ToolFixture fixture;
+    fixture.write("move.xyz", "2\n\nC 0 0 0\nO 0 0 1\n2\n\nC 0 0 0\nO 0 1 1\n"
+                              "2\n\nC 0 0 0\nO 1 1 2\n");
     const auto ran = [&](const Options& command) {
-        const Outcome outcome = workshop.run(command);
+        const Outcome outcome = fixture.run(command);
         CAPTURE(command);
         CHECK(outcome.err.empty());
         CHECK(outcome.code == 0);
@@ -213,110 +213,110 @@ TEST_CASE("one frame of several can be drawn in parts") {
         std::vector<std::string> contents;
         for (const std::string k : {"1", "2", "3"}) {
             ran(frame(options, {"-o", "part-" + k + ".exr", "--part", k + "/3"}));
-            contents.push_back(content(workshop, "part-" + k + ".exr"));
+            contents.push_back(content(fixture, "part-" + k + ".exr"));
         }
         CHECK(contents[0] != contents[1]);
         CHECK(contents[1] != contents[2]);
         for (const std::string name : {"whole.exr", "whole.png"}) {
             ran(frame(options, joined({"-o", name}, floats_in(name))));
             ran(merged({3, 1, 2}, "merged-" + name));
-            CHECK(content(workshop, "merged-" + name) == content(workshop, name));
+            CHECK(content(fixture, "merged-" + name) == content(fixture, name));
             const Outcome verified =
-                workshop.run({"verify", "merged-" + name, "move.xyz", "--quiet", "--whole"});
+                fixture.run({"verify", "merged-" + name, "move.xyz", "--quiet", "--whole"});
             CHECK(verified.err.empty());
             CHECK(verified.code == 0);
         }
-        std::filesystem::remove(workshop.path() / "part-2.exr");
-        CHECK(workshop.run(merged({1, 3}, "out/a.png")).err ==
+        std::filesystem::remove(fixture.path() / "part-2.exr");
+        CHECK(fixture.run(merged({1, 3}, "out/a.png")).err ==
               "raylane: PARTS: must be all parts, 1 to 3; missing: 2\n");
     }
     // The name has the frame's number, which is known after the file is read.
     ran({"render", "move.xyz", "--quiet", "--frames", "-1", "-o", "f%02d.exr", "--part", "1/2",
          "--spp", "1"});
-    CHECK(std::filesystem::exists(workshop.path() / "f02.exr"));
-    CHECK(workshop.run({"render", "move.xyz", "--frames", "1", "-o", "out/a.png", "--part", "2/3"})
+    CHECK(std::filesystem::exists(fixture.path() / "f02.exr"));
+    CHECK(fixture.run({"render", "move.xyz", "--frames", "1", "-o", "out/a.png", "--part", "2/3"})
               .err == "raylane: --part: goes with an output that ends in .exr\n");
     // With a range, the frames are divided and not the image.
     ran({"render", "move.xyz", "--quiet", "--frames", ":", "-o", "out/t%d.png", "--part", "2/3",
          "--spp", "1"});
-    CHECK(std::filesystem::exists(workshop.output() / "t1.png"));
-    CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
+    CHECK(std::filesystem::exists(fixture.output() / "t1.png"));
+    CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 1);
 }
 
 TEST_CASE("parts with alpha or layers are not merged into a format without them") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto refused = [&](const std::string& output, const std::string& message) {
         CAPTURE(output);
-        const Outcome outcome = workshop.run(merged({2, 1}, output));
+        const Outcome outcome = fixture.run(merged({2, 1}, output));
         CHECK(outcome.code == 2);
         CHECK(outcome.err == "raylane: part-2.exr: was rendered with " + message + "\n");
     };
     const auto becomes = [&](const std::string& output) {
         CAPTURE(output);
-        const Outcome outcome = workshop.run(merged({1, 2}, output));
+        const Outcome outcome = fixture.run(merged({1, 2}, output));
         CHECK(outcome.err.empty());
         CHECK(outcome.code == 0);
     };
     const Options without_alpha = {"a.pfm", "a.hdr", "a.ppm", "a.tga", "a.bmp"};
-    draw_parts(workshop, 2, {"--alpha"});
+    draw_parts(fixture, 2, {"--alpha"});
     for (const std::string& output : without_alpha)
         refused("out/" + output, "--alpha, which goes with PNG or EXR");
-    draw_parts(workshop, 2, {"--layers"});
+    draw_parts(fixture, 2, {"--layers"});
     for (const std::string& output : joined(without_alpha, {"a.png"}))
         refused("out/" + output, "--layers, which goes with an output that ends in .exr");
-    CHECK(workshop.is_output_empty());
+    CHECK(fixture.is_output_empty());
     becomes("a.exr");
     // If the scene itself has alpha, other formats show it over black, as render does.
     std::string with_alpha = ball;
     with_alpha.insert(with_alpha.find("\"width\""), "\"alpha\": true, ");
-    workshop.write("scene.json", with_alpha);
-    draw_parts(workshop, 2);
+    fixture.write("scene.json", with_alpha);
+    draw_parts(fixture, 2);
     for (const std::string output : {"b.pfm", "b.png", "b.exr"}) {
         becomes(output);
-        REQUIRE(workshop.render("whole-" + output, floats_in(output)).code == 0);
-        CHECK(content(workshop, output) == content(workshop, "whole-" + output));
+        REQUIRE(fixture.render("whole-" + output, floats_in(output)).code == 0);
+        CHECK(content(fixture, output) == content(fixture, "whole-" + output));
     }
 }
 
 TEST_CASE("parts can be merged in any order and from scenes with different names") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
-    workshop.write("other.json", ball);
-    REQUIRE(workshop.run(part(1, 2)).code == 0);
-    REQUIRE(workshop.run({"render", "other.json", "-o", "part-2.exr", "--part", "2/2"}).code == 0);
-    REQUIRE(workshop.render("whole.png").code == 0);
-    REQUIRE(workshop.run(merged({1, 2}, "a.png")).code == 0);
-    REQUIRE(workshop.run(merged({2, 1}, "b.png")).code == 0);
-    CHECK(content(workshop, "a.png") == content(workshop, "whole.png"));
-    CHECK(content(workshop, "b.png") == content(workshop, "whole.png"));
+    const ToolFixture fixture;
+    fixture.write("other.json", ball);
+    REQUIRE(fixture.run(part(1, 2)).code == 0);
+    REQUIRE(fixture.run({"render", "other.json", "-o", "part-2.exr", "--part", "2/2"}).code == 0);
+    REQUIRE(fixture.render("whole.png").code == 0);
+    REQUIRE(fixture.run(merged({1, 2}, "a.png")).code == 0);
+    REQUIRE(fixture.run(merged({2, 1}, "b.png")).code == 0);
+    CHECK(content(fixture, "a.png") == content(fixture, "whole.png"));
+    CHECK(content(fixture, "b.png") == content(fixture, "whole.png"));
 }
 
 TEST_CASE("a part with a missing or malformed Rays attribute is refused") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
-    draw_parts(workshop, 2);
-    const scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / "part-2.exr");
+    const ToolFixture fixture;
+    draw_parts(fixture, 2);
+    const scenes::ExrPicture picture = scenes::read_own_exr(fixture.path() / "part-2.exr");
     const auto refusal = [&](const std::string& rays) {
         scenes::PictureOptions options;
         options.bits = 32;
         for (const auto& [name, text] : picture.texts)
             if (name != "Rays") options.texts.emplace_back(name, text);
         if (!rays.empty()) options.texts.emplace_back("Rays", rays);
-        scenes::OutputFile(workshop.path() / "part-2.exr", scenes::exr_of)
+        scenes::OutputFile(fixture.path() / "part-2.exr", scenes::exr_of)
             .commit(picture.film, options);
-        const Outcome outcome = workshop.run(merged({1, 2}, "out/a.png"));
+        const Outcome outcome = fixture.run(merged({1, 2}, "out/a.png"));
         CHECK(outcome.code == 2);
         CHECK(is_one_line(outcome.err));
         return outcome.err;
     };
     CHECK(refusal("many") == "raylane: part-2.exr: has a malformed \"Rays\" attribute\n");
     CHECK(refusal("").ends_with("got one without Rays\n"));
-    CHECK(workshop.is_output_empty());
+    CHECK(fixture.is_output_empty());
 }
 
 TEST_CASE("verify understands the selection that an image names") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     std::string atoms;
     double z = 0.0;
     for (const char* name : {" P  ", " C5'", " O5\"", " C\\ ", " N`1", " CA "}) {
@@ -328,18 +328,18 @@ TEST_CASE("verify understands the selection that an image names") {
         atoms += line;
         z += 2.0;
     }
-    workshop.write("atoms.pdb", atoms + "END\n");
+    fixture.write("atoms.pdb", atoms + "END\n");
     const auto shown = [&](const std::string& selection) {
         CAPTURE(selection);
-        const Outcome drawn = workshop.run({"render", "atoms.pdb", "-o", "a.png", "--size", "60x40",
-                                            "--spp", "1", "--quiet", "--select", selection});
+        const Outcome drawn = fixture.run({"render", "atoms.pdb", "-o", "a.png", "--size", "60x40",
+                                           "--spp", "1", "--quiet", "--select", selection});
         CHECK(drawn.err.empty());
         REQUIRE(drawn.code == 0);
-        const Outcome verified = workshop.run({"verify", "a.png", "atoms.pdb", "--quiet"});
+        const Outcome verified = fixture.run({"verify", "a.png", "atoms.pdb", "--quiet"});
         CHECK(verified.err.empty());
         CHECK(verified.out.starts_with("scene      same as the image names\n"));
         CHECK(verified.code == 0);
-        return content(workshop, "a.png");
+        return content(fixture, "a.png");
     };
     const std::string both = shown("name P or name C5'");
     CHECK(shown("name P\tor name C5'") == both);
@@ -353,45 +353,45 @@ TEST_CASE("verify understands the selection that an image names") {
 }
 
 TEST_CASE("a part is K/N and goes with floats in an EXR") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     for (const char* text : {"", "3", "0/3", "4/3", "1/0", "-1/3", "1/3/5", "a/b", "1/1e3"}) {
-        const Outcome outcome = workshop.render("a.exr", {"--part", text});
+        const Outcome outcome = fixture.render("a.exr", {"--part", text});
         CHECK(outcome.code == 2);
         CHECK(is_one_line(outcome.err));
         CHECK(outcome.err.starts_with("raylane: --part: must be K/N, from 1/N to N/N, such as "));
     }
-    CHECK(workshop.render("a.png", {"--part", "1/2"}).err ==
+    CHECK(fixture.render("a.png", {"--part", "1/2"}).err ==
           "raylane: --part: goes with an output that ends in .exr\n");
-    CHECK(workshop.render("a.exr", {"--part", "1/2", "--bits", "16"}).err ==
+    CHECK(fixture.render("a.exr", {"--part", "1/2", "--bits", "16"}).err ==
           "raylane: --part: goes with --bits 32\n");
 }
 
 TEST_CASE("the figures of a part count its pixels alone") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
+    const ToolFixture fixture;
     for (const Options& options :
          {Options{"--size", "64x48"}, {"--size", "100x90", "--crop", "10,10,70x60", "--tile", "8"}})
         for (int number = 1; number <= 3; ++number) {
-            const Outcome outcome = workshop.run(
+            const Outcome outcome = fixture.run(
                 part(number, 3, joined({"--spp", "4", "--stats", "s.json", "-v"}, options)));
             CAPTURE(options, number, outcome.err);
             REQUIRE(outcome.code == 0);
-            const auto stats = nlohmann::json::parse(content(workshop, "s.json"));
+            const auto stats = nlohmann::json::parse(content(fixture, "s.json"));
             CHECK(stats["samples_per_pixel"] == 4);
             CHECK(outcome.err.find(" pixels, 4 samples each, ") != std::string::npos);
         }
     // A part without a tile.
-    REQUIRE(workshop.run(part(5, 5, {"--stats", "s.json"})).code == 0);
-    CHECK(nlohmann::json::parse(content(workshop, "s.json"))["samples_per_pixel"] == 0);
+    REQUIRE(fixture.run(part(5, 5, {"--stats", "s.json"})).code == 0);
+    CHECK(nlohmann::json::parse(content(fixture, "s.json"))["samples_per_pixel"] == 0);
 }
 
 TEST_CASE("parts can be merged and verified without their instruction set") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
+    const ToolFixture fixture;
     std::string absent;
-    draw_parts(workshop, 2, {"--precision", "robust"});
+    draw_parts(fixture, 2, {"--precision", "robust"});
     for (const char* name : {"part-1.exr", "part-2.exr"}) {
-        const scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / name);
+        const scenes::ExrPicture picture = scenes::read_own_exr(fixture.path() / name);
         scenes::PictureOptions options{.bits = 32, .texts = picture.texts};
         // The hash includes the instruction set that drew the part.
         std::erase_if(options.texts, [](const auto& text) { return text.first == "Options"; });
@@ -402,16 +402,16 @@ TEST_CASE("parts can be merged and verified without their instruction set") {
                 absent = text.find("neon", at) == std::string::npos ? "neon" : "avx2";
                 text.replace(at, text.find(' ', at + 7) - at, " --isa " + absent);
             }
-        scenes::OutputFile(workshop.path() / name, scenes::exr_of).commit(picture.film, options);
+        scenes::OutputFile(fixture.path() / name, scenes::exr_of).commit(picture.film, options);
     }
-    const Outcome outcome = workshop.run(merged({1, 2}, "whole.exr"));
+    const Outcome outcome = fixture.run(merged({1, 2}, "whole.exr"));
     CHECK(outcome.err.empty());
     CHECK(outcome.code == 0);
     const Options verify = {"verify", "whole.exr", "scene.json", "--quiet"};
-    CHECK(workshop.run(verify).err.empty());
-    CHECK(workshop.run(verify).code == 0);
+    CHECK(fixture.run(verify).err.empty());
+    CHECK(fixture.run(verify).code == 0);
     // --whole renders with the named instruction set, which is missing.
-    const Outcome again = workshop.run(joined(verify, {"--whole"}));
+    const Outcome again = fixture.run(joined(verify, {"--whole"}));
     CHECK(again.code == 2);
     CHECK(again.err.starts_with("raylane: --isa: raylane was built without " + absent +
                                 "; available: "));
@@ -419,23 +419,23 @@ TEST_CASE("parts can be merged and verified without their instruction set") {
 
 TEST_CASE("an interrupted part resumes") {
     if (!scenes::has_exr()) return;
-    const Workshop workshop;
-    const std::filesystem::path journal = workshop.path() / "part-2.exr.part";
+    const ToolFixture fixture;
+    const std::filesystem::path journal = fixture.path() / "part-2.exr.part";
     // A fast machine needs more samples, or the rendering ends before the signal.
     for (const char* samples : {"16", "16", "16", "64", "256", "1024", "4096"}) {
         const Options options = {"--size", "1200x1200", "--spp", samples};
-        Process process = workshop.start(part(2, 2, options), on_terminal());
+        Process process = fixture.start(part(2, 2, options), on_terminal());
         static_cast<void>(process.wait_for_err(" left")); // a tile is done
         process.send(SIGTERM);
         const Outcome stopped = process.wait();
         if (!std::filesystem::exists(journal)) continue;
         CHECK(stopped.code == 128 + SIGTERM);
-        const Outcome resumed = workshop.run(part(2, 2, options));
+        const Outcome resumed = fixture.run(part(2, 2, options));
         CHECK(resumed.code == 0);
         CHECK(resumed.err.find("resumes at ") != std::string::npos);
-        const std::string picture = content_of(workshop.path() / "part-2.exr");
-        CHECK(workshop.run(part(2, 2, joined(options, {"--no-resume"}))).code == 0);
-        CHECK((content_of(workshop.path() / "part-2.exr") == picture));
+        const std::string picture = content_of(fixture.path() / "part-2.exr");
+        CHECK(fixture.run(part(2, 2, joined(options, {"--no-resume"}))).code == 0);
+        CHECK((content_of(fixture.path() / "part-2.exr") == picture));
         return;
     }
     FAIL("no signal came before the end");

@@ -1,7 +1,7 @@
 #include "scenes/image/exr.hpp"
 #include "scenes/image/reader.hpp"
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 /// Tests of options for the drawn part of an image and for its file.
 using namespace raylane;
@@ -11,28 +11,28 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-std::string error_of(const Workshop& workshop, const std::string& name, const Options& options) {
-    const Outcome outcome = workshop.render(name, options);
+std::string error_of(const ToolFixture& fixture, const std::string& name, const Options& options) {
+    const Outcome outcome = fixture.render(name, options);
     CHECK(outcome.code == 2);
     CHECK(is_one_line(outcome.err));
-    CHECK(!std::filesystem::exists(workshop.path() / name));
+    CHECK(!std::filesystem::exists(fixture.path() / name));
     return outcome.err;
 }
 
-scenes::Image picture(const Workshop& workshop, const std::string& name, const Options& options) {
-    REQUIRE(workshop.render(name, options).code == 0);
-    return scenes::read_image(workshop.path() / name);
+scenes::Image picture(const ToolFixture& fixture, const std::string& name, const Options& options) {
+    REQUIRE(fixture.render(name, options).code == 0);
+    return scenes::read_image(fixture.path() / name);
 }
 
 } // namespace
 
 TEST_CASE("a crop has the pixels of the whole image") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     for (const Options& sampling : {Options{"--spp", "4"}, {"--quality", "40"}}) {
         const Options options = joined(sampling, {"--size", "40x30", "--outline", "2"});
-        const scenes::Image whole = picture(workshop, "whole.pfm", options);
+        const scenes::Image whole = picture(fixture, "whole.pfm", options);
         const scenes::Image part =
-            picture(workshop, "part.pfm", joined(options, {"--crop", "7,3,21x19"}));
+            picture(fixture, "part.pfm", joined(options, {"--crop", "7,3,21x19"}));
         REQUIRE(part.width == 21);
         REQUIRE(part.height == 19);
         for (int y = 0; y < 19; ++y)
@@ -43,25 +43,25 @@ TEST_CASE("a crop has the pixels of the whole image") {
 }
 
 TEST_CASE("an image records how it was made but not where or when") {
-    const Workshop workshop;
-    REQUIRE(workshop.render("a.png", {"--spp", "4", "--dpi", "300"}).code == 0);
-    REQUIRE(workshop.render("b.png", {"--spp", "4", "--dpi", "300", "--threads", "1"}).code == 0);
-    const std::string content = content_of(workshop.path() / "a.png");
-    CHECK(content == content_of(workshop.path() / "b.png"));
+    const ToolFixture fixture;
+    REQUIRE(fixture.render("a.png", {"--spp", "4", "--dpi", "300"}).code == 0);
+    REQUIRE(fixture.render("b.png", {"--spp", "4", "--dpi", "300", "--threads", "1"}).code == 0);
+    const std::string content = content_of(fixture.path() / "a.png");
+    CHECK(content == content_of(fixture.path() / "b.png"));
     CHECK(content.find("scene.json") != std::string::npos);
     CHECK(content.find("raylane " RAYLANE_VERSION) != std::string::npos);
     CHECK(content.find("--size 16x12 --spp 4 ") != std::string::npos);
     CHECK(content.find("pHYs") != std::string::npos);
-    CHECK(content.find(workshop.path().string()) == std::string::npos);
+    CHECK(content.find(fixture.path().string()) == std::string::npos);
 }
 
 TEST_CASE("outlines are drawn by the scene's settings or the command line's") {
     std::string outlined = ball;
     outlined.insert(1, R"("outline": {"width": 2, "color": "#00ff00"}, )");
-    const Workshop plain, with_outline(outlined);
-    const auto bytes_of = [](const Workshop& workshop, const Options& options) {
-        REQUIRE(workshop.render("a.pfm", options).code == 0);
-        return content_of(workshop.path() / "a.pfm");
+    const ToolFixture plain, with_outline(outlined);
+    const auto bytes_of = [](const ToolFixture& fixture, const Options& options) {
+        REQUIRE(fixture.render("a.pfm", options).code == 0);
+        return content_of(fixture.path() / "a.pfm");
     };
     const Options asked = {"--outline", "2", "--outline-color", "#00ff00"};
     CHECK(bytes_of(with_outline, {}) == bytes_of(plain, asked));
@@ -72,8 +72,8 @@ TEST_CASE("outlines are drawn by the scene's settings or the command line's") {
 TEST_CASE("the option --alpha leaves the background out") {
     std::string without = ball;
     without.replace(without.find("\"width\""), 0, "\"alpha\": true, ");
-    const Workshop workshop, by_scene(without);
-    const scenes::Image asked = picture(workshop, "a.png", {"--alpha"});
+    const ToolFixture fixture, by_scene(without);
+    const scenes::Image asked = picture(fixture, "a.png", {"--alpha"});
     REQUIRE(asked.alpha.size() == 16 * 12);
     CHECK(asked.alpha[0] == 0.0F);
     CHECK(asked.rgb[2] == 0.0F);
@@ -89,65 +89,64 @@ TEST_CASE("the option --alpha leaves the background out") {
     };
     CHECK(comment(asked) == comment(own) + " --alpha");
     CHECK(by_scene.run({"verify", "a.png", "scene.json", "--whole", "-q"}).code == 0);
-    CHECK(workshop.run({"verify", "a.png", "scene.json", "--whole", "-q"}).code == 0);
-    CHECK(picture(workshop, "b.png", {}).alpha.size() == 0);
-    CHECK(workshop.run({"compare", "a.png", "a.png"}).code == 0);
-    CHECK(workshop.run({"compare", "a.png", "b.png"}).code == 1);
+    CHECK(fixture.run({"verify", "a.png", "scene.json", "--whole", "-q"}).code == 0);
+    CHECK(picture(fixture, "b.png", {}).alpha.size() == 0);
+    CHECK(fixture.run({"compare", "a.png", "a.png"}).code == 0);
+    CHECK(fixture.run({"compare", "a.png", "b.png"}).code == 1);
     // Other formats show the image over black.
     CHECK(picture(by_scene, "a.pfm", {}).rgb[2] == 0.0F);
-    CHECK(error_of(workshop, "a.pfm", {"--alpha"}) == "raylane: --alpha: goes with PNG or EXR\n");
+    CHECK(error_of(fixture, "a.pfm", {"--alpha"}) == "raylane: --alpha: goes with PNG or EXR\n");
     if (!scenes::has_exr()) return;
-    const scenes::Image exr = picture(workshop, "a.exr", {"--alpha", "--bits", "32"});
+    const scenes::Image exr = picture(fixture, "a.exr", {"--alpha", "--bits", "32"});
     CHECK(exr.rgb.floats() == picture(by_scene, "a.pfm", {}).rgb.floats());
     CHECK(exr.alpha[6 * 16 + 8] == 1.0F);
 }
 
 TEST_CASE("options that an image cannot have give an error of one line") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::string crop = "raylane: --crop: must be X,Y,WIDTHxHEIGHT in pixels from the upper "
                              "left corner, such as 100,50,320x240, got \"";
     for (const std::string text : {"", "1", "1,2", "1,2,3", "1,2,3x", "1,2,0x4", "-1,2,3x4",
                                    "1,2,3x4x5", "1,2,3,4", "a,b,cxd", "1,2,99999999999x3"})
-        CHECK(error_of(workshop, "a.png", {"--crop", text}) == crop + text + "\"\n");
-    CHECK(error_of(workshop, "a.png", {"--crop", "10,0,7x3"}) ==
+        CHECK(error_of(fixture, "a.png", {"--crop", text}) == crop + text + "\"\n");
+    CHECK(error_of(fixture, "a.png", {"--crop", "10,0,7x3"}) ==
           "raylane: --crop: must lie in the image of 16 x 12 pixels, got \"10,0,7x3\"\n");
-    CHECK(error_of(workshop, "a.png", {"--layers"}) ==
+    CHECK(error_of(fixture, "a.png", {"--layers"}) ==
           "raylane: --layers: goes with an output that ends in .exr\n");
-    CHECK(error_of(workshop, "a.pfm", {"--dpi", "300"}) ==
-          "raylane: --dpi: goes with PNG or EXR\n");
-    CHECK(error_of(workshop, "a.hdr", {"--bits", "16"}) ==
+    CHECK(error_of(fixture, "a.pfm", {"--dpi", "300"}) == "raylane: --dpi: goes with PNG or EXR\n");
+    CHECK(error_of(fixture, "a.hdr", {"--bits", "16"}) ==
           "raylane: --bits: goes with PNG or EXR\n");
-    CHECK(error_of(workshop, "a.png", {"--bits", "32"}) ==
+    CHECK(error_of(fixture, "a.png", {"--bits", "32"}) ==
           "raylane: --bits: must be 8 or 16 in PNG, got \"32\"\n");
-    CHECK(error_of(workshop, "a.png", {"--bits", "12"}) ==
+    CHECK(error_of(fixture, "a.png", {"--bits", "12"}) ==
           "raylane: --bits: must be 8, 16 or 32, got \"12\"\n");
-    CHECK(error_of(workshop, "a.png", {"--dpi", "0"}) ==
+    CHECK(error_of(fixture, "a.png", {"--dpi", "0"}) ==
           "raylane: --dpi: must be a number from 1 to 10000, got \"0\"\n");
-    CHECK(error_of(workshop, "a.png", {"--outline", "33"}) ==
+    CHECK(error_of(fixture, "a.png", {"--outline", "33"}) ==
           "raylane: --outline: must be a number from 0 to 32, got \"33\"\n");
-    CHECK(error_of(workshop, "a.png", {"--outline", "1", "--outline-color", "red"}) ==
+    CHECK(error_of(fixture, "a.png", {"--outline", "1", "--outline-color", "red"}) ==
           "raylane: --outline-color: must be #rrggbb, such as #204060, got \"red\"\n");
-    CHECK(error_of(workshop, "a.png", {"--outline-color", "#ff0000"}) ==
+    CHECK(error_of(fixture, "a.png", {"--outline-color", "#ff0000"}) ==
           "raylane: --outline-color: goes with --outline\n");
 }
 
 TEST_CASE("layers are written to an EXR") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     if (!scenes::has_exr()) {
-        CHECK(error_of(workshop, "a.exr", {}) == "raylane: --output: must be .png, .hdr or .pfm: "
-                                                 "raylane was built without libopenexr-dev\n");
+        CHECK(error_of(fixture, "a.exr", {}) == "raylane: --output: must be .png, .hdr or .pfm: "
+                                                "raylane was built without libopenexr-dev\n");
         return;
     }
-    CHECK(error_of(workshop, "a.exr", {"--bits", "8"}) ==
+    CHECK(error_of(fixture, "a.exr", {"--bits", "8"}) ==
           "raylane: --bits: must be 16 or 32 in EXR, got \"8\"\n");
     const Options options = {"--layers", "--bits", "32"};
-    const scenes::Image image = picture(workshop, "a.exr", options);
-    const scenes::Image floats = picture(workshop, "a.pfm", {});
+    const scenes::Image image = picture(fixture, "a.exr", options);
+    const scenes::Image floats = picture(fixture, "a.pfm", {});
     CHECK(image.rgb.floats() == floats.rgb.floats());
-    CHECK(workshop.run({"compare", "a.exr", "a.pfm"}).code == 0);
-    const std::string content = content_of(workshop.path() / "a.exr");
+    CHECK(fixture.run({"compare", "a.exr", "a.pfm"}).code == 0);
+    const std::string content = content_of(fixture.path() / "a.exr");
     for (const char* name : {"id.material", "id.shape", "samples", "N.X"})
         CHECK(content.find(name) != std::string::npos);
-    REQUIRE(workshop.render("b.exr", joined(options, {"--threads", "3", "--tile", "8"})).code == 0);
-    CHECK(content == content_of(workshop.path() / "b.exr"));
+    REQUIRE(fixture.render("b.exr", joined(options, {"--threads", "3", "--tile", "8"})).code == 0);
+    CHECK(content == content_of(fixture.path() / "b.exr"));
 }

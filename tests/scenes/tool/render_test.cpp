@@ -1,7 +1,7 @@
 #include "scenes/image/reader.hpp"
 #include "simd/isa.hpp"
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -13,18 +13,18 @@ namespace {
 using Options = std::vector<std::string>;
 
 /// Renders an image and returns its bytes. The rendering must succeed.
-std::string bytes_of(const Workshop& workshop, const std::string& name, const Options& options) {
-    const Outcome outcome = workshop.render(name, options);
+std::string bytes_of(const ToolFixture& fixture, const std::string& name, const Options& options) {
+    const Outcome outcome = fixture.render(name, options);
     CHECK(outcome.code == 0);
     CHECK(outcome.out.empty());
     CHECK(outcome.err.empty());
-    return content_of(workshop.path() / name);
+    return content_of(fixture.path() / name);
 }
 
-scenes::Image picture(const Workshop& workshop, const Options& options,
+scenes::Image picture(const ToolFixture& fixture, const Options& options,
                       const std::string& name = "picture.pfm") {
-    REQUIRE(workshop.render(name, options).code == 0);
-    return scenes::read_image(workshop.path() / name);
+    REQUIRE(fixture.render(name, options).code == 0);
+    return scenes::read_image(fixture.path() / name);
 }
 
 /// Returns red, green and blue of a pixel.
@@ -46,57 +46,57 @@ const std::string mirror = R"({
 } // namespace
 
 TEST_CASE("an image file does not depend on the number of threads") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     for (const char* name : {"picture.png", "picture.hdr", "picture.pfm"})
         for (const Options& engine : {Options{},
                                       {"--engine", "reference"},
                                       {"--engine", "reference", "--precision", "robust"}}) {
             const Options options = joined({"--size", "100x70", "--spp", "4"}, engine);
-            const std::string one = bytes_of(workshop, name, joined(options, {"--threads", "1"}));
+            const std::string one = bytes_of(fixture, name, joined(options, {"--threads", "1"}));
             CHECK(!one.empty());
-            CHECK(one == bytes_of(workshop, name, joined(options, {"--threads", "4"})));
-            CHECK(one == bytes_of(workshop, name, joined(options, {"--threads", "100"})));
-            CHECK(one == bytes_of(workshop, name, options));
+            CHECK(one == bytes_of(fixture, name, joined(options, {"--threads", "4"})));
+            CHECK(one == bytes_of(fixture, name, joined(options, {"--threads", "100"})));
+            CHECK(one == bytes_of(fixture, name, options));
             if (engine.empty())
-                CHECK(one == bytes_of(workshop, name, joined(options, {"--tile", "8"})));
+                CHECK(one == bytes_of(fixture, name, joined(options, {"--tile", "8"})));
         }
 }
 
 TEST_CASE("the size and the samples and the transfer can be overridden") {
-    const Workshop workshop;
-    CHECK(picture(workshop, {}).width == 16);
-    CHECK(picture(workshop, {}).height == 12);
-    const scenes::Image other = picture(workshop, {"--size", "7x9"});
+    const ToolFixture fixture;
+    CHECK(picture(fixture, {}).width == 16);
+    CHECK(picture(fixture, {}).height == 12);
+    const scenes::Image other = picture(fixture, {"--size", "7x9"});
     CHECK(other.width == 7);
     CHECK(other.height == 9);
 
-    const std::string one = bytes_of(workshop, "one.pfm", {}),
-                      nine = bytes_of(workshop, "nine.pfm", {"--spp", "9"});
+    const std::string one = bytes_of(fixture, "one.pfm", {}),
+                      nine = bytes_of(fixture, "nine.pfm", {"--spp", "9"});
     CHECK(one.size() == nine.size());
     CHECK(one != nine);
     std::string sampled = ball;
     sampled.insert(1, R"("sampling": {"grid": 3}, )");
-    CHECK(bytes_of(Workshop(sampled), "nine.pfm", {}) == nine);
-    CHECK(bytes_of(Workshop(sampled), "one.pfm", {"--spp", "1"}) == one);
+    CHECK(bytes_of(ToolFixture(sampled), "nine.pfm", {}) == nine);
+    CHECK(bytes_of(ToolFixture(sampled), "one.pfm", {"--spp", "1"}) == one);
 
-    const std::string good = bytes_of(workshop, "good.pfm", {"--quality", "40"});
+    const std::string good = bytes_of(fixture, "good.pfm", {"--quality", "40"});
     CHECK(good != one);
     sampled = ball;
     sampled.insert(1, R"("sampling": {"grid": 3, "quality": 40}, )");
-    CHECK(bytes_of(Workshop(sampled), "good.pfm", {}) == good);
-    CHECK(bytes_of(Workshop(sampled), "nine.pfm", {"--spp", "9"}) == nine);
+    CHECK(bytes_of(ToolFixture(sampled), "good.pfm", {}) == good);
+    CHECK(bytes_of(ToolFixture(sampled), "nine.pfm", {"--spp", "9"}) == nine);
 
     // The background's blue is 0.5.
-    CHECK(pixel(picture(workshop, {"--transfer", "linear"}, "p.png"), 0, 0)[2] == 128.0F / 255.0F);
-    CHECK(pixel(picture(workshop, {"--transfer", "srgb"}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
-    CHECK(pixel(picture(workshop, {}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
-    CHECK(bytes_of(workshop, "p.pfm", {"--transfer", "linear"}) == one);
+    CHECK(pixel(picture(fixture, {"--transfer", "linear"}, "p.png"), 0, 0)[2] == 128.0F / 255.0F);
+    CHECK(pixel(picture(fixture, {"--transfer", "srgb"}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
+    CHECK(pixel(picture(fixture, {}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
+    CHECK(bytes_of(fixture, "p.pfm", {"--transfer", "linear"}) == one);
 }
 
 TEST_CASE("the limits can be overridden") {
-    const Workshop workshop(mirror);
+    const ToolFixture fixture(mirror);
     const auto center = [&](const Options& options) {
-        return pixel(picture(workshop, options), 2, 2);
+        return pixel(picture(fixture, options), 2, 2);
     };
     const std::vector<float> black = {0.0F, 0.0F, 0.0F}, reflected = {0.0F, 0.0F, 0.25F};
     CHECK(center({}) == reflected);
@@ -105,24 +105,24 @@ TEST_CASE("the limits can be overridden") {
     CHECK(center({"--min-weight", "0"}) == reflected);
     CHECK(center({"--min-weight", "0.5"}) == reflected);
     CHECK(center({"--min-weight", "0.75"}) == black);
-    CHECK(pixel(picture(workshop, {"--max-depth", "0"}), 0, 0)[2] == 0.5F);
+    CHECK(pixel(picture(fixture, {"--max-depth", "0"}), 0, 0)[2] == 0.5F);
 }
 
 TEST_CASE("an image without a name has the scene's in the current folder") {
-    const Workshop workshop;
-    std::filesystem::create_directory(workshop.path() / "far");
-    workshop.write("far/ball.v2.json", ball);
-    CHECK(workshop.run({"render", "far/ball.v2.json"}).code == 0);
-    CHECK(scenes::read_image(workshop.path() / "ball.v2.png").rgb.floats() ==
-          picture(workshop, {}, "same.png").rgb.floats());
-    CHECK(std::distance(std::filesystem::directory_iterator(workshop.path() / "far"), {}) == 1);
+    const ToolFixture fixture;
+    std::filesystem::create_directory(fixture.path() / "far");
+    fixture.write("far/ball.v2.json", ball);
+    CHECK(fixture.run({"render", "far/ball.v2.json"}).code == 0);
+    CHECK(scenes::read_image(fixture.path() / "ball.v2.png").rgb.floats() ==
+          picture(fixture, {}, "same.png").rgb.floats());
+    CHECK(std::distance(std::filesystem::directory_iterator(fixture.path() / "far"), {}) == 1);
 }
 
 TEST_CASE("the figures of a rendering are JSON") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto stats = [&](const Options& options) {
-        REQUIRE(workshop.render("out/p.png", joined(options, {"--stats", "out/s.json"})).code == 0);
-        return nlohmann::ordered_json::parse(content_of(workshop.output() / "s.json"));
+        REQUIRE(fixture.render("out/p.png", joined(options, {"--stats", "out/s.json"})).code == 0);
+        return nlohmann::ordered_json::parse(content_of(fixture.output() / "s.json"));
     };
     const nlohmann::ordered_json figures =
         stats({"--size", "8x6", "--spp", "4", "--threads", "1", "--engine", "reference",
@@ -189,21 +189,21 @@ TEST_CASE("the figures of a rendering are JSON") {
     CHECK(stats({"--threads", "4"})["threads"] == 4);
 
     // A scene's name may have any bytes.
-    workshop.write("b\xFF\n.json", ball);
+    fixture.write("b\xFF\n.json", ball);
     CHECK(
-        workshop.run({"render", "b\xFF\n.json", "-o", "out/p.png", "--stats", "out/s.json"}).code ==
+        fixture.run({"render", "b\xFF\n.json", "-o", "out/p.png", "--stats", "out/s.json"}).code ==
         0);
-    CHECK(nlohmann::json::parse(content_of(workshop.output() / "s.json"))["scene"] ==
+    CHECK(nlohmann::json::parse(content_of(fixture.output() / "s.json"))["scene"] ==
           "b\\xFF\\x0A.json");
 }
 
 TEST_CASE("fingerprints depend on scene and options and not on threads or tiles") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto fingerprints = [&](const Options& options) {
-        REQUIRE(workshop.render("a.png", joined(options, {"--stats", "s.json"})).code == 0);
-        const auto stats = nlohmann::json::parse(content_of(workshop.path() / "s.json"));
+        REQUIRE(fixture.render("a.png", joined(options, {"--stats", "s.json"})).code == 0);
+        const auto stats = nlohmann::json::parse(content_of(fixture.path() / "s.json"));
         std::vector<std::string> all;
-        const scenes::Image image = scenes::read_image(workshop.path() / "a.png");
+        const scenes::Image image = scenes::read_image(fixture.path() / "a.png");
         for (const auto& [name, key] : {std::pair{"Scene", "scene_fingerprint"},
                                         {"Options", "options_fingerprint"},
                                         {"Pixels", "pixels_fingerprint"}}) {
@@ -229,23 +229,23 @@ TEST_CASE("fingerprints depend on scene and options and not on threads or tiles"
 }
 
 TEST_CASE("one frame of several can be rendered with figures") {
-    const Workshop workshop;
-    workshop.write("move.xyz", "2\n\nC 0 0 0\nO 0 0 1\n3\n\nC 0 0 0\nO 0 1 1\nO 0 2 2\n");
+    const ToolFixture fixture;
+    fixture.write("move.xyz", "2\n\nC 0 0 0\nO 0 0 1\n3\n\nC 0 0 0\nO 0 1 1\nO 0 2 2\n");
     const Options frame = {"render", "move.xyz", "--frames", "-1", "-o",      "f%d.png", "--size",
                            "20x10",  "--spp",    "4",        "-q", "--style", "spheres", "--stats"};
-    const Outcome outcome = workshop.run(joined(frame, {"s.json"}));
+    const Outcome outcome = fixture.run(joined(frame, {"s.json"}));
     CHECK(outcome.err.empty());
     REQUIRE(outcome.code == 0);
-    CHECK(std::filesystem::exists(workshop.path() / "f1.png"));
-    const auto stats = nlohmann::json::parse(content_of(workshop.path() / "s.json"));
+    CHECK(std::filesystem::exists(fixture.path() / "f1.png"));
+    const auto stats = nlohmann::json::parse(content_of(fixture.path() / "s.json"));
     CHECK(stats["scene"] == "move.xyz");
     CHECK(stats["shapes"] == 3);
     CHECK(stats["width"] == 20);
     CHECK(stats["samples_per_pixel"] == 4);
     CHECK(stats["rays"]["primary"] == 20 * 10 * 4);
-    CHECK(workshop.run(joined(frame, {"f1.png"})).err ==
+    CHECK(fixture.run(joined(frame, {"f1.png"})).err ==
           "raylane: --stats: must be another file than --output, got \"f1.png\"\n");
-    CHECK(workshop
+    CHECK(fixture
               .run({"render", "move.xyz", "--frames", "0:1", "-o", "out/f%d.png", "--stats",
                     "s.json"})
               .err == "raylane: --stats: goes with a single image, without --turn, ranges of "
@@ -253,19 +253,19 @@ TEST_CASE("one frame of several can be rendered with figures") {
 }
 
 TEST_CASE("an image and its figures cannot go into one stream") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto refused = [&](const Options& options, const std::string& got,
                              const std::string& out = "") {
         Setup setup;
         setup.out = out;
-        const Outcome outcome = workshop.run(joined({"render", "scene.json"}, options), setup);
+        const Outcome outcome = fixture.run(joined({"render", "scene.json"}, options), setup);
         CAPTURE(options, outcome.err);
         CHECK(outcome.code == 2);
         CHECK(outcome.out.empty());
         CHECK(outcome.err ==
               "raylane: --stats: must be another file than --output, got \"" + got + "\"\n");
     };
-    const std::string file = workshop.write("f", "").string();
+    const std::string file = fixture.write("f", "").string();
     for (const std::string& out : {std::string(), file}) { // a pipe or a file
         refused({"-o", "-", "--stats", "/dev/stdout"}, "/dev/stdout", out);
         refused({"-o", "-", "--stats", "/dev/fd/1"}, "/dev/fd/1", out);
@@ -274,16 +274,16 @@ TEST_CASE("an image and its figures cannot go into one stream") {
     CHECK(std::filesystem::file_size(file) == 0);
     Setup nowhere;
     nowhere.out = "/dev/null";
-    CHECK(workshop.run({"render", "scene.json", "-o", "-", "--stats", "/dev/null"}, nowhere).code ==
+    CHECK(fixture.run({"render", "scene.json", "-o", "-", "--stats", "/dev/null"}, nowhere).code ==
           0);
-    CHECK(workshop.run({"render", "scene.json", "-o", "-", "--stats", "s.json"}).code == 0);
+    CHECK(fixture.run({"render", "scene.json", "-o", "-", "--stats", "s.json"}).code == 0);
 }
 
 TEST_CASE("an image can be written to a pipe or a device") {
-    const Workshop workshop;
-    std::filesystem::create_symlink("/dev/stdout", workshop.path() / "stdout.pfm");
-    const Outcome outcome = workshop.run({"render", "scene.json", "-o", "stdout.pfm"});
+    const ToolFixture fixture;
+    std::filesystem::create_symlink("/dev/stdout", fixture.path() / "stdout.pfm");
+    const Outcome outcome = fixture.run({"render", "scene.json", "-o", "stdout.pfm"});
     CHECK(outcome.code == 0);
-    CHECK(outcome.out == bytes_of(workshop, "picture.pfm", {}));
-    CHECK(std::filesystem::is_symlink(workshop.path() / "stdout.pfm"));
+    CHECK(outcome.out == bytes_of(fixture, "picture.pfm", {}));
+    CHECK(std::filesystem::is_symlink(fixture.path() / "stdout.pfm"));
 }

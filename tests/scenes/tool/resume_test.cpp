@@ -1,6 +1,6 @@
 #include "tests/catch.hpp"
 #include "tests/sanitized.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -41,29 +41,29 @@ Options drawing_two(const std::string& samples) {
 }
 const Options second_takes_minutes = drawing_two("16384");
 
-std::string picture_of(const Workshop& workshop) {
-    return content_of(workshop.output() / "picture.png");
+std::string picture_of(const ToolFixture& fixture) {
+    return content_of(fixture.output() / "picture.png");
 }
 
 /// Renders the image without any interruption, and returns its bytes.
-std::string whole(const Workshop& workshop, const Options& command = drawing()) {
-    REQUIRE(workshop.run(joined(command, {"--no-resume"})).code == 0);
-    std::string picture = picture_of(workshop);
-    std::filesystem::remove(workshop.output() / "picture.png");
-    REQUIRE(workshop.is_output_empty());
+std::string whole(const ToolFixture& fixture, const Options& command = drawing()) {
+    REQUIRE(fixture.run(joined(command, {"--no-resume"})).code == 0);
+    std::string picture = picture_of(fixture);
+    std::filesystem::remove(fixture.output() / "picture.png");
+    REQUIRE(fixture.is_output_empty());
     return picture;
 }
 
 constexpr const char* kept_until_complete = "; not resumed, kept until this image is complete\n";
 
-bool has_journal(const Workshop& workshop) {
-    return std::filesystem::exists(workshop.output() / "picture.png.part");
+bool has_journal(const ToolFixture& fixture) {
+    return std::filesystem::exists(fixture.output() / "picture.png.part");
 }
 
 /// Writes an empty journal. An existing journal gets each tile as soon as it is drawn. The first
 /// write to it is the head.
-void begin_journal(const Workshop& workshop) {
-    workshop.write("out/picture.png.part", "");
+void begin_journal(const ToolFixture& fixture) {
+    fixture.write("out/picture.png.part", "");
 }
 
 /// Sends the signal to a held process, with a terminal as standard error, and releases it.
@@ -77,36 +77,36 @@ Outcome end_held(Process& process, Hold& hold, int signal) {
 
 /// Interrupts the rendering between two tiles, which leaves a journal. Returns the outcome, with a
 /// terminal as standard error.
-Outcome interrupt(const Workshop& workshop, int signal = SIGINT) {
-    if (!has_journal(workshop)) begin_journal(workshop);
+Outcome interrupt(const ToolFixture& fixture, int signal = SIGINT) {
+    if (!has_journal(fixture)) begin_journal(fixture);
     Hold hold("pwrite", 4);
-    Process process = workshop.start(drawing(), hold.in(on_terminal()));
+    Process process = fixture.start(drawing(), hold.in(on_terminal()));
     Outcome outcome = end_held(process, hold, signal);
-    REQUIRE(has_journal(workshop));
+    REQUIRE(has_journal(fixture));
     return outcome;
 }
 
 /// Leaves a journal of the complete image, whose file could not get its name.
-void leave_whole_journal(const Workshop& workshop) {
-    begin_journal(workshop);
+void leave_whole_journal(const ToolFixture& fixture) {
+    begin_journal(fixture);
     Hold hold("pwrite", 1);
-    Process process = workshop.start(drawing(), hold.in({}));
+    Process process = fixture.start(drawing(), hold.in({}));
     REQUIRE(hold.wait());
-    std::filesystem::create_directory(workshop.output() / "picture.png");
+    std::filesystem::create_directory(fixture.output() / "picture.png");
     hold.release();
     CHECK(process.wait().code == 3);
-    std::filesystem::remove(workshop.output() / "picture.png");
-    REQUIRE(has_journal(workshop));
+    std::filesystem::remove(fixture.output() / "picture.png");
+    REQUIRE(has_journal(fixture));
 }
 
 } // namespace
 
 TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image can be resumed") {
-    const Workshop workshop;
-    const std::string expected = whole(workshop);
+    const ToolFixture fixture;
+    const std::string expected = whole(fixture);
     const std::string goes_on = " %; the same command resumes from out/picture.png.part";
     for (const int signal : {SIGINT, SIGTERM}) {
-        const Outcome stopped = interrupt(workshop, signal);
+        const Outcome stopped = interrupt(fixture, signal);
         CAPTURE(stopped.err);
         CHECK(stopped.code == 128 + signal);
         CHECK(stopped.exited);
@@ -117,7 +117,7 @@ TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image 
         CHECK(last_line(stopped.err).ends_with(goes_on));
         // The same with a pipe as standard error. A single thread gets the signal at the held call.
         Hold hold("pwrite", 1);
-        Process process = workshop.start(drawing({}, "1"), hold.in({}));
+        Process process = fixture.start(drawing({}, "1"), hold.in({}));
         REQUIRE(hold.wait());
         process.send(signal);
         hold.release();
@@ -129,12 +129,12 @@ TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image 
         CHECK(is_one_line(err));
         CHECK(err.starts_with("raylane: stopped at "));
         CHECK(err.ends_with(goes_on + "\n"));
-        const Outcome resumed = workshop.run(drawing());
+        const Outcome resumed = fixture.run(drawing());
         CHECK(resumed.code == 0);
         CHECK(resumed.err.starts_with("raylane: out/picture.png.part: resumes at "));
-        CHECK(picture_of(workshop) == expected);
-        CHECK(!has_journal(workshop));
-        std::filesystem::remove(workshop.output() / "picture.png");
+        CHECK(picture_of(fixture) == expected);
+        CHECK(!has_journal(fixture));
+        std::filesystem::remove(fixture.output() / "picture.png");
     }
 }
 
@@ -146,8 +146,8 @@ TEST_CASE("the second signal ends a rendering at once and keeps the finished til
         return process.wait();
     };
     SECTION("without a journal") {
-        const Workshop workshop;
-        Process process = workshop.start(
+        const ToolFixture fixture;
+        Process process = fixture.start(
             joined({"render", "scene.json", "-o", "out/picture.png"}, hours), on_terminal());
         REQUIRE(process.wait_for_err("rays/s"));
         const Outcome outcome = end_by_two(process);
@@ -155,20 +155,20 @@ TEST_CASE("the second signal ends a rendering at once and keeps the finished til
         CHECK(outcome.exited);
         // The first signal is enough if no tile has begun.
         CHECK((outcome.code == 128 + SIGINT || outcome.code == 128 + SIGTERM));
-        CHECK(workshop.is_output_empty()); // no tile was finished
+        CHECK(fixture.is_output_empty()); // no tile was finished
     }
     SECTION("while a tile is written") {
-        const Workshop workshop(two_tiles);
+        const ToolFixture fixture(two_tiles);
         for (const int kept : {0, 1}) {
-            begin_journal(workshop);
+            begin_journal(fixture);
             Hold hold("pwrite", 2 + kept);
-            Process process = workshop.start(drawing_two("16"), hold.in(on_terminal()));
+            Process process = fixture.start(drawing_two("16"), hold.in(on_terminal()));
             REQUIRE(hold.wait());
             const Outcome outcome = end_by_two(process);
             CAPTURE(outcome.err);
             CHECK(outcome.exited);
             CHECK(outcome.code == 128 + SIGINT);
-            CHECK(messages_in(workshop.run(drawing_two("16")).err) ==
+            CHECK(messages_in(fixture.run(drawing_two("16")).err) ==
                   "raylane: out/picture.png.part: resumes at " + std::to_string(50 * kept) +
                       " %\n");
         }
@@ -176,63 +176,63 @@ TEST_CASE("the second signal ends a rendering at once and keeps the finished til
 }
 
 TEST_CASE("a rendering that is killed fifty times at any moment has the same bits in the end") {
-    const Workshop workshop;
-    const std::string expected = whole(workshop);
-    static_cast<void>(interrupt(workshop));
+    const ToolFixture fixture;
+    const std::string expected = whole(fixture);
+    static_cast<void>(interrupt(fixture));
     std::mt19937 random(7);
     for (int killed = 0; killed < 25; ++killed) { // while a new tile is written
         const Hold hold("pwrite", 1 + static_cast<int>(random() % 3));
-        Process process = workshop.start(drawing(), hold.in({}));
+        Process process = fixture.start(drawing(), hold.in({}));
         REQUIRE(hold.wait());
         process.send(SIGKILL);
         CHECK(!process.wait().exited);
     }
     for (int killed = 0; killed < 25; ++killed) { // at any moment, perhaps after its end
-        if (!has_journal(workshop)) static_cast<void>(interrupt(workshop));
-        Process process = workshop.start(drawing());
+        if (!has_journal(fixture)) static_cast<void>(interrupt(fixture));
+        Process process = fixture.start(drawing());
         std::this_thread::sleep_for(std::chrono::milliseconds(random() % 120));
         process.send(SIGKILL);
         static_cast<void>(process.wait());
     }
-    CHECK(workshop.run(drawing()).code == 0);
-    CHECK(picture_of(workshop) == expected);
-    CHECK(workshop.names().size() == 2);
-    CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
+    CHECK(fixture.run(drawing()).code == 0);
+    CHECK(picture_of(fixture) == expected);
+    CHECK(fixture.names().size() == 2);
+    CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 1);
 }
 
 TEST_CASE("a journal of another scene or other options is reported and not resumed") {
-    const Workshop workshop;
-    const std::string expected = whole(workshop);
-    static_cast<void>(interrupt(workshop));
+    const ToolFixture fixture;
+    const std::string expected = whole(fixture);
+    static_cast<void>(interrupt(fixture));
     const auto told = [&](const Options& options, const std::string& what) {
-        const std::string journal = content_of(workshop.output() / "picture.png.part");
-        const Outcome outcome = workshop.run(drawing(options));
+        const std::string journal = content_of(fixture.output() / "picture.png.part");
+        const Outcome outcome = fixture.run(drawing(options));
         CHECK(outcome.code == 0);
         CHECK(messages_in(outcome.err) ==
               "raylane: out/picture.png.part: belongs to " + what + kept_until_complete);
-        CHECK(!has_journal(workshop));
-        workshop.write("out/picture.png.part", journal);
+        CHECK(!has_journal(fixture));
+        fixture.write("out/picture.png.part", journal);
     };
     told({"--max-depth", "1"}, "other options or another version");
     told({"--alpha"}, "other options or another version");
     told({"--crop", "0,0,100x100"}, "other options or another version");
     told({"--engine", "reference", "--crop", "0,0,10x10"}, "other options or another version");
-    const std::string scene = content_of(workshop.path() / "scene.json");
+    const std::string scene = content_of(fixture.path() / "scene.json");
     std::string other = scene;
     other.replace(other.find("0.5]"), 4, "0.4]");
-    workshop.write("scene.json", other);
+    fixture.write("scene.json", other);
     told({}, "another scene");
-    workshop.write("scene.json", scene);
-    CHECK(workshop.run(drawing()).err.starts_with("raylane: out/picture.png.part: resumes at "));
-    CHECK(picture_of(workshop) == expected);
+    fixture.write("scene.json", scene);
+    CHECK(fixture.run(drawing()).err.starts_with("raylane: out/picture.png.part: resumes at "));
+    CHECK(picture_of(fixture) == expected);
 }
 
 TEST_CASE("the rays per second of a resumed image are those of the last run alone") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto figures = [&] {
-        const Outcome outcome = workshop.run(drawing({"--stats", "stats.json"}));
+        const Outcome outcome = fixture.run(drawing({"--stats", "stats.json"}));
         CHECK(outcome.code == 0);
-        return nlohmann::json::parse(content_of(workshop.path() / "stats.json"));
+        return nlohmann::json::parse(content_of(fixture.path() / "stats.json"));
     };
     const auto rays_now = [](const nlohmann::json& stats) {
         return stats["rays_per_second"].get<double>() * stats["seconds"]["render"].get<double>();
@@ -240,8 +240,8 @@ TEST_CASE("the rays per second of a resumed image are those of the last run alon
     const nlohmann::json at_once = figures();
     const double total = at_once["rays"]["total"];
     CHECK(std::abs(rays_now(at_once) - total) < 0.5);
-    std::filesystem::remove(workshop.output() / "picture.png");
-    static_cast<void>(interrupt(workshop));
+    std::filesystem::remove(fixture.output() / "picture.png");
+    static_cast<void>(interrupt(fixture));
     const nlohmann::json resumed = figures();
     CHECK(resumed["rays"] == at_once["rays"]);
     CHECK(resumed["samples_per_pixel"] == 4);
@@ -249,34 +249,34 @@ TEST_CASE("the rays per second of a resumed image are those of the last run alon
 }
 
 TEST_CASE("a foreign file and a journal in use are left alone") {
-    const Workshop workshop;
-    const std::string expected = whole(workshop);
-    workshop.write("out/picture.png.part", "mine");
-    const Outcome outcome = workshop.run(drawing());
+    const ToolFixture fixture;
+    const std::string expected = whole(fixture);
+    fixture.write("out/picture.png.part", "mine");
+    const Outcome outcome = fixture.run(drawing());
     CHECK(outcome.code == 0);
     CHECK(messages_in(outcome.err) == "raylane: out/picture.png.part: is not a checkpoint of this "
                                       "user; rendering without a checkpoint\n");
-    CHECK(content_of(workshop.output() / "picture.png.part") == "mine");
-    CHECK((picture_of(workshop) == expected));
-    std::filesystem::remove(workshop.output() / "picture.png.part");
+    CHECK(content_of(fixture.output() / "picture.png.part") == "mine");
+    CHECK((picture_of(fixture) == expected));
+    std::filesystem::remove(fixture.output() / "picture.png.part");
 
-    static_cast<void>(interrupt(workshop));
+    static_cast<void>(interrupt(fixture));
     Hold hold("pwrite", 1);
-    Process first = workshop.start(drawing(), hold.in({}));
+    Process first = fixture.start(drawing(), hold.in({}));
     REQUIRE(hold.wait());
-    const Outcome second = workshop.run(drawing());
+    const Outcome second = fixture.run(drawing());
     hold.release();
     CHECK(second.code == 0);
     CHECK(second.err.find("is in use; rendering without a checkpoint") != std::string::npos);
     CHECK(first.wait().code == 0);
-    CHECK((picture_of(workshop) == expected));
+    CHECK((picture_of(fixture) == expected));
 }
 
 TEST_CASE("an image is drawn even if the disk has no space for a journal") {
-    const Workshop workshop;
-    const std::string expected = whole(workshop);
-    static_cast<void>(interrupt(workshop));
-    const auto had = std::filesystem::file_size(workshop.output() / "picture.png.part");
+    const ToolFixture fixture;
+    const std::string expected = whole(fixture);
+    static_cast<void>(interrupt(fixture));
+    const auto had = std::filesystem::file_size(fixture.output() / "picture.png.part");
     Setup limited;
     // Too little for all tiles, but enough for the image.
     const rlim_t room = std::max<rlim_t>(had, expected.size()) + 1000;
@@ -284,61 +284,61 @@ TEST_CASE("an image is drawn even if the disk has no space for a journal") {
         const rlimit limit{room, room};
         ::setrlimit(RLIMIT_FSIZE, &limit);
     };
-    const Outcome outcome = workshop.run(drawing(), limited);
+    const Outcome outcome = fixture.run(drawing(), limited);
     CHECK(outcome.code == 0);
     CHECK(count_of("raylane: out/picture.png.part: cannot write: File too large\n", outcome.err) ==
           1);
-    CHECK(picture_of(workshop) == expected);
-    CHECK(!has_journal(workshop));
+    CHECK(picture_of(fixture) == expected);
+    CHECK(!has_journal(fixture));
 }
 
 TEST_CASE("a journal that has filled the disk gives its space to the image") {
-    const Workshop workshop;
-    const std::string expected = whole(workshop);
+    const ToolFixture fixture;
+    const std::string expected = whole(fixture);
     // The missing tiles have more bytes than the image.
-    const std::filesystem::path journal = workshop.output() / "picture.png.part";
+    const std::filesystem::path journal = fixture.output() / "picture.png.part";
     const std::size_t pixels = sanitized ? 800 * 800 : 1000 * 1000;
-    static_cast<void>(interrupt(workshop));
+    static_cast<void>(interrupt(fixture));
     const std::string kept = content_of(journal);
     REQUIRE(12 * pixels > kept.size() + expected.size() + (1 << 20));
     const std::string room =
         "size=" + std::to_string(std::max(kept.size(), expected.size()) + (1 << 18));
     const bool mounted = ::unshare(CLONE_NEWNS) == 0 &&
                          ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
-                         ::mount("none", workshop.output().c_str(), "tmpfs", 0, room.c_str()) == 0;
+                         ::mount("none", fixture.output().c_str(), "tmpfs", 0, room.c_str()) == 0;
     if (!mounted) {
         WARN("skipped: no file system can be mounted here");
         return;
     }
-    workshop.write("out/picture.png.part", kept);
-    const Outcome outcome = workshop.run(drawing());
+    fixture.write("out/picture.png.part", kept);
+    const Outcome outcome = fixture.run(drawing());
     CHECK(outcome.code == 0);
     CHECK(count_of("raylane: out/picture.png.part: cannot write: No space left on device\n",
                    outcome.err) == 1);
-    CHECK(picture_of(workshop) == expected);
-    CHECK(!has_journal(workshop));
-    CHECK(::umount(workshop.output().c_str()) == 0);
+    CHECK(picture_of(fixture) == expected);
+    CHECK(!has_journal(fixture));
+    CHECK(::umount(fixture.output().c_str()) == 0);
 }
 
 TEST_CASE("a tile is kept while the next one takes long") {
-    const Workshop workshop(two_tiles);
-    Process process = workshop.start(second_takes_minutes);
-    REQUIRE(workshop.wait_for(workshop.output() / "picture.png.part"));
+    const ToolFixture fixture(two_tiles);
+    Process process = fixture.start(second_takes_minutes);
+    REQUIRE(fixture.wait_for(fixture.output() / "picture.png.part"));
     process.send(SIGKILL);
     CHECK(!process.wait().exited);
-    Process again = workshop.start(second_takes_minutes);
+    Process again = fixture.start(second_takes_minutes);
     CHECK(again.wait_for_err("raylane: out/picture.png.part: resumes at 50 %\n"));
 }
 
 TEST_CASE("The same command with another option leaves the tiles of the first") {
-    const Workshop workshop(two_tiles);
+    const ToolFixture fixture(two_tiles);
     const Options other = joined(second_takes_minutes, {"--max-depth", "11"});
     const auto journals = [&] {
-        return std::distance(std::filesystem::directory_iterator(workshop.output()), {});
+        return std::distance(std::filesystem::directory_iterator(fixture.output()), {});
     };
     std::ptrdiff_t count = 0;
     for (const Options& options : {second_takes_minutes, other}) {
-        Process process = workshop.start(options);
+        Process process = fixture.start(options);
         REQUIRE(comes_true([&] { return journals() > count; }));
         count = journals();
         process.send(SIGKILL);
@@ -346,38 +346,38 @@ TEST_CASE("The same command with another option leaves the tiles of the first") 
     }
     CHECK(count == 2);
     for (const Options& options : {second_takes_minutes, other}) {
-        Process process = workshop.start(options);
+        Process process = fixture.start(options);
         CHECK(process.wait_for_err(": resumes at 50 %\n"));
     }
 }
 
 TEST_CASE("an empty image of a sequence is drawn again") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const Options film = {"render", "scene.json", "-o", "out/f%d.png", "--turn", "90/3"};
-    REQUIRE(workshop.run(film).code == 0);
-    const std::string expected = content_of(workshop.output() / "f1.png");
-    workshop.write("out/f1.png", "");
-    CHECK(workshop.run(film).code == 0);
-    CHECK(content_of(workshop.output() / "f1.png") == expected);
+    REQUIRE(fixture.run(film).code == 0);
+    const std::string expected = content_of(fixture.output() / "f1.png");
+    fixture.write("out/f1.png", "");
+    CHECK(fixture.run(film).code == 0);
+    CHECK(content_of(fixture.output() / "f1.png") == expected);
 }
 
 TEST_CASE("a signal while the last tile is written ends the program after the whole image") {
-    const Workshop workshop(two_tiles);
-    const std::string expected = whole(workshop, drawing_two("16"));
+    const ToolFixture fixture(two_tiles);
+    const std::string expected = whole(fixture, drawing_two("16"));
     const auto end_amid_the_last = [&](const Options& command, const std::string& name) {
-        workshop.write("out/" + name + ".part", "");
+        fixture.write("out/" + name + ".part", "");
         Hold hold("pwrite", 3);
-        Process process = workshop.start(command, hold.in(on_terminal()));
+        Process process = fixture.start(command, hold.in(on_terminal()));
         const Outcome outcome = end_held(process, hold, SIGTERM);
         CAPTURE(outcome.err);
         CHECK(outcome.code == 128 + SIGTERM);
         CHECK(last_line(outcome.err) == "raylane: stopped; out/" + name + " is complete");
-        CHECK(std::filesystem::exists(workshop.output() / name));
-        CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
+        CHECK(std::filesystem::exists(fixture.output() / name));
+        CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 1);
     };
     end_amid_the_last(drawing_two("16"), "picture.png");
-    CHECK((picture_of(workshop) == expected));
-    std::filesystem::remove(workshop.output() / "picture.png");
+    CHECK((picture_of(fixture) == expected));
+    std::filesystem::remove(fixture.output() / "picture.png");
     // The first image of a sequence is whole, too, and the second is not begun.
     end_amid_the_last({"render", "scene.json", "-o", "out/f-%d.png", "--turn", "90/4", "--tile",
                        "64", "--threads", "1", "--spp", "16"},
@@ -390,43 +390,43 @@ TEST_CASE("a journal distinguishes settings of a scene that no option has") {
         std::string text = scene;
         return text.insert(1, std::string(R"("outline": {"width": 3, "color": )") + color + "},");
     };
-    const Workshop workshop(with_outline("[9, 0.3, 0.1]"));
-    static_cast<void>(interrupt(workshop));
-    workshop.write("scene.json", with_outline("[1, 0.3, 0.1]"));
-    CHECK(messages_in(workshop.run(drawing()).err) ==
+    const ToolFixture fixture(with_outline("[9, 0.3, 0.1]"));
+    static_cast<void>(interrupt(fixture));
+    fixture.write("scene.json", with_outline("[1, 0.3, 0.1]"));
+    CHECK(messages_in(fixture.run(drawing()).err) ==
           "raylane: out/picture.png.part: belongs to other options or another version" +
               std::string(kept_until_complete));
-    const std::string picture = picture_of(workshop);
-    CHECK(workshop.run(drawing({"--no-resume"})).code == 0);
-    CHECK(picture_of(workshop) == picture);
+    const std::string picture = picture_of(fixture);
+    CHECK(fixture.run(drawing({"--no-resume"})).code == 0);
+    CHECK(picture_of(fixture) == picture);
 }
 
 TEST_CASE("a journal has the permissions of the existing image") {
-    const Workshop workshop;
-    workshop.write("out/picture.png", "old");
+    const ToolFixture fixture;
+    fixture.write("out/picture.png", "old");
     const auto mode = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
-    std::filesystem::permissions(workshop.output() / "picture.png", mode);
+    std::filesystem::permissions(fixture.output() / "picture.png", mode);
     Process process =
-        workshop.start(joined({"render", "scene.json", "-o", "out/picture.png"}, minutes));
-    REQUIRE(workshop.wait_for(workshop.output() / "picture.png.part"));
-    CHECK(std::filesystem::status(workshop.output() / "picture.png.part").permissions() == mode);
+        fixture.start(joined({"render", "scene.json", "-o", "out/picture.png"}, minutes));
+    REQUIRE(fixture.wait_for(fixture.output() / "picture.png.part"));
+    CHECK(std::filesystem::status(fixture.output() / "picture.png.part").permissions() == mode);
     process.send(SIGTERM);
     CHECK(process.wait().err.ends_with("; the same command resumes from out/picture.png.part\n"));
 }
 
 TEST_CASE("a signal after the last tile leaves the whole image or its journal") {
-    const Workshop workshop;
-    const std::string expected = whole(workshop);
-    leave_whole_journal(workshop);
-    const std::string journal = content_of(workshop.output() / "picture.png.part");
+    const ToolFixture fixture;
+    const std::string expected = whole(fixture);
+    leave_whole_journal(fixture);
+    const std::string journal = content_of(fixture.output() / "picture.png.part");
     // The hundredth pread reads a tile. Then rename names the image, and unlink removes the
     // journal.
     for (const auto& [call, count] :
          {std::pair{"pread", 100}, std::pair{"rename", 1}, std::pair{"unlink", 1}}) {
         CAPTURE(call);
-        workshop.write("out/picture.png.part", journal);
+        fixture.write("out/picture.png.part", journal);
         Hold hold(call, count);
-        Process process = workshop.start(drawing({}, "1"), hold.in({}));
+        Process process = fixture.start(drawing({}, "1"), hold.in({}));
         REQUIRE(hold.wait());
         process.send(SIGTERM);
         hold.release();
@@ -442,18 +442,18 @@ TEST_CASE("a signal after the last tile leaves the whole image or its journal") 
             continue;
         }
         CHECK(said == "raylane: stopped; out/picture.png is complete\n");
-        CHECK((picture_of(workshop) == expected)); // too long to be printed
-        CHECK(!has_journal(workshop));
-        std::filesystem::remove(workshop.output() / "picture.png");
+        CHECK((picture_of(fixture) == expected)); // too long to be printed
+        CHECK(!has_journal(fixture));
+        std::filesystem::remove(fixture.output() / "picture.png");
     }
 }
 
 TEST_CASE("a sequence reports a signal at any moment between its first and last image") {
     for (int i = 0; i < 40; ++i) {
-        const Workshop workshop;
-        Process film = workshop.start({"render", "scene.json", "-o", "out/f-%d.png", "--turn",
-                                       "360/1000000", "--size", "8x8", "--threads", "1"});
-        REQUIRE(workshop.wait_for(workshop.output() / ("f-" + std::to_string(i % 7) + ".png")));
+        const ToolFixture fixture;
+        Process film = fixture.start({"render", "scene.json", "-o", "out/f-%d.png", "--turn",
+                                      "360/1000000", "--size", "8x8", "--threads", "1"});
+        REQUIRE(fixture.wait_for(fixture.output() / ("f-" + std::to_string(i % 7) + ".png")));
         film.send(i % 2 == 0 ? SIGTERM : SIGINT);
         const Outcome outcome = film.wait();
         CAPTURE(outcome.err);
@@ -464,7 +464,7 @@ TEST_CASE("a sequence reports a signal at any moment between its first and last 
 }
 
 TEST_CASE("a full disk is reported at once and the journal continues when it has space again") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     void* const shared =
         ::mmap(nullptr, sizeof(pid_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     REQUIRE(shared != MAP_FAILED);
@@ -477,12 +477,12 @@ TEST_CASE("a full disk is reported at once and the journal continues when it has
         ::setrlimit(RLIMIT_FSIZE, &limit);
     };
     Process process =
-        workshop.start(joined({"render", "scene.json", "-o", "out/picture.png"}, minutes), limited);
+        fixture.start(joined({"render", "scene.json", "-o", "out/picture.png"}, minutes), limited);
     REQUIRE(process.wait_for_err("raylane: out/picture.png.part: cannot write: File too large\n"));
     const rlimit unlimited{RLIM_INFINITY, RLIM_INFINITY};
     REQUIRE(::prlimit(*pid, RLIMIT_FSIZE, &unlimited, nullptr) == 0);
     ::munmap(shared, sizeof(pid_t));
-    const std::filesystem::path journal = workshop.output() / "picture.png.part";
+    const std::filesystem::path journal = fixture.output() / "picture.png.part";
     std::error_code none;
     CHECK(comes_true([&] {
         return std::filesystem::exists(journal) && std::filesystem::file_size(journal, none) > room;
@@ -496,37 +496,37 @@ TEST_CASE("a full disk is reported at once and the journal continues when it has
 }
 
 TEST_CASE("the target of a link has a journal unless it is a device") {
-    const Workshop workshop;
-    std::filesystem::create_directories(workshop.path() / "dev");
-    workshop.write("dev/real.png", "old");
-    std::filesystem::create_symlink(workshop.path() / "dev/real.png",
-                                    workshop.output() / "picture.png");
-    static_cast<void>(interrupt(workshop));
-    CHECK(has_journal(workshop));
+    const ToolFixture fixture;
+    std::filesystem::create_directories(fixture.path() / "dev");
+    fixture.write("dev/real.png", "old");
+    std::filesystem::create_symlink(fixture.path() / "dev/real.png",
+                                    fixture.output() / "picture.png");
+    static_cast<void>(interrupt(fixture));
+    CHECK(has_journal(fixture));
     // A journal would be reported as a foreign file.
-    workshop.write("out/stream.png.part", "mine");
-    workshop.write("out/further.png.part", "mine");
-    std::filesystem::create_symlink("/dev/stdout", workshop.output() / "stream.png");
-    std::filesystem::create_symlink("stream.png", workshop.output() / "further.png");
+    fixture.write("out/stream.png.part", "mine");
+    fixture.write("out/further.png.part", "mine");
+    std::filesystem::create_symlink("/dev/stdout", fixture.output() / "stream.png");
+    std::filesystem::create_symlink("stream.png", fixture.output() / "further.png");
     Setup to_file;
-    to_file.out = workshop.write("file.png", "");
+    to_file.out = fixture.write("file.png", "");
     for (const char* name : {"out/stream.png", "out/further.png"}) {
-        const Outcome outcome = workshop.run({"render", "scene.json", "-o", name}, to_file);
+        const Outcome outcome = fixture.run({"render", "scene.json", "-o", name}, to_file);
         CHECK(outcome.code == 0);
         CHECK(outcome.err.empty());
     }
 }
 
 TEST_CASE("a journal whose name would be too long is reported and omitted") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     for (const std::size_t length : {250, 251, 255}) {
         const std::string name = "out/" + std::string(length - 4, 'n') + ".png";
-        const Outcome outcome = workshop.render(name);
+        const Outcome outcome = fixture.render(name);
         CHECK(outcome.code == 0);
         CHECK(outcome.err ==
               (length == 250 ? ""
                              : "raylane: " + name +
                                    ".part: has too long a name; rendering without a checkpoint\n"));
-        CHECK(workshop.render(name, {"--no-resume"}).err.empty());
+        CHECK(fixture.render(name, {"--no-resume"}).err.empty());
     }
 }

@@ -1,6 +1,6 @@
 #include "tests/catch.hpp"
 #include "tests/sanitized.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <sys/resource.h>
 
@@ -19,37 +19,37 @@ std::string times(int count, const std::string& text) {
     return all;
 }
 
-Outcome render(const Workshop& workshop, const std::string& scene,
+Outcome render(const ToolFixture& fixture, const std::string& scene,
                const std::vector<std::string>& options = {}) {
     Setup setup;
     setup.in_child = [] {
         const rlimit limit{allowed, allowed};
         ::setrlimit(RLIMIT_STACK, &limit);
     };
-    return workshop.run(
+    return fixture.run(
         joined({"render", scene, "-o", "out/picture.png", "--size", "16x12", "-q"}, options),
         setup);
 }
 
 void check_drawn(const std::string& name, const std::string& scene) {
-    const Workshop workshop;
-    workshop.write(name, scene);
-    const Outcome outcome = render(workshop, name);
+    const ToolFixture fixture;
+    fixture.write(name, scene);
+    const Outcome outcome = render(fixture, name);
     CAPTURE(name, scene.substr(0, 300), outcome.err);
     CHECK(outcome.code == 0);
 }
 
 /// Checks that the scene is refused in one line. JSON may have two errors, one a line.
 void check_refused(const std::string& name, const std::string& scene) {
-    const Workshop workshop;
-    workshop.write(name, scene);
-    const Outcome outcome = render(workshop, name);
+    const ToolFixture fixture;
+    fixture.write(name, scene);
+    const Outcome outcome = render(fixture, name);
     CAPTURE(name, scene.substr(0, 300), outcome.err);
     CHECK(outcome.code == 2);
     const auto lines = std::count(outcome.err.begin(), outcome.err.end(), '\n');
     CHECK(lines >= 1);
     CHECK(lines <= (name.ends_with(".json") ? 2 : 1));
-    CHECK(workshop.is_output_empty());
+    CHECK(fixture.is_output_empty());
 }
 
 std::string json(const std::string& objects, const std::string& more = "") {
@@ -95,14 +95,14 @@ TEST_CASE("the deepest scenes are drawn with the documented stack") {
     check_drawn("shells.json",
                 json(shells, R"("limits": {"max_depth": 1000, "min_weight": 0.001}, )"));
     for (const char* engine : {"vector", "reference"}) { // two mirrors face each other
-        const Workshop workshop;
-        workshop.write("mirrors.json", R"({"camera": {"from": [0, 0, 0.5], "at": [0.1, 0, 0]},
+        const ToolFixture fixture;
+        fixture.write("mirrors.json", R"({"camera": {"from": [0, 0, 0.5], "at": [0.1, 0, 0]},
             "limits": {"max_depth": 1000, "min_weight": 0},
             "lights": [{"type": "point", "position": [0, 0, 0.75]}],
             "materials": {"m": {"reflectivity": 1, "ambient": 1}},
             "objects": [{"type": "plane", "material": "m", "point": [0, 0, 0], "normal": [0, 0, 1]},
                         {"type": "plane", "material": "m", "point": [0, 0, 1], "normal": [0, 0, -1]}]})");
-        const Outcome outcome = render(workshop, "mirrors.json", {"--engine", engine});
+        const Outcome outcome = render(fixture, "mirrors.json", {"--engine", engine});
         CAPTURE(engine, outcome.err);
         CHECK(outcome.code == 0);
     }
@@ -129,11 +129,11 @@ TEST_CASE("scenes that are too deep are refused") {
         check_refused("deep.pov",
                       pov + (is_object ? "" : "#declare A = ") + times(many / 10, start));
     }
-    const Workshop workshop;
-    workshop.write("a.xyz", "1\n\nC 0 0 0\n");
+    const ToolFixture fixture;
+    fixture.write("a.xyz", "1\n\nC 0 0 0\n");
     for (const char* start : {"(", "not ", "within 1 of "}) {
         const Outcome outcome =
-            render(workshop, "a.xyz", {"--select", times(many / 20, start) + "all"});
+            render(fixture, "a.xyz", {"--select", times(many / 20, start) + "all"});
         CAPTURE(start, outcome.err);
         CHECK(outcome.code == 2);
         CHECK(is_one_line(outcome.err));

@@ -1,5 +1,5 @@
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 using namespace raylane::tests;
 
@@ -9,8 +9,8 @@ namespace {
 const std::string red = "BEGIN_SCENE RESOLUTION 8 6 SPHERE CENTER 0 0 4 RAD 3 TEXTURE AMBIENT 1 "
                         "DIFFUSE 0 SPECULAR 0 OPACITY 1 COLOR 1 0.5 0 TEXFUNC 0 END_SCENE";
 
-Outcome draw(const Workshop& workshop, const std::vector<std::string>& options) {
-    return workshop.run(joined({"tachyon"}, options));
+Outcome draw(const ToolFixture& fixture, const std::vector<std::string>& options) {
+    return fixture.run(joined({"tachyon"}, options));
 }
 
 std::string bytes(std::initializer_list<int> codes) {
@@ -23,39 +23,38 @@ std::string bytes(std::initializer_list<int> codes) {
 } // namespace
 
 TEST_CASE("raylane tachyon accepts the command line of the program tachyon") {
-    const Workshop workshop;
-    workshop.write("a.dat", red);
+    const ToolFixture fixture;
+    fixture.write("a.dat", red);
     // This is VMD's call. The order is free.
     const Outcome outcome =
-        draw(workshop, {"-aasamples", "12", "a.dat", "-format", "TARGA", "-o", "out/a.dat.tga"});
+        draw(fixture, {"-aasamples", "12", "a.dat", "-format", "TARGA", "-o", "out/a.dat.tga"});
     CHECK(outcome.err.empty());
     CHECK(outcome.out.empty());
     REQUIRE(outcome.code == 0);
-    const std::string targa = content_of(workshop.output() / "a.dat.tga");
+    const std::string targa = content_of(fixture.output() / "a.dat.tga");
     CHECK(targa.size() >= 18 + 3 * 8 * 6);
     CHECK(targa.substr(0, 18) == bytes({0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 6, 0, 24, 0}));
     CHECK(targa.substr(18, 3) == bytes({0, 128, 255})); // blue, green, red
 
-    REQUIRE(draw(workshop, {"a.dat", "-res", "3", "2", "-format", "PPM", "-o", "out/a.ppm"}).code ==
+    REQUIRE(draw(fixture, {"a.dat", "-res", "3", "2", "-format", "PPM", "-o", "out/a.ppm"}).code ==
             0);
     std::string ppm = "P6\n3 2\n255\n";
     for (int i = 0; i < 6; ++i)
         ppm += bytes({255, 128, 0});
-    CHECK(content_of(workshop.output() / "a.ppm") == ppm);
-    REQUIRE(draw(workshop, {"a.dat", "-format", "BMP", "-o", "out/a.bmp"}).code == 0);
-    CHECK(content_of(workshop.output() / "a.bmp").starts_with("BM"));
-    REQUIRE(draw(workshop, {"a.dat", "-o", "out/a.png"}).code == 0);
-    CHECK(content_of(workshop.output() / "a.png").starts_with("\x89PNG"));
-    REQUIRE(draw(workshop, {"a.dat", "-o", "out/a.picture"}).code == 0);
-    CHECK(content_of(workshop.output() / "a.picture") ==
-          content_of(workshop.output() / "a.dat.tga"));
-    REQUIRE(draw(workshop, {"a.dat"}).code == 0);
-    CHECK(content_of(workshop.path() / "outfile.tga") == targa);
+    CHECK(content_of(fixture.output() / "a.ppm") == ppm);
+    REQUIRE(draw(fixture, {"a.dat", "-format", "BMP", "-o", "out/a.bmp"}).code == 0);
+    CHECK(content_of(fixture.output() / "a.bmp").starts_with("BM"));
+    REQUIRE(draw(fixture, {"a.dat", "-o", "out/a.png"}).code == 0);
+    CHECK(content_of(fixture.output() / "a.png").starts_with("\x89PNG"));
+    REQUIRE(draw(fixture, {"a.dat", "-o", "out/a.picture"}).code == 0);
+    CHECK(content_of(fixture.output() / "a.picture") == content_of(fixture.output() / "a.dat.tga"));
+    REQUIRE(draw(fixture, {"a.dat"}).code == 0);
+    CHECK(content_of(fixture.path() / "outfile.tga") == targa);
 }
 
 TEST_CASE("raylane tachyon takes tachyon's options") {
-    const Workshop workshop;
-    workshop.write("a.dat", red);
+    const ToolFixture fixture;
+    fixture.write("a.dat", red);
     const std::vector<std::string> all = {"+V",
                                           "-V",
                                           "-raydepth",
@@ -90,30 +89,30 @@ TEST_CASE("raylane tachyon takes tachyon's options") {
                                           "-fog_vmd",
                                           "-shadow_filter_on",
                                           "-clamp"};
-    const Outcome outcome = draw(workshop, joined(all, {"a.dat", "-o", "out/a.tga"}));
+    const Outcome outcome = draw(fixture, joined(all, {"a.dat", "-o", "out/a.tga"}));
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
     const Outcome useless =
-        draw(workshop, {"-gamma", "2", "a.dat", "-normalize", "-normalfixup", "off"});
+        draw(fixture, {"-gamma", "2", "a.dat", "-normalize", "-normalfixup", "off"});
     CHECK(useless.code == 0);
     CHECK(useless.err == "-gamma: is ignored\n-normalfixup: is ignored\n"
                          "-normalize: is ignored\n");
     CHECK(
-        draw(workshop, {"-help"}).out.starts_with("Render a scene by the command line of Tachyon"));
-    CHECK(draw(workshop, {"-version"}).code == 0);
+        draw(fixture, {"-help"}).out.starts_with("Render a scene by the command line of Tachyon"));
+    CHECK(draw(fixture, {"-version"}).code == 0);
 }
 
 TEST_CASE("raylane tachyon's options override the scene") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     // A wall that the sky lights by 0.5 and one light by 0.25.
-    workshop.write("wall.dat",
-                   "BEGIN_SCENE RESOLUTION 1 1 SHADER_MODE FULL AMBIENT_OCCLUSION AMBIENT_COLOR "
-                   "0.5 0.5 0.5 RESCALE_DIRECT 0.25 SAMPLES 4 END_SHADER_MODE DIRECTIONAL_LIGHT "
-                   "DIRECTION 0 0 1 COLOR 1 1 1 PLANE CENTER 0 0 5 NORMAL 0 0 -1 TEXTURE AMBIENT 0 "
-                   "DIFFUSE 1 SPECULAR 0 OPACITY 0.5 COLOR 1 1 1 TEXFUNC 0 END_SCENE");
+    fixture.write("wall.dat",
+                  "BEGIN_SCENE RESOLUTION 1 1 SHADER_MODE FULL AMBIENT_OCCLUSION AMBIENT_COLOR "
+                  "0.5 0.5 0.5 RESCALE_DIRECT 0.25 SAMPLES 4 END_SHADER_MODE DIRECTIONAL_LIGHT "
+                  "DIRECTION 0 0 1 COLOR 1 1 1 PLANE CENTER 0 0 5 NORMAL 0 0 -1 TEXTURE AMBIENT 0 "
+                  "DIFFUSE 1 SPECULAR 0 OPACITY 0.5 COLOR 1 1 1 TEXFUNC 0 END_SCENE");
     const auto code = [&](const std::vector<std::string>& options) {
-        REQUIRE(draw(workshop, joined({"wall.dat", "-o", "out/wall.ppm"}, options)).code == 0);
-        const std::string picture = content_of(workshop.output() / "wall.ppm");
+        REQUIRE(draw(fixture, joined({"wall.dat", "-o", "out/wall.ppm"}, options)).code == 0);
+        const std::string picture = content_of(fixture.output() / "wall.ppm");
         return static_cast<int>(static_cast<unsigned char>(picture.back()));
     };
     CHECK(code({}) == 191);
@@ -127,8 +126,8 @@ TEST_CASE("raylane tachyon's options override the scene") {
 }
 
 TEST_CASE("an invalid call of raylane tachyon gives an error of one line") {
-    const Workshop workshop;
-    workshop.write("a.dat", red);
+    const ToolFixture fixture;
+    fixture.write("a.dat", red);
     const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
         {{}, "tachyon: must be given a scene; see raylane tachyon -help"},
         {{"a.dat", "-aasample", "2"},
@@ -147,7 +146,7 @@ TEST_CASE("an invalid call of raylane tachyon gives an error of one line") {
         {{"none.dat"}, "none.dat: no such file"},
     };
     for (const auto& [options, message] : mistakes) {
-        const Outcome outcome = draw(workshop, options);
+        const Outcome outcome = draw(fixture, options);
         INFO(message);
         CHECK(outcome.code == 2);
         CHECK(outcome.err == "raylane: " + message + "\n");

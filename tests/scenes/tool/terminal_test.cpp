@@ -1,5 +1,5 @@
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <csignal>
 #include <fstream>
@@ -33,10 +33,10 @@ const std::string nff_line = "s 0 0 0 1\n";
 } // namespace
 
 TEST_CASE("a successful rendering draws no progress bar in a pipe") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     // Long enough for several drawings of a progress bar.
     const Outcome outcome =
-        workshop.render("out/picture.png", {"--size", "64x64", "--spp", "1024", "--threads", "1"});
+        fixture.render("out/picture.png", {"--size", "64x64", "--spp", "1024", "--threads", "1"});
     CHECK(outcome.code == 0);
     CHECK(outcome.out.empty());
     CHECK(messages_in(outcome.err).empty());
@@ -44,14 +44,14 @@ TEST_CASE("a successful rendering draws no progress bar in a pipe") {
 }
 
 TEST_CASE("a rendering shows its progress on a terminal and a summary at the end") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     // An existing journal gets each tile at once. The first three writes are the head and two
     // tiles.
-    workshop.write("out/picture.png.part", "");
+    fixture.write("out/picture.png.part", "");
     Hold hold("pwrite", 3);
-    Process process = workshop.start({"render", "scene.json", "-o", "out/picture.png", "--size",
-                                      "64x64", "--tile", "16", "--threads", "1"},
-                                     hold.in(on_terminal()));
+    Process process = fixture.start({"render", "scene.json", "-o", "out/picture.png", "--size",
+                                     "64x64", "--tile", "16", "--threads", "1"},
+                                    hold.in(on_terminal()));
     REQUIRE(hold.wait());
     CHECK(process.wait_for_err(" left"));
     hold.release();
@@ -67,12 +67,12 @@ TEST_CASE("a rendering shows its progress on a terminal and a summary at the end
 }
 
 TEST_CASE("reading and building show their progress on a terminal and no bar in a pipe") {
-    const Workshop workshop;
-    const std::filesystem::path pipe = workshop.path() / "pipe";
+    const ToolFixture fixture;
+    const std::filesystem::path pipe = fixture.path() / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     {
         // A file that does not end before its progress has been seen.
-        Process process = workshop.start({"info", "pipe"}, on_terminal());
+        Process process = fixture.start({"info", "pipe"}, on_terminal());
         std::ofstream file(pipe);
         file << nff_head;
         for (int i = 0; i < 200'000; ++i)
@@ -84,8 +84,8 @@ TEST_CASE("reading and building show their progress on a terminal and no bar in 
         CHECK(shown.code == 0);
         CHECK(shown.err.ends_with("\r\x1B[K"));
     }
-    workshop.write("scene.json",
-                   R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+    fixture.write("scene.json",
+                  R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
             "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
             "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
                          "depth": 6}]})");
@@ -97,7 +97,7 @@ TEST_CASE("reading and building show their progress on a terminal and no bar in 
             prepare();
             ::setenv("RAYLANE_THREADS", "1", 1);
         };
-        Process process = workshop.start({"info", "scene.json"}, setup);
+        Process process = fixture.start({"info", "scene.json"}, setup);
         REQUIRE(hold.wait());
         CHECK(process.wait_for_err(" million shapes placed\x1B[K"));
         hold.release();
@@ -106,18 +106,18 @@ TEST_CASE("reading and building show their progress on a terminal and no bar in 
         CHECK(form_of(shown.err).find("\r[N] N % of N million shapes placed\x1B[K") !=
               std::string::npos);
     }
-    CHECK(messages_in(workshop.run({"info", "scene.json"}).err).empty());
+    CHECK(messages_in(fixture.run({"info", "scene.json"}).err).empty());
 }
 
 TEST_CASE("reading a file shows how much of it has been read") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     std::string text = nff_head;
     while (text.size() < 16 << 20)
         text += nff_line;
-    workshop.write("scene.nff", text);
+    fixture.write("scene.nff", text);
     // A read takes no more than a mebibyte.
     Hold hold("read", 8);
-    Process process = workshop.start({"info", "scene.nff"}, hold.in(on_terminal()));
+    Process process = fixture.start({"info", "scene.nff"}, hold.in(on_terminal()));
     REQUIRE(hold.wait());
     CHECK(process.wait_for_err(" % "));
     hold.release();
@@ -127,26 +127,26 @@ TEST_CASE("reading a file shows how much of it has been read") {
 }
 
 TEST_CASE("an error is one line on a terminal") {
-    const Workshop workshop;
-    CHECK(workshop.run({"render", "none.json"}, on_terminal()).err ==
+    const ToolFixture fixture;
+    CHECK(fixture.run({"render", "none.json"}, on_terminal()).err ==
           "raylane: none.json: no such file\r\n");
-    std::filesystem::create_symlink("/dev/full", workshop.path() / "full.png");
-    const Outcome outcome = workshop.run({"render", "scene.json", "-o", "full.png"}, on_terminal());
+    std::filesystem::create_symlink("/dev/full", fixture.path() / "full.png");
+    const Outcome outcome = fixture.run({"render", "scene.json", "-o", "full.png"}, on_terminal());
     CHECK(outcome.code == 3);
     CHECK(outcome.err.ends_with("raylane: full.png: cannot write: No space left on device\r\n"));
     CHECK(is_one_line(outcome.err));
 }
 
 TEST_CASE("the prompt begins a new line after an interruption") {
-    const Workshop workshop;
-    Process process = workshop.start(
+    const ToolFixture fixture;
+    Process process = fixture.start(
         joined({"render", "scene.json", "-o", "out/picture.png"}, hours), on_terminal());
-    REQUIRE(workshop.wait_for_files(process, 1));
+    REQUIRE(fixture.wait_for_files(process, 1));
     REQUIRE(process.wait_for_err("\r")); // the line is not empty
     process.send(SIGHUP);
     const Outcome outcome = process.wait();
     CAPTURE(outcome.err);
     CHECK(outcome.code == 128 + SIGHUP);
     CHECK(outcome.err.ends_with("\r\n"));
-    CHECK(workshop.is_output_empty());
+    CHECK(fixture.is_output_empty());
 }

@@ -1,5 +1,5 @@
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <cstdint>
 #include <cstring>
@@ -28,12 +28,12 @@ std::string npy(const std::string& head, const std::string& content) {
 const std::string by_rows = bytes_of<float>({0, 0, 5, 0, 0, -1, 0, 0, 9, 0, 0, 1});
 const std::string by_columns = bytes_of<float>({0, 0, 0, 0, 5, 9, 0, 0, 0, 0, -1, 1});
 
-std::string occluded(const Workshop& workshop, const std::string& rays, Setup setup = {}) {
-    const Outcome outcome = workshop.run(
+std::string occluded(const ToolFixture& fixture, const std::string& rays, Setup setup = {}) {
+    const Outcome outcome = fixture.run(
         {"trace", "scene.json", rays, "-o", "hits.npy", "--occluded", "-q"}, std::move(setup));
     CHECK(outcome.err.empty());
     if (outcome.code != 0) return "none";
-    const std::string hits = content_of(workshop.path() / "hits.npy");
+    const std::string hits = content_of(fixture.path() / "hits.npy");
     return hits.substr(hits.size() - 2);
 }
 const std::string first_alone("\x01\x00", 2);
@@ -41,35 +41,35 @@ const std::string first_alone("\x01\x00", 2);
 } // namespace
 
 TEST_CASE("headers of ray files are read as Python reads them") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     for (const char* head :
          {"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 6), }\n",
           "{'descr': '<f4', 'fortran_order':\tFalse, 'shape': (2, 6)}",
           "\t{\r\n\"shape\"\t:\n(\t2\t,\f6\t,\t)\t,'fortran_order':False,'descr':\t'<f4'\t}\t",
           "{'descr':'<f4','fortran_order' : False,'shape':(2,2,3)}"}) {
         CAPTURE(head);
-        workshop.write("rays.npy", npy(head, by_rows));
-        CHECK(occluded(workshop, "rays.npy") == first_alone);
+        fixture.write("rays.npy", npy(head, by_rows));
+        CHECK(occluded(fixture, "rays.npy") == first_alone);
     }
     for (const char* head : {"{'descr': '<f4', 'fortran_order': True, 'shape': (2, 6), }\n",
                              "{'descr': '<f4', 'fortran_order':\tTrue, 'shape': (2, 6), }",
                              "{'fortran_order'\n:\n\tTrue\n,'shape':(2, 6), 'descr': \"<f4\"}"}) {
         CAPTURE(head);
-        workshop.write("rays.npy", npy(head, by_columns));
-        CHECK(occluded(workshop, "rays.npy") == first_alone);
+        fixture.write("rays.npy", npy(head, by_columns));
+        CHECK(occluded(fixture, "rays.npy") == first_alone);
     }
 }
 
 TEST_CASE("invalid headers of ray files are refused") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto refused = [&](const std::string& head, const std::string& message) {
         CAPTURE(head);
-        workshop.write("rays.npy", npy(head, by_rows));
+        fixture.write("rays.npy", npy(head, by_rows));
         const Outcome outcome =
-            workshop.run({"trace", "scene.json", "rays.npy", "-o", "out/hits.npy"});
+            fixture.run({"trace", "scene.json", "rays.npy", "-o", "out/hits.npy"});
         CHECK(outcome.code == 2);
         CHECK(outcome.err == "raylane: rays.npy: " + message + "\n");
-        CHECK(workshop.is_output_empty());
+        CHECK(fixture.is_output_empty());
     };
     for (const char* order : {"1", "0", "TrueX", "FalseX", "True_", "true", "'True'", "None", ""})
         refused("{'descr': '<f4', 'fortran_order': " + std::string(order) + ", 'shape': (2, 6)}",
@@ -100,22 +100,22 @@ TEST_CASE("invalid headers of ray files are refused") {
 }
 
 TEST_CASE("rays from standard input are read from the file's current offset") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::string rays =
         npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 6), }\n", by_rows);
     const auto from = [&](const std::string& content, off_t place) {
         Setup setup;
-        setup.in_child = [file = workshop.write("input", content), place] {
+        setup.in_child = [file = fixture.write("input", content), place] {
             ::dup2(::open(file.c_str(), O_RDONLY), STDIN_FILENO);
             ::lseek(STDIN_FILENO, place, SEEK_SET);
         };
         return setup;
     };
-    CHECK(occluded(workshop, "-", from(rays, 0)) == first_alone);
-    CHECK(occluded(workshop, "-", from("before" + rays, 6)) == first_alone);
+    CHECK(occluded(fixture, "-", from(rays, 0)) == first_alone);
+    CHECK(occluded(fixture, "-", from("before" + rays, 6)) == first_alone);
     for (const off_t place : {1, 1000}) {
         const Outcome outcome =
-            workshop.run({"trace", "scene.json", "-", "-o", "out/a"}, from(rays, place));
+            fixture.run({"trace", "scene.json", "-", "-o", "out/a"}, from(rays, place));
         CHECK(outcome.code == 2);
         CHECK(outcome.err ==
               "raylane: standard input: must be an array in NumPy's format (.npy)\n");
@@ -125,11 +125,11 @@ TEST_CASE("rays from standard input are read from the file's current offset") {
         int ends[2] = {};
         if (::pipe(ends) == 0) ::dup2(ends[0], STDIN_FILENO);
     };
-    Outcome outcome = workshop.run({"trace", "scene.json", "-", "-o", "out/a"}, pipe);
+    Outcome outcome = fixture.run({"trace", "scene.json", "-", "-o", "out/a"}, pipe);
     CHECK(outcome.code == 2);
     CHECK(outcome.err == "raylane: standard input: must be a regular file\n");
-    outcome = workshop.run({"trace", "-", "-", "-o", "out/a"}, from(rays, 0));
+    outcome = fixture.run({"trace", "-", "-", "-o", "out/a"}, from(rays, 0));
     CHECK(outcome.code == 2);
     CHECK(outcome.err == "raylane: RAYS: must be another file than SCENE, got \"-\"\n");
-    CHECK(workshop.is_output_empty());
+    CHECK(fixture.is_output_empty());
 }

@@ -1,5 +1,5 @@
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 using namespace raylane::tests;
 
@@ -8,24 +8,24 @@ namespace {
 using Arguments = std::vector<std::string>;
 
 /// Checks that a usage error gives one line and writes no file.
-void check(const Workshop& workshop, const Arguments& arguments, const std::string& message) {
+void check(const ToolFixture& fixture, const Arguments& arguments, const std::string& message) {
     for (const std::string& argument : arguments)
         UNSCOPED_INFO(argument);
-    const std::ptrdiff_t files = std::ssize(workshop.names());
-    const Outcome outcome = workshop.run(arguments);
+    const std::ptrdiff_t files = std::ssize(fixture.names());
+    const Outcome outcome = fixture.run(arguments);
     CHECK(outcome.code == 2);
     CHECK(outcome.exited);
     CHECK(outcome.out.empty());
     CHECK(outcome.err == "raylane: " + message + "\n");
     CHECK(is_one_line(outcome.err));
-    CHECK(workshop.is_output_empty());
-    CHECK(std::ssize(workshop.names()) == files);
+    CHECK(fixture.is_output_empty());
+    CHECK(std::ssize(fixture.names()) == files);
 }
 
 } // namespace
 
 TEST_CASE("an invalid command line gives an error of one line") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::string see = "; see raylane --help", see_render = "; see raylane render --help";
     const std::vector<std::pair<Arguments, std::string>> rows = {
         {{},
@@ -63,11 +63,11 @@ TEST_CASE("an invalid command line gives an error of one line") {
          "--json: must have no value; see raylane info --help"},
     };
     for (const auto& [arguments, message] : rows)
-        check(workshop, arguments, message);
+        check(fixture, arguments, message);
 }
 
 TEST_CASE("an invalid value of an option gives an error of one line") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::string size = "--size: must be WIDTHxHEIGHT in pixels, each from 1 to 65535, such "
                              "as 640x480, got ",
                       spp = "--spp: must be a square number from 1 to 65536, such as 1, 4, 9 or "
@@ -128,21 +128,20 @@ TEST_CASE("an invalid value of an option gives an error of one line") {
          "--transfer: must be srgb or linear, got \"srbg\", did you mean \"srgb\"?"},
     };
     for (const auto& [option, message] : rows) {
-        check(workshop, joined({"render", "scene.json", "-o", "out/picture.png"}, option), message);
+        check(fixture, joined({"render", "scene.json", "-o", "out/picture.png"}, option), message);
         // The error comes before the scene is read.
-        check(workshop, joined({"render", "none.json", "-o", "out/picture.png"}, option), message);
+        check(fixture, joined({"render", "none.json", "-o", "out/picture.png"}, option), message);
     }
-    check(workshop, {"compare", "none.png", "none.png", "--tolerance", "-1"},
+    check(fixture, {"compare", "none.png", "none.png", "--tolerance", "-1"},
           "--tolerance: must be a number from 0 to 3.4028235e+38, got \"-1\"");
 }
 
 TEST_CASE("an invalid file name gives an error of one line before any file is read") {
-    const Workshop workshop;
-    std::filesystem::create_symlink("scene.json", workshop.path() / "scene.png");
-    workshop.write("stats.png", "");
-    workshop.write("image.png", std::string("\x89PNG\r\n\x1A\n\0", 9));
-    std::filesystem::create_hard_link(workshop.path() / "stats.png",
-                                      workshop.path() / "stats.link");
+    const ToolFixture fixture;
+    std::filesystem::create_symlink("scene.json", fixture.path() / "scene.png");
+    fixture.write("stats.png", "");
+    fixture.write("image.png", std::string("\x89PNG\r\n\x1A\n\0", 9));
+    std::filesystem::create_hard_link(fixture.path() / "stats.png", fixture.path() / "stats.link");
     const std::vector<std::pair<Arguments, std::string>> rows = {
         {{"render", ""}, R"(SCENE: must be the name of a file, got "")"},
         {{"info", ""}, R"(SCENE: must be the name of a file, got "")"},
@@ -185,19 +184,19 @@ TEST_CASE("an invalid file name gives an error of one line before any file is re
          R"(--diff: must be another file than standard output, which receives the result, got "-")"},
     };
     for (const auto& [arguments, message] : rows)
-        check(workshop, arguments, message);
-    CHECK(content_of(workshop.path() / "scene.json") == ball);
+        check(fixture, arguments, message);
+    CHECK(content_of(fixture.path() / "scene.json") == ball);
 }
 
 TEST_CASE("a scene's name without a stem is refused as a directory") {
-    const Workshop workshop;
-    check(workshop, {"render", "out/"}, "out/: must be a file, got a directory");
-    check(workshop, {"render", ".."}, "..: must be a file, got a directory");
-    check(workshop, {"render", "/"}, "/: must be a file, got a directory");
+    const ToolFixture fixture;
+    check(fixture, {"render", "out/"}, "out/: must be a file, got a directory");
+    check(fixture, {"render", ".."}, "..: must be a file, got a directory");
+    check(fixture, {"render", "/"}, "/: must be a file, got a directory");
 }
 
 TEST_CASE("the help has an example and the version is one line") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::vector<std::pair<Arguments, std::string>> rows = {
         {{"--help"}, "\nExample: raylane render "},
         {{"-h"}, "\nExample: raylane render "},
@@ -206,12 +205,12 @@ TEST_CASE("the help has an example and the version is one line") {
         {{"compare", "--help"}, "\nExample: raylane compare "},
     };
     for (const auto& [arguments, example] : rows) {
-        const Outcome outcome = workshop.run(arguments);
+        const Outcome outcome = fixture.run(arguments);
         CHECK(outcome.code == 0);
         CHECK(outcome.err.empty());
         CHECK(outcome.out.find(example) != std::string::npos);
     }
-    const Outcome version = workshop.run({"--version"});
+    const Outcome version = fixture.run({"--version"});
     CHECK(version.code == 0);
     CHECK(version.out == "raylane " RAYLANE_VERSION "\n");
     CHECK(version.err.empty());

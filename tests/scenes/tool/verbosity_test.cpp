@@ -1,6 +1,6 @@
 #include "simd/isa.hpp"
 #include "tests/catch.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -25,25 +25,25 @@ Setup with_threads(const char* count) {
 } // namespace
 
 TEST_CASE("the option --quiet suppresses all messages but errors") {
-    const Workshop workshop;
-    workshop.write("scene.pov", with_remark);
+    const ToolFixture fixture;
+    fixture.write("scene.pov", with_remark);
     const std::vector<std::string> small = {"render",    "scene.pov", "-o",
                                             "scene.png", "--size",    "16x12"};
-    CHECK(workshop.run(small).err == remark);
-    CHECK(workshop.run(joined(small, {"--quiet"})).err.empty());
-    CHECK(workshop.run(joined(small, {"-q"}), on_terminal()).err.empty());
-    CHECK(workshop.run({"convert", "scene.pov", "scene.json", "-q"}).err.empty());
-    CHECK(workshop.run({"info", "scene.pov", "-q"}).err.empty());
-    CHECK(workshop.run({"render", "none.pov", "-q"}).err == "raylane: none.pov: no such file\n");
-    CHECK(workshop.run(joined(small, {"-q", "-v"})).err ==
+    CHECK(fixture.run(small).err == remark);
+    CHECK(fixture.run(joined(small, {"--quiet"})).err.empty());
+    CHECK(fixture.run(joined(small, {"-q"}), on_terminal()).err.empty());
+    CHECK(fixture.run({"convert", "scene.pov", "scene.json", "-q"}).err.empty());
+    CHECK(fixture.run({"info", "scene.pov", "-q"}).err.empty());
+    CHECK(fixture.run({"render", "none.pov", "-q"}).err == "raylane: none.pov: no such file\n");
+    CHECK(fixture.run(joined(small, {"-q", "-v"})).err ==
           "raylane: --quiet: goes without --verbose\n");
 }
 
 TEST_CASE("the option --verbose reports the work in a pipe") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::string isa(raylane::simd::name_of(raylane::simd::narrowest_isa()));
     const std::string said =
-        workshop.render("picture.png", {"-v", "--threads", "1", "--isa", isa}).err;
+        fixture.render("picture.png", {"-v", "--threads", "1", "--isa", isa}).err;
     CHECK(said.starts_with("scene.json: 1 shapes, read and built in "));
     CHECK(said.find("\nvector engine, " + isa + ", exact precision, 1 threads\n") !=
           std::string::npos);
@@ -51,10 +51,10 @@ TEST_CASE("the option --verbose reports the work in a pipe") {
 }
 
 TEST_CASE("progress is a line now and then in a pipe and on a terminal without a cursor") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto start = std::chrono::steady_clock::now();
     const auto draw = [&](const char* name, Setup setup) {
-        return workshop.start(
+        return fixture.start(
             joined({"render", "scene.json", "-o", name, "-v", "--threads", "1"}, hours),
             std::move(setup));
     };
@@ -73,16 +73,16 @@ TEST_CASE("progress is a line now and then in a pipe and on a terminal without a
 }
 
 TEST_CASE("RAYLANE_THREADS sets the number of threads unless --threads does") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const std::vector<std::string> render = {"render", "scene.json", "-o", "picture.png", "-v"};
-    CHECK(workshop.run(render, with_threads("3")).err.find(" 3 threads\n") != std::string::npos);
-    CHECK(workshop.run(joined(render, {"--threads", "2"}), with_threads("3"))
+    CHECK(fixture.run(render, with_threads("3")).err.find(" 3 threads\n") != std::string::npos);
+    CHECK(fixture.run(joined(render, {"--threads", "2"}), with_threads("3"))
               .err.find(" 2 threads\n") != std::string::npos);
     for (const char* none : {"0", "-1", "two", "2 ", "4097", "99999999999999999999"}) {
         CAPTURE(none);
-        const Outcome outcome = workshop.run(render, with_threads(none));
+        const Outcome outcome = fixture.run(render, with_threads(none));
         CHECK(outcome.code == 2);
         CHECK(outcome.err == "raylane: RAYLANE_THREADS: must be a whole number from 1 to 4096\n");
     }
-    CHECK(workshop.run(render, with_threads("")).code == 0);
+    CHECK(fixture.run(render, with_threads("")).code == 0);
 }

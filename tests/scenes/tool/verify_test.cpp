@@ -4,7 +4,7 @@
 #include "scenes/image/writer.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/png_chunk.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -18,8 +18,9 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-Outcome verify(const Workshop& workshop, const std::string& picture, const Options& options = {}) {
-    return workshop.run(joined({"verify", picture, "scene.json", "--quiet"}, options));
+Outcome verify(const ToolFixture& fixture, const std::string& picture,
+               const Options& options = {}) {
+    return fixture.run(joined({"verify", picture, "scene.json", "--quiet"}, options));
 }
 
 constexpr const char* right =
@@ -65,10 +66,10 @@ void turn_one_over(const std::filesystem::path& path) {
 } // namespace
 
 TEST_CASE("an image records how its rays were decided") {
-    const Workshop workshop;
-    REQUIRE(workshop.render("a.png", {"--stats", "a.json", "--size", "100x80"}).code == 0);
-    const auto stats = nlohmann::json::parse(content_of(workshop.path() / "a.json"));
-    const scenes::Image image = scenes::read_image(workshop.path() / "a.png");
+    const ToolFixture fixture;
+    REQUIRE(fixture.render("a.png", {"--stats", "a.json", "--size", "100x80"}).code == 0);
+    const auto stats = nlohmann::json::parse(content_of(fixture.path() / "a.json"));
+    const scenes::Image image = scenes::read_image(fixture.path() / "a.png");
     const auto rays = std::find_if(image.texts.begin(), image.texts.end(),
                                    [](const auto& text) { return text.first == "Rays"; });
     REQUIRE(rays != image.texts.end());
@@ -85,7 +86,7 @@ TEST_CASE("an image records how its rays were decided") {
 }
 
 TEST_CASE("verify reproduces each pixel of an image from its scene and options") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     for (const Options& options : {Options{},
                                    {"--spp", "9", "--max-depth", "2"},
                                    {"--transfer", "linear", "--bits", "16"},
@@ -95,19 +96,19 @@ TEST_CASE("verify reproduces each pixel of an image from its scene and options")
                                    {"--quality", "35"},
                                    {"--engine", "reference"}}) {
         CAPTURE(options);
-        REQUIRE(workshop.render("a.png", options).code == 0);
-        const Outcome outcome = verify(workshop, "a.png");
+        REQUIRE(fixture.render("a.png", options).code == 0);
+        const Outcome outcome = verify(fixture, "a.png");
         CHECK(outcome.out == right);
         CHECK(outcome.code == 0);
-        CHECK(verify(workshop, "a.png", {"--whole"}).out == right + std::string(again));
+        CHECK(verify(fixture, "a.png", {"--whole"}).out == right + std::string(again));
     }
-    REQUIRE(workshop.render("a.png", {"--crop", "3,4,5x6"}).code == 0);
-    CHECK(verify(workshop, "a.png", {"--pixels", "7"}).out.find("7 equal") != std::string::npos);
+    REQUIRE(fixture.render("a.png", {"--crop", "3,4,5x6"}).code == 0);
+    CHECK(verify(fixture, "a.png", {"--pixels", "7"}).out.find("7 equal") != std::string::npos);
     if (!scenes::has_exr()) return;
     for (const Options& options : {Options{}, {"--bits", "32", "--layers"}, {"--alpha"}}) {
         CAPTURE(options);
-        REQUIRE(workshop.render("a.exr", options).code == 0);
-        CHECK(verify(workshop, "a.exr", {"--whole"}).out == right + std::string(again));
+        REQUIRE(fixture.render("a.exr", options).code == 0);
+        CHECK(verify(fixture, "a.exr", {"--whole"}).out == right + std::string(again));
     }
 }
 
@@ -122,15 +123,15 @@ float with_another_bit(float value, int fewer_bits) {
 } // namespace
 
 TEST_CASE("verify finds one changed bit in each format") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto others = [&](const std::string& name) {
-        const Outcome outcome = verify(workshop, name, {"--whole", "--pixels", "1"});
+        const Outcome outcome = verify(fixture, name, {"--whole", "--pixels", "1"});
         CHECK(outcome.code == 1);
         CHECK(outcome.out.ends_with("all bits   differ from the image\n"));
     };
     {
-        REQUIRE(workshop.render("a.png", {"--bits", "16", "--transfer", "linear"}).code == 0);
-        const scenes::Image image = scenes::read_image(workshop.path() / "a.png");
+        REQUIRE(fixture.render("a.png", {"--bits", "16", "--transfer", "linear"}).code == 0);
+        const scenes::Image image = scenes::read_image(fixture.path() / "a.png");
         core::Film film(image.width, image.height);
         for (std::size_t i = 0; i < film.pixels().size(); ++i)
             for (std::size_t channel = 0; channel < 3; ++channel)
@@ -138,29 +139,29 @@ TEST_CASE("verify finds one changed bit in each format") {
                         static_cast<int>(i) / image.width)[static_cast<int>(channel)] =
                     image.rgb[3 * i + channel];
         scenes::PictureOptions options{core::Transfer::linear, 16, {}, image.texts};
-        scenes::OutputFile(workshop.path() / "a.png").commit(film, options);
-        CHECK(verify(workshop, "a.png", {"--whole"}).out == right + std::string(again));
+        scenes::OutputFile(fixture.path() / "a.png").commit(film, options);
+        CHECK(verify(fixture, "a.png", {"--whole"}).out == right + std::string(again));
         core::Color& one = film.at(3, 4);
         one.y += one.y > 0.5F ? -1.0F / 65535.0F : 1.0F / 65535.0F;
-        scenes::OutputFile(workshop.path() / "a.png").commit(film, options);
+        scenes::OutputFile(fixture.path() / "a.png").commit(film, options);
         others("a.png");
         // A step of 8 bits is 257 steps of 16 bits.
         one.y += one.y > 0.5F ? -0.5F / 255.0F : 0.5F / 255.0F;
-        scenes::OutputFile(workshop.path() / "a.png").commit(film, options);
-        CHECK(verify(workshop, "a.png").out.find("191 equal, 0 within one step, 1 different") !=
+        scenes::OutputFile(fixture.path() / "a.png").commit(film, options);
+        CHECK(verify(fixture, "a.png").out.find("191 equal, 0 within one step, 1 different") !=
               std::string::npos);
     }
     if (!scenes::has_exr()) return;
     for (const int bits : {16, 32}) {
         CAPTURE(bits);
-        REQUIRE(workshop.render("a.exr", {"--bits", std::to_string(bits), "--layers"}).code == 0);
-        scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / "a.exr");
+        REQUIRE(fixture.render("a.exr", {"--bits", std::to_string(bits), "--layers"}).code == 0);
+        scenes::ExrPicture picture = scenes::read_own_exr(fixture.path() / "a.exr");
         scenes::PictureOptions options{.bits = bits, .texts = picture.texts};
         const auto written = [&] {
-            workshop.write("a.exr", scenes::exr_of(picture.film, &*picture.layers, options));
+            fixture.write("a.exr", scenes::exr_of(picture.film, &*picture.layers, options));
         };
         written();
-        CHECK(verify(workshop, "a.exr", {"--whole"}).out == right + std::string(again));
+        CHECK(verify(fixture, "a.exr", {"--whole"}).out == right + std::string(again));
         float& number = picture.film.at(7, 5).x;
         const float right_number = number;
         number = with_another_bit(number, bits == 16 ? 13 : 0);
@@ -191,10 +192,10 @@ TEST_CASE("verify finds one changed bit in each format") {
 }
 
 TEST_CASE("verify detects a changed pixel and a changed scene") {
-    const Workshop workshop;
-    REQUIRE(workshop.render("a.png").code == 0);
-    turn_one_over(workshop.path() / "a.png");
-    const Outcome changed = verify(workshop, "a.png");
+    const ToolFixture fixture;
+    REQUIRE(fixture.render("a.png").code == 0);
+    turn_one_over(fixture.path() / "a.png");
+    const Outcome changed = verify(fixture, "a.png");
     CHECK(changed.code == 1);
     CHECK(changed.out == "scene      same as the image names\n"
                          "options    same as the image names\n"
@@ -202,11 +203,11 @@ TEST_CASE("verify detects a changed pixel and a changed scene") {
                          "step, 1 different\n"
                          "first      at pixel 3, 4\n");
 
-    REQUIRE(workshop.render("a.png").code == 0);
+    REQUIRE(fixture.render("a.png").code == 0);
     std::string scene = ball;
     scene.replace(scene.find("0.5]"), 4, "0.4]");
-    workshop.write("scene.json", scene);
-    const Outcome other = verify(workshop, "a.png", {"--whole"});
+    fixture.write("scene.json", scene);
+    const Outcome other = verify(fixture, "a.png", {"--whole"});
     CHECK(other.code == 1);
     CHECK(other.out == "scene      differs from the one that the image names\n");
 }
@@ -216,7 +217,7 @@ TEST_CASE("an image records options that override its scene and the precision") 
     scene.insert(1, R"("outline": {"width": 2, "color": [0.2003, 0.5, 7]},
                        "limits": {"max_see_through": 1},)");
     scene.insert(scene.find(R"("height": 12)"), R"("transfer": "linear", )");
-    const Workshop workshop(scene);
+    const ToolFixture fixture(scene);
     for (const Options& options : {Options{},
                                    {"--outline", "0"},
                                    {"--transfer", "srgb"},
@@ -225,54 +226,55 @@ TEST_CASE("an image records options that override its scene and the precision") 
                                    {"--precision", "double"},
                                    {"--precision", "robust"}}) {
         CAPTURE(options);
-        REQUIRE(workshop.render("a.png", options).code == 0);
-        const Outcome outcome = verify(workshop, "a.png", {"--whole"});
+        REQUIRE(fixture.render("a.png", options).code == 0);
+        const Outcome outcome = verify(fixture, "a.png", {"--whole"});
         CHECK(outcome.out.ends_with("all bits   same as in the image\n"));
         CHECK(outcome.code == 0);
     }
     if (!scenes::has_exr()) return;
-    REQUIRE(workshop.render("a.exr").code == 0);
-    CHECK(verify(workshop, "a.exr").code == 0);
+    REQUIRE(fixture.render("a.exr").code == 0);
+    CHECK(verify(fixture, "a.exr").code == 0);
 }
 
 TEST_CASE("verify renders an image with its own precision") {
-    const Workshop workshop(R"({"image": {"width": 61, "height": 43}, "background": [0.5, 0.6, 0.8],
+    const ToolFixture fixture(
+        R"({"image": {"width": 61, "height": 43}, "background": [0.5, 0.6, 0.8],
         "camera": {"from": [200000, 100000, 300000], "at": [0, 0, 0], "field_of_view": 0.001},
         "lights": [{"type": "point", "position": [40, 60, 50]}],
         "objects": [{"type": "sphereflake", "material": {"color": [0.9, 0.6, 0.3],
                      "reflectivity": 0.5}, "center": [0, 0, 0], "radius": 1, "depth": 3}]})");
-    REQUIRE(workshop.render("exact.png").code == 0);
+    REQUIRE(fixture.render("exact.png").code == 0);
     for (const Options& options : {Options{"--precision", "robust"},
                                    {"--precision", "fast"},
                                    {"--precision", "double"},
                                    {"--precision", "robust", "--engine", "reference"},
                                    {"--precision", "fast", "--bits", "16", "--tile", "17"}}) {
         CAPTURE(options);
-        REQUIRE(workshop.render("a.png", options).code == 0);
+        REQUIRE(fixture.render("a.png", options).code == 0);
         const std::string pixels =
             "rendered again by the precision of the image: 500 equal, 0 within "
             "one step, 0 different\n";
-        const Outcome outcome = verify(workshop, "a.png", {"--whole", "--pixels", "500"});
+        const Outcome outcome = verify(fixture, "a.png", {"--whole", "--pixels", "500"});
         CHECK(outcome.out.find(pixels) != std::string::npos);
         CHECK(outcome.code == 0);
         // Otherwise this scene would prove nothing.
         if (options.size() == 2 && options[1] != "double")
-            CHECK(workshop.run({"compare", "a.png", "exact.png"}).code == 1);
+            CHECK(fixture.run({"compare", "a.png", "exact.png"}).code == 1);
     }
-    turn_one_over(workshop.path() / "a.png");
-    const Outcome turned = verify(workshop, "a.png", {"--pixels", "2623"});
+    turn_one_over(fixture.path() / "a.png");
+    const Outcome turned = verify(fixture, "a.png", {"--pixels", "2623"});
     CHECK(turned.code == 1);
     CHECK(turned.out.find("first      at pixel 3, 4\n") != std::string::npos);
 }
 
 TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
-    const Workshop workshop;
-    REQUIRE(workshop.render("a.png", {"--dpi", "300"}).code == 0);
-    const std::string picture = content_of(workshop.path() / "a.png");
+    const ToolFixture fixture;
+    REQUIRE(fixture.render("a.png", {"--dpi", "300"}).code == 0);
+    const std::string picture = content_of(fixture.path() / "a.png");
     const auto with = [&](const std::string& chunks, std::size_t place) {
         std::string changed = picture;
-        workshop.write("b.png", changed.insert(place, chunks));
-        return verify(workshop, "b.png", {"--pixels", "2"});
+        fixture.write("b.png", changed.insert(place, chunks));
+        return verify(fixture, "b.png", {"--pixels", "2"});
     };
     const std::size_t header = 8 + 12 + 13, end = picture.size() - 12;
     REQUIRE(picture.substr(header + 4, 4) == "pHYs");
@@ -308,18 +310,18 @@ TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
     // Pixels that are not square.
     std::string wide = picture;
     wide.replace(header, 12 + 9, png_chunk("pHYs", big_endian(2) + big_endian(1) + "\1"));
-    workshop.write("b.png", wide);
-    CHECK(verify(workshop, "b.png").err.ends_with(", got pHYs\n"));
+    fixture.write("b.png", wide);
+    CHECK(verify(fixture, "b.png").err.ends_with(", got pHYs\n"));
 }
 
 TEST_CASE("the option --whole checks the whole image for any choice of pixels") {
-    const Workshop workshop;
-    REQUIRE(workshop.render("a.png").code == 0);
-    turn_one_over(workshop.path() / "a.png");
+    const ToolFixture fixture;
+    REQUIRE(fixture.render("a.png").code == 0);
+    turn_one_over(fixture.path() / "a.png");
     int found = 0;
     for (int seed = 0; seed < 4; ++seed) {
         const Outcome outcome =
-            verify(workshop, "a.png", {"--whole", "--pixels", "2", "--seed", std::to_string(seed)});
+            verify(fixture, "a.png", {"--whole", "--pixels", "2", "--seed", std::to_string(seed)});
         CHECK(outcome.code == 1);
         CHECK(outcome.out.ends_with("all bits   differ from the image\n"));
         found += outcome.out.find("2 equal") != std::string::npos ? 1 : 0;
@@ -328,15 +330,15 @@ TEST_CASE("the option --whole checks the whole image for any choice of pixels") 
 }
 
 TEST_CASE("the pixels that verify renders are random or follow from a seed") {
-    const Workshop workshop;
-    REQUIRE(workshop.render("a.png").code == 0);
-    turn_one_over(workshop.path() / "a.png");
+    const ToolFixture fixture;
+    REQUIRE(fixture.render("a.png").code == 0);
+    turn_one_over(fixture.path() / "a.png");
     int found = 0;
     for (int i = 0; i < 20; ++i) {
         const Outcome outcome =
-            verify(workshop, "a.png", {"--pixels", "96", "--seed", std::to_string(i)});
+            verify(fixture, "a.png", {"--pixels", "96", "--seed", std::to_string(i)});
         CHECK(outcome.out ==
-              verify(workshop, "a.png", {"--pixels", "96", "--seed", std::to_string(i)}).out);
+              verify(fixture, "a.png", {"--pixels", "96", "--seed", std::to_string(i)}).out);
         found += outcome.code;
     }
     CHECK(found > 2);
@@ -344,14 +346,14 @@ TEST_CASE("the pixels that verify renders are random or follow from a seed") {
 }
 
 TEST_CASE("verify renders each image of a sequence by itself") {
-    const Workshop workshop(R"({"image": {"width": 16, "height": 12}, "camera": "auto",
+    const ToolFixture fixture(R"({"image": {"width": 16, "height": 12}, "camera": "auto",
         "parameters": {"r": 1},
         "objects": [{"type": "sphere", "material": {"color": [1, 0, 0]}, "center": [0, 0, 0], "radius": "$r"},
                     {"type": "sphere", "material": {}, "center": [1, 0, 1], "radius": 1}]})");
     std::string atoms;
     for (const char* at : {"1", "2", "4"})
         atoms += std::string("3\n\nO 0 0 0\nH ") + at + " 0 0\nH 0 " + at + " 0\n";
-    workshop.write("move.xyz", atoms);
+    fixture.write("move.xyz", atoms);
     struct Film {
         const char* scene;
         Options options;
@@ -366,31 +368,30 @@ TEST_CASE("verify renders each image of a sequence by itself") {
           Film{"move.xyz", {"--frames", ":", "--size", "16x12", "--camera-from", "all"}, 3}}) {
         CAPTURE(film.scene, film.options);
         REQUIRE(
-            workshop
+            fixture
                 .run(joined({"render", film.scene, "-o", "f%d.png", "--overwrite"}, film.options))
                 .code == 0);
         for (int i = 0; i < film.count; ++i) {
             const std::string name = "f" + std::to_string(i) + ".png";
-            if (!std::filesystem::exists(workshop.path() / name)) continue; // frames -2:
-            const Outcome outcome =
-                workshop.run({"verify", name, film.scene, "--quiet", "--whole"});
+            if (!std::filesystem::exists(fixture.path() / name)) continue; // frames -2:
+            const Outcome outcome = fixture.run({"verify", name, film.scene, "--quiet", "--whole"});
             CHECK(outcome.out == right + std::string(again));
             CHECK(outcome.code == 0);
         }
         // An image with the place of another in its sequence is not confirmed.
         scenes::PictureOptions swapped;
-        const scenes::Image last = scenes::read_image(workshop.path() / "f2.png");
+        const scenes::Image last = scenes::read_image(fixture.path() / "f2.png");
         swapped.texts = last.texts;
         for (auto& [key, text] : swapped.texts)
             if (key == "Film") text = "0";
         core::Film pixels(last.width, last.height);
-        scenes::OutputFile(workshop.path() / "other.png").commit(pixels, swapped);
-        CHECK(workshop.run({"verify", "other.png", film.scene, "--quiet"}).code == 1);
+        scenes::OutputFile(fixture.path() / "other.png").commit(pixels, swapped);
+        CHECK(fixture.run({"verify", "other.png", film.scene, "--quiet"}).code == 1);
         for (const char* place : {"3", "-1", "one", ""}) {
             for (auto& [key, text] : swapped.texts)
                 if (key == "Film") text = place;
-            scenes::OutputFile(workshop.path() / "other.png").commit(pixels, swapped);
-            const Outcome outcome = workshop.run({"verify", "other.png", film.scene, "--quiet"});
+            scenes::OutputFile(fixture.path() / "other.png").commit(pixels, swapped);
+            const Outcome outcome = fixture.run({"verify", "other.png", film.scene, "--quiet"});
             CAPTURE(place, outcome.err);
             CHECK(outcome.code == 2);
             CHECK(is_one_line(outcome.err));
@@ -400,30 +401,30 @@ TEST_CASE("verify renders each image of a sequence by itself") {
                           film.scene + " has fewer\n");
         }
         for (int i = 0; i < film.count; ++i)
-            std::filesystem::remove(workshop.path() / ("f" + std::to_string(i) + ".png"));
+            std::filesystem::remove(fixture.path() / ("f" + std::to_string(i) + ".png"));
     }
 
     // Images of different sizes with the camera of the first.
-    workshop.write("wide.json", R"({"image": {"width": "$w", "height": 12}, "camera": "auto",
+    fixture.write("wide.json", R"({"image": {"width": "$w", "height": 12}, "camera": "auto",
         "parameters": {"w": 16},
         "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})");
-    REQUIRE(workshop.run({"render", "wide.json", "-o", "w%d.png", "--set", "w=6:40:3"}).code == 0);
+    REQUIRE(fixture.run({"render", "wide.json", "-o", "w%d.png", "--set", "w=6:40:3"}).code == 0);
     for (const char* name : {"w0.png", "w1.png", "w2.png"})
-        CHECK(workshop.run({"verify", name, "wide.json", "--quiet", "--whole"}).code == 0);
+        CHECK(fixture.run({"verify", name, "wide.json", "--quiet", "--whole"}).code == 0);
 
     // Frames after the image are not read.
-    workshop.write("broken.xyz", atoms + "3\n\nO here 0 0\n");
+    fixture.write("broken.xyz", atoms + "3\n\nO here 0 0\n");
     const Options first = {"--size", "16x12", "--spp", "1", "--frames", ":"};
-    CHECK(workshop.run(joined({"render", "broken.xyz", "-o", "b%d.png"}, first)).code == 2);
-    CHECK(workshop.run({"verify", "b1.png", "broken.xyz", "--quiet"}).code == 0);
+    CHECK(fixture.run(joined({"render", "broken.xyz", "-o", "b%d.png"}, first)).code == 2);
+    CHECK(fixture.run({"verify", "b1.png", "broken.xyz", "--quiet"}).code == 0);
 }
 
 TEST_CASE("verify takes the light samples of the image, not of the scene") {
     std::string scene = ball;
     scene.insert(scene.find("\"image\""), R"("sampling": {"light_samples": 3}, )");
-    const Workshop workshop(scene);
-    REQUIRE(workshop.render("a.png", {"--light-samples", "0"}).code == 0);
-    CHECK(verify(workshop, "a.png").out == right);
+    const ToolFixture fixture(scene);
+    REQUIRE(fixture.render("a.png", {"--light-samples", "0"}).code == 0);
+    CHECK(verify(fixture, "a.png").out == right);
 }
 
 TEST_CASE("settings that no Comment has belong to the options of an image") {
@@ -432,37 +433,37 @@ TEST_CASE("settings that no Comment has belong to the options of an image") {
         return scene.insert(scene.find(where), what);
     };
     const std::string outlined = with("\"image\"", R"("outline": {"width": 3}, )");
-    const Workshop workshop(outlined);
+    const ToolFixture fixture(outlined);
     for (const std::string& other :
          {with("\"image\"", R"("outline": {"width": 3, "color": "#ff0000"}, )"),
           with("\"image\"", R"("outline": {"width": 3, "creases": 20}, )"),
           with("\"image\"",
                R"("outline": {"width": 3}, "sampling": {"pattern": "stratified"}, )")}) {
-        REQUIRE(workshop.render("a.png").code == 0);
-        workshop.write("scene.json", other);
+        REQUIRE(fixture.render("a.png").code == 0);
+        fixture.write("scene.json", other);
         // For any pixel that is chosen.
-        const Outcome outcome = verify(workshop, "a.png", {"--pixels", "1"});
+        const Outcome outcome = verify(fixture, "a.png", {"--pixels", "1"});
         CHECK(outcome.code == 1);
         CHECK(outcome.out.starts_with("scene      same as the image names\n"
                                       "options    differ from those that the image names\n"));
-        workshop.write("scene.json", outlined);
-        CHECK(verify(workshop, "a.png").out == right);
+        fixture.write("scene.json", outlined);
+        CHECK(verify(fixture, "a.png").out == right);
     }
     // Settings without an effect do not belong to the options.
-    workshop.write("scene.json", ball);
-    REQUIRE(workshop.render("a.png", {"--quality", "35"}).code == 0);
-    workshop.write("scene.json", with("\"image\"", R"("sampling": {"grid": 3},
+    fixture.write("scene.json", ball);
+    REQUIRE(fixture.render("a.png", {"--quality", "35"}).code == 0);
+    fixture.write("scene.json", with("\"image\"", R"("sampling": {"grid": 3},
                                        "outline": {"width": 0, "creases": 20}, )"));
-    CHECK(verify(workshop, "a.png", {"--whole"}).out == right + std::string(again));
+    CHECK(verify(fixture, "a.png", {"--whole"}).out == right + std::string(again));
     // Older images have no Options.
-    workshop.write("scene.json", ball);
-    REQUIRE(workshop.render("a.png").code == 0);
+    fixture.write("scene.json", ball);
+    REQUIRE(fixture.render("a.png").code == 0);
     const auto without = [](auto texts) {
         std::erase_if(texts, [](const auto& text) { return text.first == "Options"; });
         return texts;
     };
-    write_again(workshop.path() / "a.png", workshop.path() / "a.png", without);
-    const Outcome older = verify(workshop, "a.png");
+    write_again(fixture.path() / "a.png", fixture.path() / "a.png", without);
+    const Outcome older = verify(fixture, "a.png");
     CHECK(older.code == 0);
     CHECK(older.out.starts_with("scene      same as the image names\n"
                                 "pixels     192 "));
@@ -470,44 +471,44 @@ TEST_CASE("settings that no Comment has belong to the options of an image") {
 
 /// Light passes the box along its diagonal plane, and meets its edges to the last bit.
 TEST_CASE("verify distinguishes ties in the last bit from errors") {
-    const Workshop workshop(R"({"image": {"width": 64, "height": 64}, "background": [0.5, 0.5, 1],
+    const ToolFixture fixture(R"({"image": {"width": 64, "height": 64}, "background": [0.5, 0.5, 1],
         "camera": {"from": [0, 0, 6], "at": [0, 0, 0]},
         "lights": [{"type": "point", "position": [4, 4, 4]}],
         "materials": {"see": {"color": [1, 0, 0], "opacity": 0.5}},
         "objects": [{"type": "box", "material": "see", "corner": [0, -2, 2],
                      "edges": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}]})");
-    REQUIRE(workshop.render("p.png", {"--spp", "4"}).code == 0);
-    const Outcome outcome = verify(workshop, "p.png", {"--pixels", "4096"});
+    REQUIRE(fixture.render("p.png", {"--spp", "4"}).code == 0);
+    const Outcome outcome = verify(fixture, "p.png", {"--pixels", "4096"});
     CAPTURE(outcome.out);
     CHECK(outcome.code == 0);
     CHECK(outcome.out.find(" 0 different\n") == std::string::npos); // this scene has ties
     CHECK(outcome.out.find("\nties       ") != std::string::npos);
 
-    turn_one_over(workshop.path() / "p.png");
-    const Outcome turned = verify(workshop, "p.png", {"--pixels", "4096"});
+    turn_one_over(fixture.path() / "p.png");
+    const Outcome turned = verify(fixture, "p.png", {"--pixels", "4096"});
     CHECK(turned.code == 1);
     CHECK(turned.out.find("\nfirst      at pixel ") != std::string::npos);
 }
 
 TEST_CASE("verify does not confirm an image that has lost its alpha") {
-    const Workshop workshop;
-    REQUIRE(workshop.render("a.png", {"--alpha"}).code == 0);
+    const ToolFixture fixture;
+    REQUIRE(fixture.render("a.png", {"--alpha"}).code == 0);
     const auto same = [](auto texts) { return texts; };
-    write_again(workshop.path() / "a.png", workshop.path() / "a.png", same);
-    REQUIRE(scenes::read_image(workshop.path() / "a.png").alpha.size() == 0);
-    const Outcome outcome = verify(workshop, "a.png");
+    write_again(fixture.path() / "a.png", fixture.path() / "a.png", same);
+    REQUIRE(scenes::read_image(fixture.path() / "a.png").alpha.size() == 0);
+    const Outcome outcome = verify(fixture, "a.png");
     CHECK(outcome.code == 1);
     CHECK(outcome.out.find("0 equal, 0 within one step, 192 different") != std::string::npos);
 }
 
 TEST_CASE("verify does not confirm an image with many pixels one step off") {
-    const Workshop workshop;
-    REQUIRE(workshop.render("a.png").code == 0);
+    const ToolFixture fixture;
+    REQUIRE(fixture.render("a.png").code == 0);
     const auto same = [](auto texts) { return texts; };
-    const std::filesystem::path a = workshop.path() / "a.png", b = workshop.path() / "b.png";
+    const std::filesystem::path a = fixture.path() / "a.png", b = fixture.path() / "b.png";
     for (const auto& [pixels, code] : {std::pair{3, 0}, {4, 1}, {192, 1}}) {
         write_again(a, b, same, pixels);
-        const Outcome outcome = verify(workshop, "b.png");
+        const Outcome outcome = verify(fixture, "b.png");
         CAPTURE(pixels, outcome.out);
         CHECK(outcome.code == code);
         CHECK(outcome.out.find(" equal, " + std::to_string(pixels) +
@@ -517,26 +518,26 @@ TEST_CASE("verify does not confirm an image with many pixels one step off") {
     }
     // Two of a few pixels may be one step off.
     write_again(a, b, same, 192);
-    CHECK(verify(workshop, "b.png", {"--pixels", "2"}).code == 0);
-    CHECK(verify(workshop, "b.png", {"--pixels", "3"}).code == 1);
+    CHECK(verify(fixture, "b.png", {"--pixels", "2"}).code == 0);
+    CHECK(verify(fixture, "b.png", {"--pixels", "3"}).code == 1);
 }
 
 TEST_CASE("images without valid texts give an error of one line") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     const auto refused = [&](const std::string& name, const std::string& with) {
-        const Outcome outcome = verify(workshop, name);
+        const Outcome outcome = verify(fixture, name);
         CHECK(outcome.code == 2);
         CHECK(outcome.out.empty());
         CHECK(is_one_line(outcome.err));
         CAPTURE(outcome.err);
         CHECK(outcome.err.find(with) != std::string::npos);
     };
-    REQUIRE(workshop.render("a.pfm").code == 0);
+    REQUIRE(fixture.render("a.pfm").code == 0);
     refused("a.pfm", "a.pfm: must be a PNG or EXR rendered by raylane, which names its scene and "
                      "options, got one without Comment");
     refused("none.png", "none.png: no such file");
     const auto with_comment = [&](const std::string& comment) {
-        scenes::OutputFile(workshop.path() / "b.png")
+        scenes::OutputFile(fixture.path() / "b.png")
             .commit(core::Film(16, 12), {.texts = {{"Comment", comment}, {"Scene", "0"}}});
     };
     with_comment("made by hand");
@@ -553,6 +554,6 @@ TEST_CASE("images without valid texts give an error of one line") {
     refused("b.png", "b.png: has another size than its Comment states");
     with_comment("--spp 7");
     refused("b.png", "--spp: must be");
-    CHECK(verify(workshop, "b.png", {"--pixels", "0"}).err.find("--pixels: must be") !=
+    CHECK(verify(fixture, "b.png", {"--pixels", "0"}).err.find("--pixels: must be") !=
           std::string::npos);
 }

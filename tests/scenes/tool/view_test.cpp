@@ -1,7 +1,7 @@
 #include "scenes/tool/window/pick.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/json_scenes.hpp"
-#include "tests/scenes/tool/workshop.hpp"
+#include "tests/scenes/tool/tool_fixture.hpp"
 
 #include <csignal>
 #include <cstdlib>
@@ -90,7 +90,7 @@ Setup on_display(const std::string& name) {
 } // namespace
 
 TEST_CASE("a missing display gives an error of one line") {
-    const Workshop workshop;
+    const ToolFixture fixture;
     Setup setup;
     const char* driver = GENERATE("x11", ""); // "": any driver that SDL finds
     setup.in_child = [driver] {
@@ -100,23 +100,23 @@ TEST_CASE("a missing display gives an error of one line") {
         ::setenv("XDG_RUNTIME_DIR", "/tmp", 1);
         if (*driver != '\0') ::setenv("SDL_VIDEODRIVER", driver, 1);
     };
-    const Outcome outcome = workshop.run({"view", "scene.json"}, setup);
+    const Outcome outcome = fixture.run({"view", "scene.json"}, setup);
     CHECK(outcome.code == 3);
     CHECK(is_one_line(outcome.err));
     CHECK(outcome.err.starts_with("raylane: view: cannot open a window: "));
 }
 
 TEST_CASE("a window shows the image of render and follows changes of the scene") {
-    const Workshop workshop;
-    std::filesystem::create_directory(workshop.path() / "screen");
-    const Display display(workshop.path() / "screen");
+    const ToolFixture fixture;
+    std::filesystem::create_directory(fixture.path() / "screen");
+    const Display display(fixture.path() / "screen");
     if (display.name().empty()) {
         WARN("skipped: Xvfb is missing");
         return;
     }
     Process viewer({"view", "scene.json", "--size", "640x480"}, [&] {
         Setup setup = on_display(display.name());
-        setup.directory = workshop.path();
+        setup.directory = fixture.path();
         return setup;
     }());
     constexpr std::size_t size = std::size_t{3} * screen_width * screen_height;
@@ -124,13 +124,13 @@ TEST_CASE("a window shows the image of render and follows changes of the scene")
     for (const std::string color : {"[1, 0, 0]", "[0, 1, 0]"}) {
         CAPTURE(color);
         scene.replace(scene.find("\"color\": ["), 18, "\"color\": " + color);
-        workshop.write("scene.json", scene);
+        fixture.write("scene.json", scene);
         REQUIRE(
-            workshop.run({"render", "scene.json", "--size", "640x480", "-o", "out/a.ppm"}).code ==
+            fixture.run({"render", "scene.json", "--size", "640x480", "-o", "out/a.ppm"}).code ==
             0);
-        const auto expected = pixels_of(workshop.output() / "a.ppm", size);
+        const auto expected = pixels_of(fixture.output() / "a.ppm", size);
         CHECK(comes_true([&] { return display.pixels() == expected; }));
-        std::filesystem::remove(workshop.output() / "a.ppm");
+        std::filesystem::remove(fixture.output() / "a.ppm");
     }
     viewer.send(SIGTERM);
     CHECK(viewer.wait().code == 128 + SIGTERM);

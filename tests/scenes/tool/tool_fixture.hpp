@@ -40,9 +40,9 @@ inline Setup on_terminal(const char* kind = "xterm") {
 }
 
 /// Owns a directory to run the tool in, with a scene and an empty directory for outputs.
-class Workshop {
+class ToolFixture {
   public:
-    explicit Workshop(const std::string& scene = ball) {
+    explicit ToolFixture(const std::string& scene = ball) {
         directory_.write("scene.json", scene);
         std::filesystem::create_directory(output());
     }
