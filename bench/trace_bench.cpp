@@ -68,7 +68,7 @@ struct Setup {
     simd::SceneData data{scene};
     std::vector<simd::Arena> arenas;
     std::vector<simd::Paths> waves;
-    std::vector<double> t_most;
+    std::vector<double> t_limit;
 
     Setup(Mix mix, int count) : scene(Maker().make(mix, count)) {
         std::mt19937_64 engine(2);
@@ -87,7 +87,7 @@ struct Setup {
                     paths.origin[axis][i] = uniform(engine);
                     paths.direction[axis][i] = direction[axis];
                 }
-                t_most.push_back(0.3 * static_cast<double>(uniform(engine)));
+                t_limit.push_back(0.3 * static_cast<double>(uniform(engine)));
             }
             waves.push_back(paths);
         }
@@ -127,7 +127,7 @@ void occluded(benchmark::State& state, const Setup& setup, const simd::Tracing& 
     for (auto _ : state) {
         const std::size_t at = next++ % setup.waves.size();
         std::fill(states.begin(), states.end(), simd::unblocked);
-        query.occluded(setup.waves[at].columns(), &setup.t_most[at * wave], states.data(), nullptr,
+        query.occluded(setup.waves[at].columns(), &setup.t_limit[at * wave], states.data(), nullptr,
                        counters);
         left += static_cast<std::uint64_t>(
             std::count_if(states.begin(), states.end(), [](std::uint8_t found) {

@@ -109,7 +109,7 @@ class FlakeBuilder {
 } // namespace
 
 std::size_t count_of(const Sphereflake& flake) {
-    require_count("depth", flake.depth, 0, Sphereflake::most_depth);
+    require_count("depth", flake.depth, 0, Sphereflake::max_depth);
     std::size_t count = 0;
     for (int level = 0; level <= flake.depth; ++level)
         count = 9 * count + 1;
@@ -117,7 +117,7 @@ std::size_t count_of(const Sphereflake& flake) {
 }
 
 std::size_t count_of(const Lattice& lattice) {
-    require_count("n", lattice.n, 1, Lattice::most_nodes);
+    require_count("n", lattice.n, 1, Lattice::max_nodes);
     const auto n = static_cast<std::size_t>(lattice.n);
     return n * n * n + 3 * n * n * (n - 1);
 }

@@ -9,10 +9,10 @@ namespace raylane::scenes {
 struct Sphereflake {
     core::Vec3f center;
     float radius;                     ///< of the middle sphere
-    int depth;                        ///< 0: that sphere alone; most_depth: 48 million spheres
+    int depth;                        ///< 0: that sphere alone; max_depth: 48 million spheres
     core::Vec3f up{0.0F, 0.0F, 1.0F}; ///< direction of the first three; any length except zero
 
-    static constexpr int most_depth = 8;
+    static constexpr int max_depth = 8;
 };
 
 /// Adds the "balls" of the Standard Procedural Databases (Haines 1987). Each sphere bears nine
@@ -22,12 +22,12 @@ void add(core::SceneBuilder& builder, const Sphereflake& flake, core::MaterialIn
 
 struct Lattice {
     core::Vec3d corner;  ///< the node with the smallest coordinates
-    int n;               ///< nodes per side, up to most_nodes
+    int n;               ///< nodes per side, up to max_nodes
     float spacing;       ///< from node to node, > 0
     float sphere_radius; ///< of the sphere at each node, > 0
     float strut_radius;  ///< of the open cylinder between any two neighbours, > 0
 
-    static constexpr int most_nodes = 256;
+    static constexpr int max_nodes = 256;
 };
 
 /// Returns the number of shapes. Throws core::InvalidValue if the depth or the number of nodes is

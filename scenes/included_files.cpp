@@ -42,7 +42,7 @@ std::unique_ptr<InputFile> IncludedFiles::open(const std::filesystem::path& path
     require(depth < deepest, "must not be included more than " + std::to_string(deepest) + " deep");
     require(opened_++ < most, "must be one of at most " + std::to_string(most) + " included files");
     auto file = std::make_unique<InputFile>(path);
-    require(std::filesystem::file_size(path, unknown) <= most_bytes || unknown,
+    require(std::filesystem::file_size(path, unknown) <= max_bytes || unknown,
             "must be a file of at most 1 GiB, got " + printable(path.string(), 4096));
     file->take_as_text();
     return file;

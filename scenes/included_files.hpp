@@ -15,7 +15,7 @@ namespace raylane::scenes {
 class IncludedFiles {
   public:
     static constexpr std::size_t deepest = 16, most = 1000;
-    static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30; ///< of each file
+    static constexpr std::uint64_t max_bytes = std::uint64_t{1} << 30; ///< of each file
 
     /// Opens a file as text. `name` is the file's name in the scene. `depth` is that of the
     /// including file, from 0. Throws core::InvalidValue with the rule that the name breaks.

@@ -11,10 +11,10 @@ namespace raylane::scenes {
 
 namespace {
 constexpr std::size_t packed_size = 64 << 10;
-/// Limits of the decompressed size: `most_for_each` times the compressed size, plus `most_besides`
+/// Limits of the decompressed size: `max_for_each` times the compressed size, plus `max_besides`
 /// bytes. Files of atoms and scenes mostly compress to between a third and a twentieth of their
 /// size.
-constexpr std::uint64_t most_for_each = 200, most_besides = 64 << 20;
+constexpr std::uint64_t max_for_each = 200, max_besides = 64 << 20;
 } // namespace
 
 struct Inflater::State {
@@ -51,8 +51,8 @@ struct Inflater::State {
     }
     bool is_too_large() const {
         const std::uint64_t size = before + stream.total_out;
-        return size > most_besides &&
-               (size - most_besides) / most_for_each > packed_before + stream.total_in;
+        return size > max_besides &&
+               (size - max_besides) / max_for_each > packed_before + stream.total_in;
     }
 };
 

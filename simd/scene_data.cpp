@@ -101,7 +101,7 @@ PackedView view_of(const core::PackedSpheres& packed) {
     static_assert(offsetof(PackedBlockView, words) == offsetof(core::PackedBlock, words));
     static_assert(core::PackedBlock::empty == no_slot);
     // Without a tree, kernels read shapes where they are stored, so these must not be packed.
-    static_assert(core::least_packed > few_shapes);
+    static_assert(core::min_packed > few_shapes);
     static_assert(sizeof(core::PackedSpheres::Row) == sizeof(float[core::block_size]));
     return {reinterpret_cast<const PackedBlockView*>(packed.blocks.data()),
             reinterpret_cast<const float(*)[core::block_size]>(packed.rows.data()),

@@ -25,7 +25,7 @@ struct CallerRays {
 /// Rays in the kernels' format, structure of arrays of whole packets of 16. The exact directions
 /// (`meant_direction`) are the caller's, scaled to about length 1 by a power of two. Scaling is
 /// exact and prevents overflow and underflow of products in the solvers. A ray that is invalid, or
-/// has no interval between its limits, has t_most < 0; its other numbers are meaningless.
+/// has no interval between its limits, has t_limit < 0; its other numbers are meaningless.
 struct StreamRays {
     double* origin[3];
     double* direction[3]; ///< unit
@@ -37,8 +37,8 @@ struct StreamRays {
     /// Lower limit in t of the exact ray. Crossings before it do not count. Crossings at it count
     /// only with stream_tie_counts. 0: all crossings with t > 0 count.
     double* t_after;
-    double* start;  ///< t_after times the direction's length: where the ray begins to count
-    double* t_most; ///< the upper limit, likewise times the length; no crossing behind it counts
+    double* start;   ///< t_after times the direction's length: where the ray begins to count
+    double* t_limit; ///< the upper limit, likewise times the length; no crossing behind it counts
     std::uint32_t* bits;
 };
 /// Bit of StreamRays::bits: a crossing at t_after counts.
@@ -55,7 +55,7 @@ struct CallerHits {
 };
 
 /// Upper limits of hits. `t_max`, if not null: the caller's floats, compared with the float nearest
-/// to t. Otherwise, if `truly`: StreamRays::t_most.
+/// to t. Otherwise, if `truly`: StreamRays::t_limit.
 struct UpperLimits {
     const float* t_max;
     bool truly;

@@ -67,7 +67,7 @@ class LentArena {
     ~LentArena() {
         const std::lock_guard lock(idle_mutex);
         idle->splice(idle->begin(), own_);
-        if (idle->size() > most_idle) idle->pop_back();
+        if (idle->size() > max_idle) idle->pop_back();
     }
     LentArena(const LentArena&) = delete;
     LentArena& operator=(const LentArena&) = delete;
@@ -80,7 +80,7 @@ class LentArena {
         int threads;
         tbb::task_arena arena;
     };
-    static constexpr std::size_t most_idle = 64;
+    static constexpr std::size_t max_idle = 64;
     static constinit std::mutex idle_mutex;
     /// Never destroyed: threads that are never joined may call until the process ends.
     static constinit std::list<Arena>* idle;

@@ -42,9 +42,9 @@ inline constexpr std::size_t long_list = 4096;
 /// nearest. The search skips everything beyond.
 inline constexpr float culling_slack = 1.0F + 0x1p-10F;
 
-/// Occlusion of each ray before t_most.
+/// Occlusion of each ray before t_limit.
 struct Occlusions {
-    const float* t_most;
+    const float* t_limit;
     std::uint8_t* state; ///< in and out: Occlusion
 };
 
@@ -204,10 +204,10 @@ struct RefineKernels {
     /// as those of rays that start on the shape.
     void (*widen)(const SceneView& scene, const Found& found, const std::size_t* places,
                   std::size_t count, const WideCrossings& wide);
-    /// Adds all pairs that may cross before t_most, among the shapes that TraceKernels::nearest
-    /// searches, in any order. Rays whose t_most is not positive get no pairs.
+    /// Adds all pairs that may cross before t_limit, among the shapes that TraceKernels::nearest
+    /// searches, in any order. Rays whose t_limit is not positive get no pairs.
     void (*list_all)(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
-                     const RoundedRays& rays, const float* t_most, const Pending& pending,
+                     const RoundedRays& rays, const float* t_limit, const Pending& pending,
                      PairList& list);
     void (*cross_all)(const SceneView& scene, const CrossingPairs& pairs);
 };

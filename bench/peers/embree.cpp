@@ -51,7 +51,7 @@ class Embree : public Contender {
             ray.dir_x = from.direction.x;
             ray.dir_y = from.direction.y;
             ray.dir_z = from.direction.z;
-            ray.tnear = rays.t_least(i);
+            ray.tnear = rays.t_lowest(i);
             ray.mask = ~0U;
             if (is_wide())
                 set_ray(wide_[i / width].ray, i % width, ray);
@@ -102,10 +102,10 @@ class Embree : public Contender {
     }
 
     void run_single(std::size_t begin, std::size_t count, EmbreeQuery& query) {
-        const float* const t_most = rays_->t_most(begin);
+        const float* const t_limit = rays_->t_limit(begin);
         RTCRayHit* const rays = &single_[begin];
         for (std::size_t i = 0; i < count; ++i) {
-            rays[i].ray.tfar = t_most[i];
+            rays[i].ray.tfar = t_limit[i];
             rays[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
         }
         const RTCScene scene = built_->scene.get();
@@ -122,7 +122,7 @@ class Embree : public Contender {
             RTCRayHit16& rays = wide_[(begin + first) / width];
             for (std::size_t lane = 0; lane < width; ++lane)
                 valid[lane] = first + lane < count ? -1 : 0;
-            std::copy_n(rays_->t_most(begin + first), width, rays.ray.tfar);
+            std::copy_n(rays_->t_limit(begin + first), width, rays.ray.tfar);
             std::fill_n(rays.hit.geomID, width, RTC_INVALID_GEOMETRY_ID);
             if (rays_->occlusion)
                 query.occluded(built_->scene.get(), valid, rays.ray);

@@ -68,9 +68,9 @@ void reject_departed(const RTCFilterFunctionNArguments* hits) {
     }
 }
 
-/// Returns a ten-thousandth of the largest coordinate. A thirtieth of that, as in RaySet::t_least,
+/// Returns a ten-thousandth of the largest coordinate. A thirtieth of that, as in RaySet::t_lowest,
 /// makes three times as many pixels of balls.nff wrong, because surfaces shadow themselves.
-float t_least(const simd::RoundedRays& rays, std::size_t lane) {
+float t_lowest(const simd::RoundedRays& rays, std::size_t lane) {
     if (way.filters || rays.origin_first[lane] == no_slot) return 0.0F;
     float largest = 0.0F;
     for (const float* origin : rays.origin)
@@ -85,7 +85,7 @@ bool is_any(const simd::RoundedRays& rays, std::size_t lane) {
     return std::isfinite(rays.origin[0][lane] + rays.direction[0][lane]);
 }
 
-RTCRay ray_of(const simd::RoundedRays& rays, std::size_t lane, float t_most) {
+RTCRay ray_of(const simd::RoundedRays& rays, std::size_t lane, float t_limit) {
     RTCRay ray{};
     ray.org_x = rays.origin[0][lane];
     ray.org_y = rays.origin[1][lane];
@@ -93,26 +93,27 @@ RTCRay ray_of(const simd::RoundedRays& rays, std::size_t lane, float t_most) {
     ray.dir_x = rays.direction[0][lane];
     ray.dir_y = rays.direction[1][lane];
     ray.dir_z = rays.direction[2][lane];
-    ray.tnear = t_least(rays, lane);
-    ray.tfar = t_most;
+    ray.tnear = t_lowest(rays, lane);
+    ray.tfar = t_limit;
     ray.mask = ~0U;
     ray.id = static_cast<unsigned>(lane);
     return ray;
 }
 
-void fill(RTCRay16& packet, const simd::RoundedRays& rays, std::size_t begin, const float* t_most) {
+void fill(RTCRay16& packet, const simd::RoundedRays& rays, std::size_t begin,
+          const float* t_limit) {
     float* const origin[] = {packet.org_x, packet.org_y, packet.org_z};
     float* const direction[] = {packet.dir_x, packet.dir_y, packet.dir_z};
     for (int axis = 0; axis < 3; ++axis) {
         std::copy_n(rays.origin[axis] + begin, width, origin[axis]);
         std::copy_n(rays.direction[axis] + begin, width, direction[axis]);
     }
-    std::copy_n(t_most + begin, width, packet.tfar);
+    std::copy_n(t_limit + begin, width, packet.tfar);
     std::fill_n(packet.time, width, 0.0F);
     std::fill_n(packet.mask, width, ~0U);
     std::fill_n(packet.flags, width, 0U);
     for (std::size_t i = 0; i < width; ++i) {
-        packet.tnear[i] = t_least(rays, begin + i);
+        packet.tnear[i] = t_lowest(rays, begin + i);
         packet.id[i] = static_cast<unsigned>(begin + i);
     }
 }
@@ -164,7 +165,7 @@ void occluded(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
     if (!way.by_16) {
         for (std::size_t lane = 0; lane < count; ++lane) {
             if (!is_any(rays, lane)) continue;
-            RTCRay ray = ray_of(rays, lane, occlusions.t_most[lane]);
+            RTCRay ray = ray_of(rays, lane, occlusions.t_limit[lane]);
             query.occluded(scene, ray);
             if (ray.tfar < 0.0F) occlusions.state[lane] = simd::blocked;
         }
@@ -173,7 +174,7 @@ void occluded(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
     RTCRay16 packet;
     alignas(64) int valid[width];
     for (std::size_t begin = 0; begin < count; begin += width) {
-        fill(packet, rays, begin, occlusions.t_most);
+        fill(packet, rays, begin, occlusions.t_limit);
         for (std::size_t i = 0; i < width; ++i)
             valid[i] = begin + i < count && is_any(rays, begin + i) ? -1 : 0;
         query.occluded(scene, valid, packet);

@@ -35,7 +35,7 @@ class Library : public Contender {
                 origin_[axis][i] = ray.origin[axis];
                 direction_[axis][i] = ray.direction[axis];
             }
-            t_min_[i] = rays.t_least(i);
+            t_min_[i] = rays.t_lowest(i);
             const simd::Paths path = rays.paths(i, 1);
             if (path.origin_slot[0] == simd::no_slot) continue;
             shape_left_[i] = scene_.id_of(path.origin_slot[0]);
@@ -51,7 +51,7 @@ class Library : public Contender {
             {from(origin_[0]), from(origin_[1]), from(origin_[2])},
             {from(direction_[0]), from(direction_[1]), from(direction_[2])},
             leaves_any_ && !names_ ? from(t_min_) : nullptr,
-            rays_->occlusion ? rays_->t_most(begin) : nullptr};
+            rays_->occlusion ? rays_->t_limit(begin) : nullptr};
         if (leaves_any_ && names_) {
             rays.origin_shape = from(shape_left_);
             rays.origin_face = from(face_left_);

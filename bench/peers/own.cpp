@@ -27,7 +27,7 @@ class Worker {
         const simd::Paths paths =
             rays.paths(begin, std::min(in_waves ? RaySet::wave : most_, end - begin));
         if (rays.occlusion) {
-            find_blocked(paths, rays.t_most(begin), coherence);
+            find_blocked(paths, rays.t_limit(begin), coherence);
             std::copy_n(state_, paths.count, answers);
         } else {
             query_.nearest(paths, coherence, counters_);
@@ -45,9 +45,9 @@ class Worker {
     }
 
     /// Decides rays in doubt by their nearest hits.
-    void find_blocked(const simd::Paths& paths, const float* t_most,
+    void find_blocked(const simd::Paths& paths, const float* t_limit,
                       const simd::Coherence* coherence) {
-        std::copy_n(t_most, paths.count, distance_);
+        std::copy_n(t_limit, paths.count, distance_);
         std::fill_n(state_, paths.count, std::uint8_t{simd::unblocked});
         query_.occluded(paths.columns(), distance_, state_, coherence, counters_);
         gathered_.count = 0;
@@ -62,7 +62,7 @@ class Worker {
             const std::uint32_t lane = gathered_.sample[i];
             const simd::Hits& hits = query_.hits();
             const bool any =
-                hits.slot[i] != simd::no_slot && hits.t[i] < static_cast<double>(t_most[lane]);
+                hits.slot[i] != simd::no_slot && hits.t[i] < static_cast<double>(t_limit[lane]);
             state_[lane] = any ? simd::blocked : simd::unblocked;
         }
     }

@@ -44,7 +44,7 @@ class Judge {
         encounter_ = reference_.nearest(
             rays_.ray(ray), simd::origin_surfaces_of(scene_, rays_.paths(ray, 1), /*lane=*/0));
         blocked_ =
-            encounter_.hit.any() && encounter_.hit.t < static_cast<double>(*rays_.t_most(ray));
+            encounter_.hit.any() && encounter_.hit.t < static_cast<double>(*rays_.t_limit(ray));
     }
 
     /// Returns true if an answer is right. If surfaces meet in one point, each of them is.

@@ -195,42 +195,42 @@ void RaySet::reserve(std::size_t rays) {
         for (auto& column : *columns)
             column.reserve(padded);
     in_float_.reserve(padded);
-    t_most_.reserve(padded);
-    t_least_.reserve(padded);
+    t_limit_.reserve(padded);
+    t_lowest_.reserve(padded);
     for (auto* column : {&origin_first_, &origin_last_, &origin_slot_, &departure_})
         column->reserve(padded);
 }
 
-void RaySet::add(const Ray<double>& ray, float t_most) {
+void RaySet::add(const Ray<double>& ray, float t_limit) {
     const Ray<float> asked = in_float(ray);
     append({core::convert<double>(asked.origin),
             core::normalized(core::convert<double>(asked.direction))},
-           asked, t_most);
+           asked, t_limit);
 }
 
-void RaySet::append(const Ray<double>& ray, const Ray<float>& in_float, float t_most) {
+void RaySet::append(const Ray<double>& ray, const Ray<float>& in_float, float t_limit) {
     for (int axis = 0; axis < 3; ++axis) {
         origin_[axis].push_back(ray.origin[axis]);
         direction_[axis].push_back(ray.direction[axis]);
     }
     in_float_.push_back(in_float);
-    t_most_.push_back(t_most);
-    t_least_.push_back(0.0F);
+    t_limit_.push_back(t_limit);
+    t_lowest_.push_back(0.0F);
     for (auto* column : {&origin_first_, &origin_last_, &origin_slot_})
         column->push_back(simd::no_slot);
     departure_.push_back(0);
     ++count;
 }
 
-/// Adds a ray from a hit. t_least is that of Embree's path tracer (tutorials/pathtracer): 32 times
+/// Adds a ray from a hit. t_lowest is that of Embree's path tracer (tutorials/pathtracer): 32 times
 /// the precision of the largest number from which the hit was computed.
-void RaySet::add_from(const Ray<double>& ray, float t_most, const simd::SceneData& scene,
+void RaySet::add_from(const Ray<double>& ray, float t_limit, const simd::SceneData& scene,
                       std::uint32_t slot, std::uint32_t hit, double t) {
-    append(ray, in_float(ray), t_most);
+    append(ray, in_float(ray), t_limit);
     double largest = t;
     for (int axis = 0; axis < 3; ++axis)
         largest = std::max(largest, std::abs(ray.origin[axis]));
-    t_least_.back() = 32.0F * std::numeric_limits<float>::epsilon() * static_cast<float>(largest);
+    t_lowest_.back() = 32.0F * std::numeric_limits<float>::epsilon() * static_cast<float>(largest);
     paths(count - 1, 1).start_on(0, slot, scene.record_of(slot), hit, /*through=*/false);
 }
 

@@ -21,7 +21,7 @@ core::Scene make_workload(const std::string& name);
 /// rays.
 struct RaySet {
     std::string name;
-    bool occlusion = false; ///< true: any hit before t_most is sought; false: the first hit
+    bool occlusion = false; ///< true: any hit before t_limit is sought; false: the first hit
     std::optional<simd::Coherence> coherence; ///< of all rays
     std::size_t count = 0;
 
@@ -29,31 +29,31 @@ struct RaySet {
     simd::Paths paths(std::size_t begin, std::size_t most) const;
     /// Number of rays in a wave: as many as a tile has at a time.
     static constexpr std::size_t wave = 1024;
-    const float* t_most(std::size_t begin) const { return t_most_.data() + begin; }
+    const float* t_limit(std::size_t begin) const { return t_limit_.data() + begin; }
 
     core::Ray<double> ray(std::size_t i) const;
     core::Ray<float> ray_in_float(std::size_t i) const;
     /// Returns the least t for contenders that do not know departures: a ray that starts this far
     /// ahead does not hit the shape that it leaves.
-    float t_least(std::size_t i) const { return t_least_[i]; }
+    float t_lowest(std::size_t i) const { return t_lowest_[i]; }
     /// Returns true if any ray leaves a shape.
     bool leaves_any() const;
 
     void reserve(std::size_t rays);
     /// Adds a ray that starts on no shape.
-    void add(const core::Ray<double>& ray, float t_most);
+    void add(const core::Ray<double>& ray, float t_limit);
     /// Adds a ray from a shape that another ray has hit at distance t.
-    void add_from(const core::Ray<double>& ray, float t_most, const simd::SceneData& scene,
+    void add_from(const core::Ray<double>& ray, float t_limit, const simd::SceneData& scene,
                   std::uint32_t slot, std::uint32_t hit, double t);
     /// Completes the set: makes whole packets readable.
     void finish();
 
   private:
-    void append(const core::Ray<double>& ray, const core::Ray<float>& in_float, float t_most);
+    void append(const core::Ray<double>& ray, const core::Ray<float>& in_float, float t_limit);
 
     std::vector<double> origin_[3], direction_[3];
     std::vector<core::Ray<float>> in_float_;
-    std::vector<float> t_most_, t_least_;
+    std::vector<float> t_limit_, t_lowest_;
     std::vector<std::uint32_t> origin_first_, origin_last_, origin_slot_, departure_;
 };
 

@@ -10,7 +10,7 @@ namespace raylane::core {
 namespace {
 
 /// Maximum number of blocks in the cache of bounds: 3 MB.
-constexpr std::size_t most_held = 8192;
+constexpr std::size_t max_held = 8192;
 
 constexpr float far = std::numeric_limits<float>::infinity();
 
@@ -50,7 +50,7 @@ BeamSearch::BeamSearch(const Scene& scene) : scene_(scene) {
                 });
         }
     });
-    held_.resize(std::bit_ceil(std::min(blocks, most_held)));
+    held_.resize(std::bit_ceil(std::min(blocks, max_held)));
     pending_.reserve(512);
 }
 
@@ -91,7 +91,7 @@ bool BeamSearch::collect(const Beam& beam, std::vector<BeamCandidate>& candidate
         slabs.near(bounds, near);
         for (int lane = 0; lane < block_size; ++lane)
             if (near[lane] < far) add(child, lane, bounds, near[lane], candidates);
-        if (candidates.size() > most_candidates) return false;
+        if (candidates.size() > max_candidates) return false;
     }
     return true;
 }

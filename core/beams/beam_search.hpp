@@ -23,7 +23,7 @@ class BeamSearch {
     explicit BeamSearch(const Scene& scene);
 
     /// Maximum number of candidates. A beam that may meet more is in doubt as a whole.
-    static constexpr std::size_t most_candidates = 4096;
+    static constexpr std::size_t max_candidates = 4096;
 
     /// Fills in all shapes whose bounds a beam may meet. Returns false if they are too many.
     bool collect(const Beam& beam, std::vector<BeamCandidate>& candidates);

@@ -73,7 +73,7 @@ bool BeamTracer::shows_thin(const Square& square) {
     search_.keep_first(beam, shown_);
     for (const BeamCandidate& shape : shown_)
         if (is_thin(shape)) thin_.push_back(shape.id);
-    return !thin_.empty() && thin_.size() <= most_thin;
+    return !thin_.empty() && thin_.size() <= max_thin;
 }
 
 /// Compares the shape's width with the size of a pixel at the middle of its bounds.
@@ -93,11 +93,11 @@ bool BeamTracer::is_thin(const BeamCandidate& candidate) const {
 }
 
 void BeamTracer::keep_shown(const Square& square, const std::vector<BeamCandidate>& shown,
-                            int halvings, int least_parts, std::vector<ShapeId>& asked) {
+                            int halvings, int min_parts, std::vector<ShapeId>& asked) {
     found_.clear();
     find_shown(square, shown, halvings, asked);
     std::erase_if(asked, [&](ShapeId id) {
-        return std::count(found_.begin(), found_.end(), id) < least_parts;
+        return std::count(found_.begin(), found_.end(), id) < min_parts;
     });
 }
 

@@ -30,14 +30,14 @@ class BeamTracer {
     const std::vector<BeamCandidate>& shown() const { return shown_; }
 
     /// Tests the 4^halvings parts of a square, and keeps the shapes of `asked` that may show in at
-    /// least `least_parts` of them. `shown` is shown() of the square; 1 <= halvings <=
-    /// most_halvings.
+    /// least `min_parts` of them. `shown` is shown() of the square; 1 <= halvings <=
+    /// max_halvings.
     void keep_shown(const Square& square, const std::vector<BeamCandidate>& shown, int halvings,
-                    int least_parts, std::vector<ShapeId>& asked);
-    static constexpr int most_halvings = 4;
+                    int min_parts, std::vector<ShapeId>& asked);
+    static constexpr int max_halvings = 4;
 
   private:
-    static constexpr std::size_t most_thin = 64;
+    static constexpr std::size_t max_thin = 64;
 
     bool is_thin(const BeamCandidate& candidate) const;
     Beam camera_beam(const Square& square) const;
@@ -50,7 +50,7 @@ class BeamTracer {
     BeamSearch search_;
     std::vector<BeamCandidate> shown_;
     std::vector<ShapeId> thin_, found_, parts_shown_;
-    std::array<std::vector<BeamCandidate>, most_halvings> closer_; // by remaining halvings
+    std::array<std::vector<BeamCandidate>, max_halvings> closer_; // by remaining halvings
 };
 
 } // namespace raylane::core

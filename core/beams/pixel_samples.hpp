@@ -76,12 +76,12 @@ class PixelSamples {
             seen_sum_[channel] += seen;
             seen_squares_[channel] += seen * seen;
         }
-        if (!has_seen(sample.shape) && shapes_count_ < most_shapes)
+        if (!has_seen(sample.shape) && shapes_count_ < max_shapes)
             shapes_[shapes_count_++] = sample.shape;
     }
 
     /// Returns true if a sample has hit the shape, or, for no_shape, has hit nothing. Knows the
-    /// first `most_shapes` shapes only.
+    /// first `max_shapes` shapes only.
     bool has_seen(ShapeId shape) const {
         return std::find(shapes_.begin(), shapes_.begin() + shapes_count_, shape) !=
                shapes_.begin() + shapes_count_;
@@ -91,7 +91,7 @@ class PixelSamples {
     /// channels.
     double squares_shown(Transfer transfer) const;
 
-    static constexpr int most_shapes = 8;
+    static constexpr int max_shapes = 8;
 
   private:
     /// The share of the background that is left out counts as white.
@@ -99,7 +99,7 @@ class PixelSamples {
 
     int count_ = 0;
     std::size_t shapes_count_ = 0;
-    std::array<ShapeId, most_shapes> shapes_{};
+    std::array<ShapeId, max_shapes> shapes_{};
     Vec3d sum_{0.0};
     // Sums over the colours clamped to [0, 1], and over the background's share.
     std::array<double, channels> seen_sum_{}, seen_squares_{};

@@ -12,9 +12,9 @@ namespace {
 /// is this constant divided by the allowed error of the image.
 constexpr double of_unseen = 6.4;
 
-int most_unseen_of(double quality) {
+int max_unseen_of(double quality) {
     const double most =
-        std::min<double>(RegionSamples::most_samples, of_unseen * core::pow(10.0, quality / 20.0));
+        std::min<double>(RegionSamples::max_samples, of_unseen * core::pow(10.0, quality / 20.0));
     return static_cast<int>(std::bit_floor(static_cast<unsigned>(most)));
 }
 
@@ -22,8 +22,7 @@ int most_unseen_of(double quality) {
 
 RegionSamples::RegionSamples(const Scene& scene, const Settings& settings, const Survey& survey)
     : settings_(settings), survey_(survey),
-      most_unseen_(most_unseen_of(static_cast<double>(settings.quality))), beams_(scene, settings) {
-}
+      max_unseen_(max_unseen_of(static_cast<double>(settings.quality))), beams_(scene, settings) {}
 
 /// Returns the square that the filters of a square's pixels reach.
 Square RegionSamples::seen_by(int x, int y, int size) const {
@@ -77,7 +76,7 @@ void RegionSamples::look_closer(Pixel& pixel, int x, int y) {
     if (pixel.wanted == 0) return;
     const int count = pixel.samples.count();
     const double squares = count != 0 ? pixel.samples.squares_shown(settings_.transfer) : 0.0;
-    const bool is_done = count >= most_samples ||
+    const bool is_done = count >= max_samples ||
                          (survey_.is_done({pixel.around, squares, count}) && !hides(pixel, x, y));
     pixel.wanted = is_done ? 0 : count != 0 ? count : survey_.first_samples();
 }
@@ -90,7 +89,7 @@ bool RegionSamples::hides(Pixel& pixel, int x, int y) {
     // The longer a shape stays hidden, the more effort is justified to find out whether it is
     // visible.
     struct CloserLook {
-        int at, halvings, least_parts;
+        int at, halvings, min_parts;
     };
     constexpr CloserLook looks[] = {{0, 0, 0}, {16, 2, 1}, {64, 4, 3}};
     while (pixel.closer_looks < std::size(looks) && count >= looks[pixel.closer_looks].at) {
@@ -102,13 +101,13 @@ bool RegionSamples::hides(Pixel& pixel, int x, int y) {
             pixel.hidden = beams_.thin();
         } else {
             in_pixel_ = beams_.shown();
-            beams_.keep_shown(square, in_pixel_, look.halvings, look.least_parts, pixel.hidden);
+            beams_.keep_shown(square, in_pixel_, look.halvings, look.min_parts, pixel.hidden);
         }
     }
     std::erase_if(pixel.hidden, [&](ShapeId id) {
         return pixel.samples.has_seen(id) || (count == 0 && id == pixel.first.shape);
     });
-    pixel.may_hide = !pixel.hidden.empty() && count < most_unseen_;
+    pixel.may_hide = !pixel.hidden.empty() && count < max_unseen_;
     return pixel.may_hide;
 }
 

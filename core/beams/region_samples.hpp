@@ -27,7 +27,7 @@ class RegionSamples {
     /// Side, in pixels, of the squares that are tested together. Regions consist of whole squares,
     /// except at the image's right and lower edges.
     static constexpr int square_size = 16;
-    static constexpr int most_samples = 1024;
+    static constexpr int max_samples = 1024;
 
     void begin(const Region& region);
     /// Pixels are numbered row by row.
@@ -78,7 +78,7 @@ class RegionSamples {
     Settings settings_;
     const Survey& survey_;
     /// Maximum number of samples for a pixel whose thin shapes no sample has hit.
-    int most_unseen_;
+    int max_unseen_;
     BeamTracer beams_;
     Region region_{};
     std::size_t width_ = 0;

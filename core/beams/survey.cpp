@@ -203,8 +203,8 @@ void Survey::fit_errors() {
     const double r5 = r * r * r * r * r;
     const double c = variance > 0.0 ? of_32 / (r5 - r5 * r) / variance : 0.0;
     left_.clear();
-    for (std::size_t stage = 0;
-         left_.empty() || samples_at(stage - 1) < RegionSamples::most_samples; ++stage)
+    for (std::size_t stage = 0; left_.empty() || samples_at(stage - 1) < RegionSamples::max_samples;
+         ++stage)
         left_.push_back(c * core::pow(r, static_cast<double>(stage + (stage > 0 ? 1 : 0))));
 }
 
@@ -224,7 +224,7 @@ Survey::Outcome Survey::outcome_of(const Policy& policy) const {
                               stage == 0 ? 0 : samples_at(stage)};
             return Survey::is_done(known, policy);
         };
-        while (samples_at(stage) < RegionSamples::most_samples && !is_done())
+        while (samples_at(stage) < RegionSamples::max_samples && !is_done())
             ++stage;
         all.squared_error += record.weight * squared_error_at(record, stage);
         all.cost += record.weight * record.cost * weighted_samples(samples_at(stage), policy);
@@ -257,7 +257,7 @@ void Survey::choose_policy() {
     fit_errors();
     const double asked = core::pow(10.0, -(static_cast<double>(settings_.quality) + margin) / 10.0);
     const double too_good = asked * core::pow(10.0, -excess / 10.0);
-    const double most_cost = RegionSamples::most_samples * mean_cost();
+    const double max_cost = RegionSamples::max_samples * mean_cost();
     double least = infinity<double>;
     bool is_too_good = true;
     for (const bool spares_alike : {true, false})
@@ -273,7 +273,7 @@ void Survey::choose_policy() {
             const Outcome outcome = outcome_of(policy);
             const double cost = outcome.squared_error <= asked
                                     ? outcome.cost
-                                    : most_cost * outcome.squared_error / asked;
+                                    : max_cost * outcome.squared_error / asked;
             const bool exceeds = outcome.squared_error < too_good;
             if (exceeds == is_too_good ? cost < least : is_too_good) {
                 least = cost;

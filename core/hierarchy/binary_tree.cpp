@@ -11,7 +11,7 @@ namespace {
 
 /// Maximum number of items that one thread builds as one task: much smaller than a scene that takes
 /// long to build, and large enough that the cost of starting a task does not matter.
-constexpr std::size_t most_in_a_part = std::size_t{1} << 14;
+constexpr std::size_t max_in_a_part = std::size_t{1} << 14;
 
 /// Drops duplicates where they are certain to be together: in a small range, or if all centres
 /// coincide.
@@ -19,7 +19,7 @@ void drop_duplicates(std::span<Item> items, const Duplicates& duplicates,
                      std::vector<std::uint32_t>& room, Range& range) {
     const auto [lower, upper] = range.centers.bounds();
     const bool is_place = lower == upper;
-    if (range.size() <= Sweep::most_items || is_place)
+    if (range.size() <= Sweep::max_items || is_place)
         range.last = range.first +
                      duplicates.drop_from(items.subspan(range.first, range.size()), room, is_place);
 }
@@ -40,7 +40,7 @@ class PartBuilder {
   private:
     EntryCosts grow(Range range, std::uint32_t node) {
         drop_duplicates(items_, duplicates_, room_, range);
-        if (range.size() <= Sweep::most_items)
+        if (range.size() <= Sweep::max_items)
             return sweep_.build(items_.subspan(range.first, range.size()), range.first, nodes_,
                                 node);
         const Halves halves = split_by_bins(items_, range, alone_);
@@ -68,13 +68,13 @@ class TreeBuilder {
         : items_(items), duplicates_(duplicates), workers_(workers) {}
 
     EntryCosts build(Range range, TreePart& part) {
-        if (range.size() > most_in_a_part) {
+        if (range.size() > max_in_a_part) {
             std::vector<std::uint32_t> room;
             const std::size_t before = range.size();
             drop_duplicates(items_, duplicates_, room, range);
             if (range.size() < before) workers_.placed(before - range.size(), items_.size());
         }
-        if (range.size() <= most_in_a_part) {
+        if (range.size() <= max_in_a_part) {
             const EntryCosts costs = PartBuilder(items_, duplicates_).build(range, part);
             workers_.placed(range.size(), items_.size());
             return costs;

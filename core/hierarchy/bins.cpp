@@ -11,7 +11,7 @@ namespace raylane::core {
 
 namespace {
 
-constexpr int most_bins = 32;
+constexpr int max_bins = 32;
 
 /// Larger ranges are processed strip by strip, possibly by many threads. The strip size affects the
 /// result: it decides the order of the items after a partition.
@@ -45,8 +45,8 @@ class Grid {
 };
 
 struct Bins {
-    Box4 boxes[3][most_bins];
-    std::uint32_t counts[3][most_bins]{};
+    Box4 boxes[3][max_bins];
+    std::uint32_t counts[3][max_bins]{};
 
     void include(std::span<const Item> items, const Grid& grid) {
         for (const Item& item : items) {
@@ -89,7 +89,7 @@ Plane3 best_plane(const Bins& bins, int count, float unit) {
     Plane3 best;
     float best_cost = std::numeric_limits<float>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
-        std::array<float, most_bins> right_cost;
+        std::array<float, max_bins> right_cost;
         Box4 right;
         std::uint32_t items = 0;
         for (int bin = count - 1; bin > 0; --bin) {
@@ -238,7 +238,7 @@ Range whole_range(std::span<const Item> items, Workers& workers) {
 }
 
 Halves split_by_bins(std::span<Item> items, const Range& range, Workers& workers) {
-    const int count = range.size() > 1024 ? most_bins : most_bins / 2;
+    const int count = range.size() > 1024 ? max_bins : max_bins / 2;
     const Grid grid(range.centers, count);
     Bins bins;
     if (range.size() <= strip_size) {

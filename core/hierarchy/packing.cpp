@@ -27,9 +27,9 @@ class Packer {
         PackedSpheres packed;
         const std::size_t bytes =
             blocks_.size() * sizeof(PackedBlock) + rows * sizeof(PackedSpheres::Row);
-        constexpr std::size_t most_rows = std::size_t{1} << (32 - PackedBlock::rows);
+        constexpr std::size_t max_rows = std::size_t{1} << (32 - PackedBlock::rows);
         // A row outside of its block costs a memory access: at most every other block may have one.
-        if (bytes > blocks_.bytes() / 5 * 4 || rows >= most_rows) return packed;
+        if (bytes > blocks_.bytes() / 5 * 4 || rows >= max_rows) return packed;
         packed.blocks = BigArray<PackedBlock>(blocks_.size());
         packed.rows = decltype(packed.rows)(rows);
         workers_.each(tasks_, [&](std::size_t task) {
@@ -129,8 +129,8 @@ class Packer {
 } // namespace
 
 void pack_spheres(Table<Sphere>& table, std::size_t id_count, std::size_t from, Workers& workers) {
-    if (table.block_count() * block_size < std::max(from, least_packed) || table.has_doubles() ||
-        id_count > most_packed_ids)
+    if (table.block_count() * block_size < std::max(from, min_packed) || table.has_doubles() ||
+        id_count > max_packed_ids)
         return;
     PackedSpheres packed = Packer(table.plain_blocks(), id_count, workers).pack();
     if (!packed.empty()) table.replace_blocks(std::move(packed));

@@ -13,7 +13,7 @@ inline constexpr std::size_t packed_from = std::size_t{1} << 22;
 
 /// Minimum number of spheres for packing, whatever the caller asks for: scenes without a tree keep
 /// plain tables.
-inline constexpr std::size_t least_packed = 64;
+inline constexpr std::size_t min_packed = 64;
 
 /// Packs a table if it has blocks for at least `from` spheres, all of floats, and if packing saves
 /// a fifth. All ids must be less than `id_count`. The result does not depend on the workers.

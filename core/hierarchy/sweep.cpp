@@ -39,7 +39,7 @@ EntryCosts Sweep::build(std::span<Item> items, std::size_t first, std::vector<Bi
         if (mixed_ || count > block_size) sort(axis, centers);
     }
     const EntryCosts costs = grow(0, count, root);
-    std::array<std::uint32_t, most_items> positions;
+    std::array<std::uint32_t, max_items> positions;
     for (int i = 0; i < count; ++i)
         positions[i] = items[order_[0][i]].position();
     for (int i = 0; i < count; ++i)
@@ -56,11 +56,11 @@ void Sweep::sort(int axis, const Box4& centers) {
     const float scale = last_key / (centers.upper[axis] - lower);
     if (!std::isfinite(scale)) return;
     const int count = static_cast<int>(items_.size());
-    std::array<std::uint16_t, most_items> keys;
+    std::array<std::uint16_t, max_items> keys;
     for (int i = 0; i < count; ++i)
         keys[i] = static_cast<std::uint16_t>(
             std::min((items_[i].doubled_center()[axis] - lower) * scale, last_key));
-    std::array<Index, most_items> passed;
+    std::array<Index, max_items> passed;
     for (const int shift : {0, digit_bits}) {
         const auto digit = [&](Index i) { return keys[i] >> shift & (digits - 1); };
         std::array<Index, digits> place{};
@@ -204,7 +204,7 @@ void Sweep::divide(int first, const Split& split, int last) {
     }
     for (int axis = 0; axis < 3; ++axis) {
         if (axis == split.axis) continue;
-        std::array<Index, most_items> right;
+        std::array<Index, max_items> right;
         int lefts = first, rights = 0;
         for (int i = first; i < last; ++i) {
             const Index index = order_[axis][i];

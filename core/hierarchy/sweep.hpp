@@ -11,13 +11,13 @@
 
 namespace raylane::core {
 
-/// Builds the subtree over at most most_items items by the surface-area heuristic. Tries all splits
+/// Builds the subtree over at most max_items items by the surface-area heuristic. Tries all splits
 /// between neighbours along each axis and, for items of several kinds, all splits of one kind from
 /// the others. The leaves fill up, because the cost counts blocks. The items are sorted once along
 /// each axis, and the halves of a split stay sorted.
 class Sweep {
   public:
-    static constexpr int most_items = 128;
+    static constexpr int max_items = 128;
 
     /// Builds the subtree below nodes[root], whose bounds must be set, and returns the subtree's
     /// costs. `first` is the index of items[0] among all items of the tree. On return, items[i] has
@@ -29,7 +29,7 @@ class Sweep {
   private:
     using Index = std::uint8_t;
     /// Number of blocks that the first or last i items need.
-    using BlockCounts = std::array<std::uint8_t, most_items + 1>;
+    using BlockCounts = std::array<std::uint8_t, max_items + 1>;
 
     struct Split {
         float cost = std::numeric_limits<float>::infinity();
@@ -52,10 +52,10 @@ class Sweep {
     std::size_t first_ = 0;
     std::vector<BinaryNode>* nodes_ = nullptr;
     bool mixed_ = false;
-    std::array<std::array<Index, most_items>, 3> order_; // by centre along each axis
-    std::array<Box4, most_items> right_boxes_;
+    std::array<std::array<Index, max_items>, 3> order_; // by centre along each axis
+    std::array<Box4, max_items> right_boxes_;
     BlockCounts blocks_before_, blocks_from_;
-    std::array<bool, most_items> is_left_;
+    std::array<bool, max_items> is_left_;
 };
 
 } // namespace raylane::core

@@ -17,9 +17,9 @@ constexpr double pi = std::numbers::pi;
 constexpr double large = 709.0;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr int most_squared = 1024; // for repeated squaring, with an error of 2^-90
+constexpr int max_squared = 1024; // for repeated squaring, with an error of 2^-90
 
-/// x^n for finite x != 0 and |n| <= most_squared.
+/// x^n for finite x != 0 and |n| <= max_squared.
 double whole_power(double x, int n) {
     int exponent = 0;
     double m = std::frexp(x, &exponent);
@@ -60,7 +60,7 @@ double power(double x, double y) {
     const bool is_whole = std::floor(size) == size;
     if (x < 0.0 && !is_whole) return not_a_number;
     if (y == 0.5) return std::sqrt(x);
-    if (is_whole && size <= most_squared) return whole_power(x, static_cast<int>(y));
+    if (is_whole && size <= max_squared) return whole_power(x, static_cast<int>(y));
     const double result = pow(std::abs(x), y); // any y is valid for a positive base
     return x < 0.0 && std::fmod(size, 2.0) != 0.0 ? -result : result;
 }

@@ -28,12 +28,12 @@ template <class Real>
 constexpr Real allowance = Real(1) + Real(std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-25);
 
 /// Returns the t >= 0 at which a ray enters the bounds of entry i, or -1 if the ray misses these
-/// bounds between 0 and t_most. A direction component of 0 gives 0 * inf only if the origin is in a
-/// plane of the bounds. Either answer is then right, as no shape touches its bounds.
+/// bounds between 0 and t_limit. A direction component of 0 gives 0 * inf only if the origin is in
+/// a plane of the bounds. Either answer is then right, as no shape touches its bounds.
 template <class Real>
 Real entry_t(const WideNode& node, int i, const Ray<Real>& ray, const Vec3<Real>& inverse,
-             Real t_most) {
-    Real near = 0, far = t_most;
+             Real t_limit) {
+    Real near = 0, far = t_limit;
     for (int axis = 0; axis < 3; ++axis) {
         const Real to_lower = Real(node.lower[axis][i]) - ray.origin[axis];
         const Real to_upper = Real(node.upper[axis][i]) - ray.origin[axis];
@@ -58,7 +58,7 @@ Searcher<Real>::Searcher(const Scene& scene, Search search, Precision precision)
 
 template <class Real>
 Encounter<Real> Searcher<Real>::nearest(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
-                                        OfHit counts, Real t_most) {
+                                        OfHit counts, Real t_limit) {
     Hit<Real> first;
     for (const Contact<Real>& contact : origins) {
         if (!contact.is_crossed() || !counts(contact_hit(contact)) ||
@@ -67,12 +67,12 @@ Encounter<Real> Searcher<Real>::nearest(const Ray<Real>& ray, const OriginSurfac
         if (!first.any() || contact_hit(contact).precedes(first)) first = contact_hit(contact);
     }
     if (first.any()) return {first, origins};
-    const Hit<Real> best = look(ray, origins, counts, t_most);
+    const Hit<Real> best = look(ray, origins, counts, t_limit);
     return best.any() ? encounter(ray, origins, best) : Encounter<Real>{};
 }
 
 template <class Real>
-void Searcher<Real>::each(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real t_most,
+void Searcher<Real>::each(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real t_limit,
                           OfHit visit) {
     bool more = true;
     for (const Contact<Real>& contact : origins)
@@ -80,10 +80,10 @@ void Searcher<Real>::each(const Ray<Real>& ray, const OriginSurfaces<Real>& orig
             more = visit(contact_hit(contact));
     if (!more) return;
     for_each_candidate(
-        ray, [&] { return t_most; },
+        ray, [&] { return t_limit; },
         [&](Kind kind, std::uint32_t block) {
             cross_block(kind, block, ray, origins, [&](const Hit<Real>& hit) {
-                if (more && hit.t < t_most && is_surface(ray, origins, hit)) more = visit(hit);
+                if (more && hit.t < t_limit && is_surface(ray, origins, hit)) more = visit(hit);
             });
             return more;
         });
@@ -141,15 +141,15 @@ bool Searcher<Real>::is_surface(const Ray<Real>& ray, const OriginSurfaces<Real>
 /// Fills candidates_. Returns a hit that may be the first, or no hit.
 template <class Real>
 Hit<Real> Searcher<Real>::look(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
-                               OfHit counts, Real t_most) {
+                               OfHit counts, Real t_limit) {
     Hit<Real> best;
-    best.t = t_most;
+    best.t = t_limit;
     candidates_.clear();
     for_each_candidate(
         ray, [&] { return best.t; },
         [&](Kind kind, std::uint32_t block) {
             cross_block(kind, block, ray, origins, [&](const Hit<Real>& hit) {
-                if (best.is_surely_before(hit) || !(hit.t < t_most)) return;
+                if (best.is_surely_before(hit) || !(hit.t < t_limit)) return;
                 // A hit that does not count may still be at the point where the ray continues.
                 const bool may_be_hit = counts(hit) && is_surface(ray, origins, hit);
                 candidates_.push_back({hit, may_be_hit});
@@ -229,11 +229,11 @@ Encounter<Real> Searcher<Real>::first_of(const std::vector<AnyHit>& hits, const 
     return {hit_first, OriginSurfaces<Real>(contacts_)};
 }
 
-/// Calls visit(kind, block) for the blocks that may be hit before t_most(), until visit returns
+/// Calls visit(kind, block) for the blocks that may be hit before t_limit(), until visit returns
 /// false.
 template <class Real>
 template <class Most, class Visit>
-void Searcher<Real>::for_each_candidate(const Ray<Real>& ray, const Most& t_most,
+void Searcher<Real>::for_each_candidate(const Ray<Real>& ray, const Most& t_limit,
                                         const Visit& visit) {
     bool more = true;
     const auto visit_all = [&]<class Shape>(const Table<Shape>& table) {
@@ -245,19 +245,19 @@ void Searcher<Real>::for_each_candidate(const Ray<Real>& ray, const Most& t_most
         return;
     }
     for_each_unbounded_table(scene_.shapes(), visit_all);
-    if (more && !scene_.hierarchy().nodes.empty()) walk(ray, t_most, visit);
+    if (more && !scene_.hierarchy().nodes.empty()) walk(ray, t_limit, visit);
 }
 
 /// Visits the blocks through the hierarchy, nearest first.
 template <class Real>
 template <class Most, class Visit>
-void Searcher<Real>::walk(const Ray<Real>& ray, const Most& t_most, const Visit& visit) {
+void Searcher<Real>::walk(const Ray<Real>& ray, const Most& t_limit, const Visit& visit) {
     const Vec3<Real> inverse = Real(1) / ray.direction;
     pending_.assign(1, {Real(0), Child::node(0)});
     while (!pending_.empty()) {
         const Pending next = pending_.back();
         pending_.pop_back();
-        if (next.t > t_most() * allowance<Real>) continue;
+        if (next.t > t_limit() * allowance<Real>) continue;
         if (next.child.is_block()) {
             if (!visit(next.child.kind(), next.child.index())) return;
             continue;
@@ -266,7 +266,7 @@ void Searcher<Real>::walk(const Ray<Real>& ray, const Most& t_most, const Visit&
         const WideNode& node = scene_.hierarchy().nodes[next.child.index()];
         const auto first = static_cast<std::ptrdiff_t>(pending_.size());
         for (int i = 0; i < block_size && !node.children[i].empty(); ++i) {
-            const Real t = entry_t(node, i, ray, inverse, t_most());
+            const Real t = entry_t(node, i, ray, inverse, t_limit());
             if (t >= Real(0)) pending_.push_back({t, node.children[i]});
         }
         std::sort(pending_.begin() + first, pending_.end(),

@@ -48,14 +48,14 @@ class Searcher {
 
     Searcher(const Scene& scene, Search search, Precision precision = precision_of<Real>);
 
-    /// Returns the first crossing with t < t_most for which `counts(hit)` is true. Without one, t
+    /// Returns the first crossing with t < t_limit for which `counts(hit)` is true. Without one, t
     /// is infinite.
     Encounter<Real> nearest(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, OfHit counts,
-                            Real t_most = std::numeric_limits<Real>::infinity());
+                            Real t_limit = std::numeric_limits<Real>::infinity());
 
-    /// Calls visit(hit) for the crossings of surfaces with t < t_most, in no order, until it
+    /// Calls visit(hit) for the crossings of surfaces with t < t_limit, in no order, until it
     /// returns false.
-    void each(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real t_most, OfHit visit);
+    void each(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real t_limit, OfHit visit);
 
     /// Returns the point of a crossing, and the unit normal on the outside (the front) there.
     SurfacePoint<Real> surface_at(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
@@ -78,7 +78,7 @@ class Searcher {
         bool may_be_hit;
     };
     Hit<Real> look(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, OfHit counts,
-                   Real t_most);
+                   Real t_limit);
     Encounter<Real> encounter(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                               const Hit<Real>& best);
     template <class AnyHit, class Compare>
@@ -90,9 +90,9 @@ class Searcher {
         Child child;
     };
     template <class Most, class Visit>
-    void for_each_candidate(const Ray<Real>& ray, const Most& t_most, const Visit& visit);
+    void for_each_candidate(const Ray<Real>& ray, const Most& t_limit, const Visit& visit);
     template <class Most, class Visit>
-    void walk(const Ray<Real>& ray, const Most& t_most, const Visit& visit);
+    void walk(const Ray<Real>& ray, const Most& t_limit, const Visit& visit);
     void cross_block(Kind kind, std::uint32_t index, const Ray<Real>& ray,
                      const OriginSurfaces<Real>& origins,
                      FunctionRef<void(const Hit<Real>&)> visit);

@@ -93,7 +93,7 @@ class Checker {
     /// Checks that each node except the root has one parent, which comes before it, and that each
     /// block of a bounded kind has one parent.
     void check_tree() const {
-        constexpr std::uint16_t most_levels = 4096; // limits recursion
+        constexpr std::uint16_t max_levels = 4096; // limits recursion
         std::vector<std::uint16_t> level(nodes().size(), 0);
         std::vector<bool> seen[kind_count];
         for_each_table(shapes_.tables, [&]<class Shape>(const Table<Shape>& table) {
@@ -117,7 +117,7 @@ class Checker {
                     seen[kind][child.index()] = true;
                 } else {
                     if (child.index() <= i || child.index() >= nodes().size() ||
-                        level[child.index()] != 0 || level[i] >= most_levels)
+                        level[child.index()] != 0 || level[i] >= max_levels)
                         refuse("nodes that do not form a tree");
                     level[child.index()] = static_cast<std::uint16_t>(level[i] + 1);
                 }
@@ -175,7 +175,7 @@ class Checker {
 
     /// Checks packed spheres. Call before reading any of them.
     void check_packed(const PackedSpheres& packed) {
-        if (shape_count() > most_packed_ids) refuse("too many packed spheres");
+        if (shape_count() > max_packed_ids) refuse("too many packed spheres");
         require_all(packed.blocks.size(), "invalid packed spheres", [&](std::size_t index) {
             const PackedBlock& block = packed.blocks[index];
             const std::size_t first = block.whole >> PackedBlock::rows;

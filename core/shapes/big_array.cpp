@@ -12,10 +12,10 @@ constexpr std::size_t huge_page = std::size_t{2} << 20;
 constexpr std::size_t cache_line = 64;
 
 /// A smaller table would waste much of its last page.
-constexpr std::size_t least_in_huge_pages = 4 * huge_page;
+constexpr std::size_t min_in_huge_pages = 4 * huge_page;
 
 std::align_val_t alignment_of(std::size_t bytes) {
-    return std::align_val_t(bytes >= least_in_huge_pages ? huge_page : cache_line);
+    return std::align_val_t(bytes >= min_in_huge_pages ? huge_page : cache_line);
 }
 
 } // namespace
@@ -24,7 +24,7 @@ void* allocate_big(std::size_t bytes) {
     void* const memory = ::operator new(bytes, alignment_of(bytes));
 #ifdef MADV_HUGEPAGE
     // Only a request: if the system refuses it, small pages work, too.
-    if (bytes >= least_in_huge_pages) static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));
+    if (bytes >= min_in_huge_pages) static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));
 #endif
     return memory;
 }
@@ -38,7 +38,7 @@ void forget_rest(void* memory, std::size_t bytes, std::size_t used) noexcept {
     // Whole huge pages, which are aligned with the start of such memory.
     const std::size_t first = (used + huge_page - 1) / huge_page * huge_page;
     const std::size_t last = bytes / huge_page * huge_page;
-    if (bytes >= least_in_huge_pages && first < last)
+    if (bytes >= min_in_huge_pages && first < last)
         static_cast<void>(
             ::madvise(static_cast<std::byte*>(memory) + first, last - first, MADV_DONTNEED));
 #else

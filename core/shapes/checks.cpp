@@ -40,7 +40,7 @@ void require_in_range(const Field& field, Number value, const char* least) {
     require(std::abs(value) <= Number(coordinate_limit), field,
             "must be a number from -1e30 to 1e30", value);
     if constexpr (std::is_same_v<Number, double>)
-        require(std::abs(value) >= least_double || is_float(value), field, least, value);
+        require(std::abs(value) >= min_double || is_float(value), field, least, value);
 }
 
 } // namespace

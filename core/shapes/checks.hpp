@@ -12,7 +12,7 @@ namespace raylane::core {
 inline constexpr float coordinate_limit = 1e30F;
 /// Least magnitude of doubles that are not floats: the least normal float. Their error as floats is
 /// therefore relative to them.
-inline constexpr double least_double = 0x1p-126;
+inline constexpr double min_double = 0x1p-126;
 
 namespace checks {
 

@@ -65,7 +65,7 @@ class RadiusPalette {
 };
 
 /// Maximum number of ids: larger ones leave no bit for the palette.
-inline constexpr std::size_t most_packed_ids = std::size_t{1} << 30;
+inline constexpr std::size_t max_packed_ids = std::size_t{1} << 30;
 
 /// Returns how many rows of a block are stored elsewhere.
 int whole_rows(const Block<Sphere>& block, const RadiusPalette& palette);

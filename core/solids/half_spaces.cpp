@@ -180,7 +180,7 @@ QuadricOf<double> within(QuadricOf<double> quadric, const Bounds& bounds) {
 
 Bounds bounds_of_common(std::span<const HalfSpace> half_spaces) {
     // More forms would cost more than bounds are worth.
-    constexpr std::size_t most_quadrics = 4, most_planes = 12;
+    constexpr std::size_t max_quadrics = 4, max_planes = 12;
     const bool is_single = half_spaces.size() == 1;
     std::vector<Form> quadrics;
     std::vector<LinearForm> planes;
@@ -188,9 +188,9 @@ Bounds bounds_of_common(std::span<const HalfSpace> half_spaces) {
         const auto* quadric = std::get_if<QuadricOf<double>>(&half_space.shape);
         const auto* plane = std::get_if<PlaneOf<double>>(&half_space.shape);
         if (is_single && (quadric == nullptr || !may_be_definite(*quadric))) return everywhere();
-        if (quadric != nullptr && quadrics.size() < most_quadrics)
+        if (quadric != nullptr && quadrics.size() < max_quadrics)
             quadrics.push_back(form_of(*quadric, half_space.reversed));
-        if (plane != nullptr && planes.size() < most_planes)
+        if (plane != nullptr && planes.size() < max_planes)
             planes.push_back(linear_form_of(*plane, half_space.reversed));
     }
     if (quadrics.empty()) return everywhere();

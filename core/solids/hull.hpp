@@ -32,14 +32,14 @@ inline bool contains(const Bounds& outer, const Bounds& inner) {
 }
 
 /// Number of times that a box is halved along each axis.
-inline constexpr std::size_t most_halvings = 3;
+inline constexpr std::size_t max_halvings = 3;
 
 /// Bounds of all points of a box at which a predicate may hold, found by halving the box. Calls
 /// may_be(position of a cell, remaining halvings) for a cell after the cell that contains it.
 template <class MayBe>
 class Hull {
   public:
-    Hull(const Bounds& box, const MayBe& may_be) : may_be_(may_be) { add(box, most_halvings); }
+    Hull(const Bounds& box, const MayBe& may_be) : may_be_(may_be) { add(box, max_halvings); }
     const Bounds& bounds() const { return hull_; }
 
   private:

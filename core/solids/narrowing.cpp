@@ -17,7 +17,7 @@ std::size_t terms_for_each(std::size_t parts) {
 
 /// Returns the maximum number of terms to evaluate for the bounds of each part. Beyond it, the
 /// bounds stay as they are.
-std::size_t most_steps(std::size_t parts) {
+std::size_t max_steps(std::size_t parts) {
     return std::min<std::size_t>(std::size_t{1} << 13, (std::size_t{1} << 23) / parts);
 }
 
@@ -63,7 +63,7 @@ Value SolidNarrowing::reduce_term(const std::vector<Term>& from, std::size_t at,
     if (node.op == Solids::Op::part) {
         const bool is_kept = is_of_group(term.node);
         const Value value = is_kept ? Value::unknown : value_of(term.node, box);
-        if (is_kept || (value == Value::unknown && begin < most_terms_))
+        if (is_kept || (value == Value::unknown && begin < max_terms_))
             to.push_back({term.node, begin + 1});
         return value;
     }
@@ -92,7 +92,7 @@ Value SolidNarrowing::reduce_term(const std::vector<Term>& from, std::size_t at,
         return !decides;
     }
     to[begin].end = to.size();
-    if (to.size() == begin + 1 && begin >= most_terms_) to.pop_back(); // all its terms are cut
+    if (to.size() == begin + 1 && begin >= max_terms_) to.pop_back(); // all its terms are cut
     return Value::unknown;
 }
 
@@ -113,7 +113,7 @@ void SolidNarrowing::narrow_whole(Index solid) {
     first_ = last_ = 0;
     solid_ = solid;
     number_.assign(nodes_[solid].end - solid, std::numeric_limits<std::size_t>::max());
-    most_terms_ = number_.size();
+    max_terms_ = number_.size();
     reduced_.back() = expression_of(solid);
     steps_ = 0;
     const std::size_t most = std::max<std::size_t>(std::size_t{1} << 14, 16 * number_.size());
@@ -140,7 +140,7 @@ void SolidNarrowing::narrow_group(std::size_t first, std::size_t last,
     }
     first_ = first;
     last_ = last;
-    most_terms_ = terms_for_each(number_.size()) * (last - first);
+    max_terms_ = terms_for_each(number_.size()) * (last - first);
     Expression reduced;
     reduce(expression, somewhere_in(all), reduced);
     if (last - first == 1) return narrow_part(parts_[first], reduced);
@@ -177,7 +177,7 @@ void SolidNarrowing::narrow_part(Index part, const Expression& expression) {
         const bool with_inside = needs_inside(part);
         reduced_.back() = expression;
         steps_ = 0;
-        const std::size_t most = most_steps(number_.size());
+        const std::size_t most = max_steps(number_.size());
         bounds = hull_in(bounds, [&](const Somewhere& point, std::size_t halvings) {
             const Value inside = value_of(part, point);
             if (inside != Value::unknown && !(with_inside && inside == Value::yes)) return false;

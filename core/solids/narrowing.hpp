@@ -69,8 +69,8 @@ class SolidNarrowing {
     std::vector<Index> parts_;         // by place
     std::vector<std::size_t> number_;  // index in parts_, by node of the solid
     std::size_t first_ = 0, last_ = 0; // of the group
-    std::size_t most_terms_ = 0, steps_ = 0;
-    std::array<Expression, most_halvings + 2> reduced_; // by remaining halvings of a hull
+    std::size_t max_terms_ = 0, steps_ = 0;
+    std::array<Expression, max_halvings + 2> reduced_; // by remaining halvings of a hull
 };
 
 } // namespace raylane::core

@@ -13,7 +13,7 @@ namespace {
 
 using Exactly = Vec3<Dyadic>;
 
-/// Returns the nearest double, ties to even; below `least_double`, the nearest float.
+/// Returns the nearest double, ties to even; below `min_double`, the nearest float.
 double rounded(const Dyadic& value) {
     double nearest = value.approximately().to_double();
     if (value.sign() == 0) return 0.0;
@@ -29,7 +29,7 @@ double rounded(const Dyadic& value) {
         if (farther < 0 || (farther == 0 && is_even)) break;
         nearest = next;
     }
-    if (std::abs(nearest) < least_double) return static_cast<double>(static_cast<float>(nearest));
+    if (std::abs(nearest) < min_double) return static_cast<double>(static_cast<float>(nearest));
     return nearest;
 }
 

@@ -113,7 +113,7 @@ class Reader {
             core::PackedSpheres packed;
             packed.blocks = directory_.array<core::PackedBlock>(layout::packed);
             if (packed.empty()) return;
-            if (table.block_count() != 0 || table.has_doubles() || id_count > core::most_packed_ids)
+            if (table.block_count() != 0 || table.has_doubles() || id_count > core::max_packed_ids)
                 directory_.refuse_damaged("spheres stored twice");
             packed.rows = directory_.array<core::PackedSpheres::Row>(layout::rows);
             packed.palette = core::RadiusPalette(id_count);

@@ -160,9 +160,9 @@ void write_objects(JsonObject& root, TextFile& file, const core::Scene& scene,
             object.key("material") << names[scene.material_index_of(id)];
         },
         [&](const core::Solid& solid, core::ShapeId) {
-            if (const std::size_t levels = levels_of(solid); levels > most_levels)
+            if (const std::size_t levels = levels_of(solid); levels > max_levels)
                 throw core::InvalidValue(
-                    "", "must not have a solid of more than " + std::to_string(most_levels) +
+                    "", "must not have a solid of more than " + std::to_string(max_levels) +
                             " levels of objects and lists, got " + std::to_string(levels));
             file << std::exchange(separator, ",\n");
             write_solid(file, solid, names);

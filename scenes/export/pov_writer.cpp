@@ -21,7 +21,7 @@ namespace {
 using core::Vec3d, core::Vec3f;
 
 /// Deepest nesting of solids that raylane's reader of POV-Ray scenes accepts.
-constexpr int most_depth = 125;
+constexpr int max_depth = 125;
 
 using pov::is_digit, pov::is_letter;
 
@@ -89,9 +89,9 @@ class PovWriter {
         for (std::size_t i = 0; i < scene_.materials().size(); ++i)
             write_material(i, scene_.materials()[i]);
         const auto write_solid_of_others = [&](const core::Solid& solid, core::ShapeId id) {
-            if (const int depth = core::depth_of(solid); depth > most_depth)
+            if (const int depth = core::depth_of(solid); depth > max_depth)
                 throw core::InvalidValue("", "must not have solids nested more than " +
-                                                 std::to_string(most_depth) + " deep, got " +
+                                                 std::to_string(max_depth) + " deep, got " +
                                                  std::to_string(depth));
             const core::MaterialIndex medium = scene_.medium_index_of(id);
             write_solid(solid, lets_light_pass(solid, medium));

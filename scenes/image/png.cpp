@@ -311,9 +311,9 @@ void read_png(ByteSource& source, Image& image) {
     check_size(reading.width, reading.height);
     image.width = static_cast<int>(reading.width);
     image.height = static_cast<int>(reading.height);
-    constexpr int most_bits_of_a_byte = 8;
-    image.bits = std::max(reading.bits, most_bits_of_a_byte);
-    if (image.bits > most_bits_of_a_byte)
+    constexpr int max_bits_of_a_byte = 8;
+    image.bits = std::max(reading.bits, max_bits_of_a_byte);
+    if (image.bits > max_bits_of_a_byte)
         read_codes<std::uint16_t>(reading, image);
     else
         read_codes<std::uint8_t>(reading, image);

@@ -26,8 +26,8 @@ struct Most {
     std::size_t depth, values;
     std::size_t text; // bytes of keys, strings and numbers
 };
-constexpr Most most_of_plain = {16, 4096, 1 << 20};
-constexpr Most most_of_nested = {most_levels, 1 << 27, std::size_t{1} << 31};
+constexpr Most max_of_plain = {16, 4096, 1 << 20};
+constexpr Most max_of_nested = {max_levels, 1 << 27, std::size_t{1} << 31};
 
 // Wording of the parser's errors: "... - REASON; last read: '...'" if it could not make a token of
 // its input, followed by "; expected ...".
@@ -253,7 +253,7 @@ bool ItemParser::add(JsonType type, std::string_view text, double number) {
         throw BadInput({error(item_.root().positions().value, item_.root().pointer(), message)});
     };
     const bool nested = in_root_ && root_key_->items == Items::nested;
-    const Most& most = nested ? most_of_nested : most_of_plain;
+    const Most& most = nested ? max_of_nested : max_of_plain;
     if (item_.depth() > most.depth)
         refuse("must not be nested more than " + std::to_string(most.depth) + " deep");
     if (item_.values() > most.values || item_.text_bytes() > most.text)

@@ -31,8 +31,8 @@ enum class Use {
 
 /// The most shapes that instances add to one object, and to all definitions together, which are
 /// kept.
-constexpr std::size_t most_parts = std::size_t{1} << 20;
-constexpr int most_depth = 256;
+constexpr std::size_t max_parts = std::size_t{1} << 20;
+constexpr int max_depth = 256;
 
 /// Describes objects within one object of the file.
 class SolidReader {
@@ -420,8 +420,8 @@ std::vector<Solid> SolidReader::instance_of(const JsonValue& object, Use use) {
     const JsonValue name = object.at("of");
     const Definition& definition = context.definitions.named_by(name);
     parts_ += definition.parts;
-    if (parts_ > most_parts)
-        name.fail("must not expand to more than " + std::to_string(most_parts) +
+    if (parts_ > max_parts)
+        name.fail("must not expand to more than " + std::to_string(max_parts) +
                   " shapes in one object, or in all definitions");
     context.definitions.count(definition.parts, name);
     std::vector<Solid> solids = definition.solids;
@@ -480,8 +480,8 @@ const Definition& Definitions::named_by(const JsonValue& value) {
 
 void Definitions::count(std::size_t shapes, const JsonValue& value) {
     asked_for_ += shapes;
-    if (asked_for_ > most_asked_for)
-        value.fail("must not expand to more than " + std::to_string(most_asked_for) +
+    if (asked_for_ > max_requested)
+        value.fail("must not expand to more than " + std::to_string(max_requested) +
                    " shapes of instances, lattices and sphereflakes in one scene");
 }
 
@@ -500,8 +500,8 @@ Definition described_object(const JsonValue& object, const ObjectContext& contex
     context.definitions.kept_parts = describer.parts();
     for (const Solid& solid : definition.solids) {
         definition.parts += core::count_parts(solid);
-        if (core::depth_of(solid) > most_depth)
-            object.fail("must not have solids nested more than " + std::to_string(most_depth) +
+        if (core::depth_of(solid) > max_depth)
+            object.fail("must not have solids nested more than " + std::to_string(max_depth) +
                         " deep");
     }
     return definition;

@@ -39,10 +39,10 @@ class Definitions {
     const Definition& named_by(const JsonValue& value);
 
     /// Counts shapes that instances, lattices and sphereflakes generate. Throws BadInput at the
-    /// value if their total exceeds `most_asked_for`.
+    /// value if their total exceeds `max_requested`.
     void count(std::size_t shapes, const JsonValue& value);
 
-    static constexpr std::size_t most_asked_for = std::size_t{1} << 26;
+    static constexpr std::size_t max_requested = std::size_t{1} << 26;
 
     std::size_t kept_parts = 0; ///< shapes of instances in all definitions
 

@@ -294,7 +294,7 @@ float JsonValue::number() const {
 double JsonValue::real() const {
     return with_number([this](std::string_view text, double number) {
         if (std::isinf(number)) fail_expecting("a number from -1e30 to 1e30");
-        if (std::abs(number) < core::least_double)
+        if (std::abs(number) < core::min_double)
             return static_cast<double>(nearest_float(text, number));
         return number;
     });

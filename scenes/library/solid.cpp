@@ -14,15 +14,15 @@ namespace raylane {
 namespace {
 
 /// Maximum nesting of solids. Deeper recursion would overflow a thread's stack.
-constexpr int most_depth = 1024;
+constexpr int max_depth = 1024;
 
 Solid made(core::Made by, const std::vector<Solid>& parts) {
     core::Solid solid{by};
     solid.parts.reserve(parts.size());
     for (const Solid& part : parts)
         solid.parts.push_back(library::Internals::of(part));
-    if (core::depth_of(solid) > most_depth)
-        throw InvalidValue("", "must not be nested more than " + std::to_string(most_depth) +
+    if (core::depth_of(solid) > max_depth)
+        throw InvalidValue("", "must not be nested more than " + std::to_string(max_depth) +
                                    " deep: a union has any number of parts");
     return library::Internals::solid(std::move(solid));
 }

@@ -21,7 +21,7 @@ using core::Vec3f;
 using core::Visible;
 
 /// A larger count of vertices is treated as an error.
-constexpr int most_vertices = 10'000'000;
+constexpr int max_vertices = 10'000'000;
 
 class Reader {
   public:
@@ -191,7 +191,7 @@ void Reader::read_polygon(bool with_normals) {
     begin_objects();
     vertices_.clear();
     normals_.clear();
-    const int count = fields_.whole_number("number of vertices", 3, most_vertices);
+    const int count = fields_.whole_number("number of vertices", 3, max_vertices);
     for (int i = 1; i <= count; ++i) {
         fields_.begin_vertex(i, count);
         vertices_.push_back(fields_.triple("position"));

@@ -4,13 +4,13 @@ namespace raylane::scenes::pov {
 
 void Budget::count_words(std::size_t words, const Place& place) {
     words_ += words;
-    if (words_ > most_words + words_for_each * file_bytes_)
+    if (words_ > max_words + words_for_each * file_bytes_)
         fail(place,
              "must not expand to more than 100 million words, with 24 for each shape and texture");
 }
 
 void Budget::keep(std::size_t bytes, const Place& place) {
-    if (*bytes_ + bytes > most_bytes + bytes_for_each * file_bytes_)
+    if (*bytes_ + bytes > max_bytes + bytes_for_each * file_bytes_)
         fail(place, "must not take more than 256 MB for arrays, strings, objects and materials");
     *bytes_ += bytes;
 }

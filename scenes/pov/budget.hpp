@@ -11,8 +11,8 @@ namespace raylane::scenes::pov {
 /// with the files' length, so that only loops, macros and arrays can reach them.
 class Budget {
   public:
-    static constexpr std::size_t most_words = 100'000'000, words_for_each = 8;
-    static constexpr std::size_t most_bytes = std::size_t{1} << 28, bytes_for_each = 64;
+    static constexpr std::size_t max_words = 100'000'000, words_for_each = 8;
+    static constexpr std::size_t max_bytes = std::size_t{1} << 28, bytes_for_each = 64;
     /// Words that are counted for each texture, and for each shape that is put into the scene.
     static constexpr std::size_t words_of_item = 24;
 

@@ -280,7 +280,7 @@ std::vector<std::size_t> read_indices(Tokens& tokens, std::size_t most) {
     while (indices.size() < most && tokens.ahead().is("[")) {
         const Place place = tokens.next().place;
         const double index = read_number(tokens);
-        if (!(index > -1.0 && index < static_cast<double>(most_elements)))
+        if (!(index > -1.0 && index < static_cast<double>(max_elements)))
             fail(place, "must be an index of an array");
         indices.push_back(static_cast<std::size_t>(index));
         tokens.expect("]");

@@ -231,7 +231,7 @@ Tuple of_vectors_named(Tokens& tokens, const Token& name) {
 } // namespace
 
 double Tokens::begin_random(std::uint32_t seed) {
-    if (random_.size() < most_elements) random_.push_back(seed);
+    if (random_.size() < max_elements) random_.push_back(seed);
     random_.back() = seed;
     return static_cast<double>(random_.size() - 1);
 }

@@ -11,7 +11,7 @@ namespace raylane::scenes::pov {
 namespace {
 
 /// An image with more pixels costs too much for a single colour.
-constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26;
+constexpr std::uint64_t max_pixels = std::uint64_t{1} << 26;
 
 /// Returns the pixels of a PNG by its first bytes, or 0 for another format.
 std::uint64_t pixels_of_png(std::string_view head) {
@@ -55,7 +55,7 @@ std::optional<Tuple> color_of_file(const std::filesystem::path& path, bool is_li
     try {
         InputFile file(path);
         const std::uint64_t pixels = pixels_of_png(file.head());
-        if (pixels == 0 || pixels > most_pixels) return std::nullopt;
+        if (pixels == 0 || pixels > max_pixels) return std::nullopt;
         ByteSource source(file);
         Image image;
         read_png(source, image);

@@ -50,7 +50,7 @@ void read_mesh_triangle(Tokens& tokens, Mesh& mesh, bool is_smooth) {
 std::size_t read_count(Tokens& tokens) {
     const Place place = tokens.peek().place;
     const double count = read_number(tokens);
-    if (!(count >= 0.0 && count <= static_cast<double>(most_shapes)))
+    if (!(count >= 0.0 && count <= static_cast<double>(max_shapes)))
         fail(place, "must be a number of vectors or triangles");
     skip_comma(tokens);
     return static_cast<std::size_t>(count);
@@ -134,7 +134,7 @@ class Mesh2Reader {
             Face face{.place = tokens_.peek().place};
             const Vec3d corners = read_vector(tokens_);
             for (int i = 0; i < 3; ++i) {
-                if (!(corners[i] >= 0.0 && corners[i] <= static_cast<double>(most_shapes)))
+                if (!(corners[i] >= 0.0 && corners[i] <= static_cast<double>(max_shapes)))
                     fail(face.place, "must be three indices");
                 face.corners[static_cast<std::size_t>(i)] = static_cast<std::size_t>(corners[i]);
             }

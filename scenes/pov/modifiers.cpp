@@ -177,10 +177,10 @@ void count_in(Object& object, const Object& part, std::size_t times) {
     object.depth = std::max(object.depth, part.depth + 1);
     if (object.depth > deepest)
         fail(object.place, "must not be nested more than " + std::to_string(deepest) + " deep");
-    if (object.count > most_shapes)
-        fail(object.place, "must not be of more than " + std::to_string(most_shapes) + " shapes");
-    if (object.lights > most_lights)
-        fail(object.place, "must not be of more than " + std::to_string(most_lights) + " lights");
+    if (object.count > max_shapes)
+        fail(object.place, "must not be of more than " + std::to_string(max_shapes) + " shapes");
+    if (object.lights > max_lights)
+        fail(object.place, "must not be of more than " + std::to_string(max_lights) + " lights");
 }
 
 void read_modifiers(Tokens& tokens, Object& object) {

@@ -327,7 +327,7 @@ std::optional<MapOf> map_of(const Token& word) {
 }
 
 PatternMap read_map(Tokens& tokens, MapOf kind) {
-    constexpr std::size_t most_entries = 4096;
+    constexpr std::size_t max_entries = 4096;
     tokens.expect("{");
     if (const auto known = tokens.accept_value<PatternMap>()) {
         tokens.expect("}");
@@ -349,8 +349,8 @@ PatternMap read_map(Tokens& tokens, MapOf kind) {
         else
             entries.push_back({at, *read_texture(tokens, "]")});
         tokens.accept(",");
-        if (entries.size() > most_entries)
-            fail(place, "must have at most " + std::to_string(most_entries) + " entries");
+        if (entries.size() > max_entries)
+            fail(place, "must have at most " + std::to_string(max_entries) + " entries");
     }
     if (entries.empty()) fail(place, "must have an entry, got an empty map");
     PatternMap map{kind, form_of(entries), entries.front().texture, entries.back().texture};

@@ -118,9 +118,8 @@ class Reader {
     void add(Shared<Object> object) {
         tokens_.budget.count_words(Budget::words_of_item * object->count, object->place);
         added_lights_ += object->lights;
-        if (added_lights_ > most_lights)
-            fail(object->place,
-                 "must be one of at most " + std::to_string(most_lights) + " lights");
+        if (added_lights_ > max_lights)
+            fail(object->place, "must be one of at most " + std::to_string(max_lights) + " lights");
         if (has_camera_)
             assembly_.add(*object, tokens_.default_texture);
         else

@@ -17,9 +17,9 @@ namespace raylane::scenes::pov {
 
 /// Limits far above those of any realistic scene.
 inline constexpr int deepest = 128; ///< of nested statements, expressions and macros
-inline constexpr std::size_t most_shapes = std::size_t{1} << 24; ///< of an object
-inline constexpr std::size_t most_lights = std::size_t{1} << 16;
-inline constexpr std::size_t most_elements = std::size_t{1} << 20;
+inline constexpr std::size_t max_shapes = std::size_t{1} << 24; ///< of an object
+inline constexpr std::size_t max_lights = std::size_t{1} << 16;
+inline constexpr std::size_t max_elements = std::size_t{1} << 20;
 inline constexpr std::size_t longest_string = std::size_t{1} << 16;
 
 /// Counts a nested level during its lifetime. Fails above `deepest`.

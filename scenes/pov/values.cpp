@@ -36,9 +36,9 @@ Value read_array(Tokens& tokens, const Place& place) {
     array->sizes = read_indices(tokens);
     std::size_t count = array->sizes.empty() ? 0 : 1;
     for (const std::size_t size : array->sizes)
-        if ((count *= size) > most_elements) break;
-    if (count == 0 || count > most_elements || array->sizes.size() > 4)
-        fail(place, "must be an array of 1 to " + std::to_string(most_elements) + " elements");
+        if ((count *= size) > max_elements) break;
+    if (count == 0 || count > max_elements || array->sizes.size() > 4)
+        fail(place, "must be an array of 1 to " + std::to_string(max_elements) + " elements");
     array->room = tokens.budget.reserve(count * sizeof(Value), place);
     array->values.resize(count);
     std::size_t at = 0;

@@ -12,12 +12,12 @@ namespace raylane::python {
 
 namespace {
 
-/// Numbers of rays: `most_at_once` are traced between two checks for signals. `most_copied` rays
+/// Numbers of rays: `max_at_once` are traced between two checks for signals. `max_copied` rays
 /// that are not contiguous are copied at a time, by the thread that then traces them from its
 /// cache.
-constexpr std::size_t most_at_once = std::size_t{1} << 20, most_copied = std::size_t{1} << 13;
+constexpr std::size_t max_at_once = std::size_t{1} << 20, max_copied = std::size_t{1} << 13;
 /// Number of rays between two checks for signals if the results are rows, which are concatenated.
-constexpr std::size_t most_rows = std::size_t{1} << 18;
+constexpr std::size_t max_rows = std::size_t{1} << 18;
 
 /// A tracer and a task arena for rays that have to be copied. Each thread of the arena copies the
 /// rays that it traces.
@@ -131,15 +131,15 @@ class RayColumns {
     void share_out(SharedTracer& tracer, const Answer& answer) const {
         const bool copied = !is_spans();
         const Tracer& asked = copied ? tracer.alone() : tracer.all();
-        in_turn(count(), most_at_once, [&](std::size_t from, std::size_t to) {
+        in_turn(count(), max_at_once, [&](std::size_t from, std::size_t to) {
             if (!copied) {
                 Rooms rooms;
                 return answer(asked, part(from, to, rooms), from, to);
             }
             tbb::enumerable_thread_specific<Rooms> rooms;
-            tracer.for_each((to - from + most_copied - 1) / most_copied, [&](std::size_t number) {
-                const std::size_t first = from + number * most_copied;
-                const std::size_t last = std::min(to, first + most_copied);
+            tracer.for_each((to - from + max_copied - 1) / max_copied, [&](std::size_t number) {
+                const std::size_t first = from + number * max_copied;
+                const std::size_t last = std::min(to, first + max_copied);
                 answer(asked, part(first, last, rooms.local()), first, last);
             });
         });
@@ -148,7 +148,7 @@ class RayColumns {
     template <class Answer>
     void one_by_one(SharedTracer& tracer, const Answer& answer) const {
         Rooms rooms;
-        in_turn(count(), most_rows, [&](std::size_t from, std::size_t to) {
+        in_turn(count(), max_rows, [&](std::size_t from, std::size_t to) {
             answer(tracer.all(), part(from, to, rooms));
         });
     }
@@ -338,7 +338,7 @@ py::dict contains(const SharedTracer& tracer, const py::object& points) {
     by_type(points, py::none(), py::none(), py::none(), [&]<class Real>(std::type_identity<Real>) {
         const Rows<Real> rows(points, {3}, "points");
         Room<Real> room[3];
-        in_turn(rows.count(), most_rows, [&](std::size_t from, std::size_t to) {
+        in_turn(rows.count(), max_rows, [&](std::size_t from, std::size_t to) {
             const auto [x, y, z] = rows.parts(from, to, room);
             SolidRows part;
             tracer.all().contains(BasicPointSpan<Real>{x, y, z}, part);

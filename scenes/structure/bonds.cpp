@@ -9,10 +9,10 @@ namespace raylane::scenes {
 
 namespace {
 
-constexpr float tolerance = 0.4F, least_distance = 0.4F;
+constexpr float tolerance = 0.4F, min_distance = 0.4F;
 /// Uranium in U(C5H5)4 has 20 bonds by these distances. In diamond, the widest cells around an atom
 /// hold 700 atoms.
-constexpr std::size_t most_near = 4096;
+constexpr std::size_t max_near = 4096;
 
 /// Returns true for elements that form no molecules with each other: alkali and alkaline earth
 /// metals, transition and rare earth metals, and the elements after them except metalloids.
@@ -46,16 +46,16 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
         std::size_t looked_at = 0, neighbours = 0;
         const bool has_room = others.each([&](AtomIndex b) {
             if (b == a) return true;
-            if (++looked_at > most_near) return false;
+            if (++looked_at > max_near) return false;
             const core::Vec3f apart = structure.positions[a] - structure.positions[b];
             const float squared = core::dot(apart, apart);
             const Element of_b = structure.element(b);
             const float most =
                 data_of(of_a).covalent_radius + data_of(of_b).covalent_radius + tolerance;
             if (squared > most * most) return true;
-            const bool is_too_near = squared < least_distance * least_distance;
+            const bool is_too_near = squared < min_distance * min_distance;
             if (!is_too_near && is_metal(of_a) && is_metal(of_b)) return true;
-            if (++neighbours > most_bonds) return false;
+            if (++neighbours > max_bonds) return false;
             if (!is_too_near && a < b) bonds.push_back({a, b, 1});
             return true;
         });

@@ -21,7 +21,7 @@ using core::MaterialIndex;
 using core::Vec3d;
 using core::Vec3f;
 
-constexpr std::size_t most_for_balls = 500;
+constexpr std::size_t max_for_balls = 500;
 constexpr float part_of_radius = 0.25F; // of van der Waals', for balls with sticks
 constexpr float stick_with_balls = 0.12F, stick = 0.16F, licorice_stick = 0.3F, dot_size = 0.2F;
 constexpr double apart = 0.13; // distance of a double bond's sticks from its line
@@ -83,9 +83,9 @@ class SceneFromAtoms {
             return;
         }
         find_usual_radius();
-        scale_.style = drawing_.style != Style::automatic                     ? drawing_.style
-                       : count_ > most_for_balls || !structure_.radii.empty() ? Style::spheres
-                                                                              : Style::balls;
+        scale_.style = drawing_.style != Style::automatic                    ? drawing_.style
+                       : count_ > max_for_balls || !structure_.radii.empty() ? Style::spheres
+                                                                             : Style::balls;
     }
 
     void find_colors() {
@@ -306,7 +306,7 @@ class SceneFromAtoms {
         const std::vector<Bond> bonds = find_bonds(all, &crowded);
         if (crowded != 0 && on_remark_)
             on_remark_(printable(file_, 4096) + ": " + std::to_string(crowded) +
-                       " atoms have more than " + std::to_string(most_bonds) +
+                       " atoms have more than " + std::to_string(max_bonds) +
                        " others within the length of a bond: they have no bonds");
         if (scale_.style != Style::licorice) find_neighbours(all, bonds);
         for (const Bond& bond : bonds) {

@@ -153,7 +153,7 @@ template <class Place>
 std::vector<std::shared_ptr<const LeftOut>>
 images_left_out(const gemmi::SmallStructure& structure, const std::vector<std::size_t>& molecule,
                 std::size_t operations, const Place& place) {
-    std::size_t most_comparisons = 30'000'000; // crystals need far fewer
+    std::size_t max_comparisons = 30'000'000; // crystals need far fewer
     const Sites& sites = structure.sites;
     std::map<std::pair<std::size_t, int>, std::vector<std::size_t>> parts;
     for (std::size_t i = 0; i < sites.size(); ++i)
@@ -168,14 +168,14 @@ images_left_out(const gemmi::SmallStructure& structure, const std::vector<std::s
             for (const std::size_t i : part) {
                 const gemmi::Fractional at = place(i, operation);
                 const auto is_apart = [&](const auto& other) {
-                    if (most_comparisons == 0) return true;
-                    --most_comparisons;
+                    if (max_comparisons == 0) return true;
+                    --max_comparisons;
                     const double reach = longest_bond(sites[i], sites[other.first]);
                     return structure.cell.distance_sq(at, other.second) >= reach * reach;
                 };
                 const auto end = taken.begin() + static_cast<std::ptrdiff_t>(before);
                 is_free =
-                    is_free && (most_comparisons == 0 || std::all_of(taken.begin(), end, is_apart));
+                    is_free && (max_comparisons == 0 || std::all_of(taken.begin(), end, is_apart));
                 taken.emplace_back(i, at);
             }
             if (is_free) continue;
@@ -303,7 +303,7 @@ void add_operation(const gemmi::Op& op, gemmi::UnitCell& cell) {
             gemmi::Transform{gemmi::rot_as_mat33(op), gemmi::tran_as_vec3(op)});
 }
 
-constexpr int most_operations = 192; ///< F m -3 m has as many
+constexpr int max_operations = 192; ///< F m -3 m has as many
 
 /// Takes the file's operations, or if it has none, those of its space group.
 void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure,
@@ -311,8 +311,8 @@ void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure,
     for (const char* tag : {"_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz"}) {
         gemmi::cif::Column operations = block.find_values(tag);
         if (std::all_of(operations.begin(), operations.end(), gemmi::cif::is_null)) continue;
-        if (operations.length() > most_operations)
-            throw std::runtime_error("must have at most " + std::to_string(most_operations) +
+        if (operations.length() > max_operations)
+            throw std::runtime_error("must have at most " + std::to_string(max_operations) +
                                      " operations of symmetry, got " +
                                      std::to_string(operations.length()));
         structure.cell.images.clear();

@@ -35,7 +35,7 @@ class GroReader : public FrameReader {
         frame.title = title;
         Words words(lines_);
         const auto count = static_cast<std::size_t>(
-            words.whole("the number of atoms", 0, static_cast<long long>(Structure::most_atoms)));
+            words.whole("the number of atoms", 0, static_cast<long long>(Structure::max_atoms)));
         frame.chains = {""};
         KindTable kinds(frame.of_kind);
         for (std::size_t atom = 0; atom < count; ++atom) {

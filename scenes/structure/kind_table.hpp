@@ -26,7 +26,7 @@ class KindTable {
             if (kinds_[kind].label == label) return last_ = kind;
         const auto found = index_.find(label);
         if (found != index_.end()) return last_ = found->second;
-        if (kinds_.size() == Structure::most_kinds) return kinds_.size();
+        if (kinds_.size() == Structure::max_kinds) return kinds_.size();
         last_ = kinds_.size();
         kinds_.push_back({.label = std::string(label), .element = element_of(label)});
         index_.emplace(std::string(label), last_);

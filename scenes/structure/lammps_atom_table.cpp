@@ -164,15 +164,15 @@ class Evidence {
             return spins != 0 && has_unit_spins(spins);
         });
         prefer(layouts, [&](const AtomLayout& layout) { return is_in_box(layout); });
-        int most_dimensions = 0, most_decimals = 0;
+        int max_dimensions = 0, max_decimals = 0;
         for (const AtomLayout& layout : layouts) {
-            most_dimensions = std::max(most_dimensions, dimensions(layout));
-            most_decimals = std::max(most_decimals, decimals(layout));
+            max_dimensions = std::max(max_dimensions, dimensions(layout));
+            max_decimals = std::max(max_decimals, decimals(layout));
         }
         prefer(layouts,
-               [&](const AtomLayout& layout) { return dimensions(layout) > most_dimensions - 2; });
+               [&](const AtomLayout& layout) { return dimensions(layout) > max_dimensions - 2; });
         // Programs write coordinates with decimals, and image flags without.
-        if (most_decimals == 3)
+        if (max_decimals == 3)
             prefer(layouts, [&](const AtomLayout& layout) { return decimals(layout) > 0; });
     }
 
@@ -226,13 +226,13 @@ void AtomTable::add(const Lines& lines) {
         if (!word.empty()) add_word(lines, words, word, width++);
         if (hash != std::string_view::npos) break;
     }
-    least_width_ = std::min(least_width_, width);
-    most_width_ = std::max(most_width_, width);
+    min_width_ = std::min(min_width_, width);
+    max_width_ = std::max(max_width_, width);
 }
 
 void AtomTable::add_word(const Lines& lines, const Words& words, std::string_view word,
                          std::size_t index) {
-    if (index >= most_columns) return;
+    if (index >= max_columns) return;
     if (index >= columns_.size()) columns_.resize(index + 1);
     Column& column = columns_[index];
     const TextPosition place = {static_cast<std::size_t>(lines.number()), words.column()};
@@ -250,7 +250,7 @@ void AtomTable::add_word(const Lines& lines, const Words& words, std::string_vie
         if (index <= last_of_types) {
             const std::size_t text =
                 text_table_.index_of(word, [](std::string_view) { return Element{0}; });
-            if (text == Structure::most_kinds) words.fail("must be of one of at most 65535 types");
+            if (text == Structure::max_kinds) words.fail("must be of one of at most 65535 types");
             column.labels.resize(column.values.size());
             column.labels.back() = static_cast<std::uint16_t>(text + 1);
         }
@@ -307,11 +307,10 @@ std::optional<Misfit> misfit_of_column(const AtomTable::Column& column, std::str
 std::optional<Misfit> misfit_of(const AtomTable& table, const AtomLayout& layout,
                                 const LammpsHeader& header) {
     const std::size_t width = layout.columns.size() + 1;
-    const bool has_images = table.most_width() == width + image_flags && !layout.is_open;
-    if (table.least_width() < width ||
-        (table.most_width() != width && !has_images && !layout.is_open)) {
-        const std::size_t got =
-            table.least_width() < width ? table.least_width() : table.most_width();
+    const bool has_images = table.max_width() == width + image_flags && !layout.is_open;
+    if (table.min_width() < width ||
+        (table.max_width() != width && !has_images && !layout.is_open)) {
+        const std::size_t got = table.min_width() < width ? table.min_width() : table.max_width();
         return Misfit{{},
                       "atom style " + layout.style + " has " + std::to_string(width) + " columns" +
                           (layout.is_open ? " or more"

@@ -18,7 +18,7 @@ namespace raylane::scenes {
 /// columns that tell the atom style.
 class AtomTable {
   public:
-    static constexpr std::size_t most_columns = 64; ///< that are stored
+    static constexpr std::size_t max_columns = 64; ///< that are stored
 
     /// A word and its position.
     struct Word {
@@ -44,12 +44,12 @@ class AtomTable {
     std::size_t size() const { return ids_.size(); }
     const std::vector<long long>& ids() const { return ids_; }
     /// Returns a column. Column 0 is the number of the atom, and has no values here. Valid up to
-    /// least_width() and most_columns.
+    /// min_width() and max_columns.
     Column& column(std::size_t index) { return columns_[index]; }
     const Column& column(std::size_t index) const { return columns_[index]; }
     const std::vector<AtomKind>& texts() const { return texts_; }
-    std::size_t least_width() const { return least_width_; }
-    std::size_t most_width() const { return most_width_; }
+    std::size_t min_width() const { return min_width_; }
+    std::size_t max_width() const { return max_width_; }
 
   private:
     void add_word(const Lines& lines, const Words& words, std::string_view word, std::size_t index);
@@ -58,7 +58,7 @@ class AtomTable {
     std::vector<Column> columns_;
     std::vector<AtomKind> texts_;
     KindTable text_table_{texts_};
-    std::size_t least_width_ = std::numeric_limits<std::size_t>::max(), most_width_ = 0;
+    std::size_t min_width_ = std::numeric_limits<std::size_t>::max(), max_width_ = 0;
 };
 
 /// The counts and the box of a header of LAMMPS' data.

@@ -149,7 +149,7 @@ class DataReader : public FrameReader {
                 is_general = true;
             } else {
                 const long long count =
-                    words.whole("a count", 0, static_cast<long long>(Structure::most_atoms));
+                    words.whole("a count", 0, static_cast<long long>(Structure::max_atoms));
                 header_.counts[line.substr(std::min(line.find(' '), line.size() - 1) + 1)] =
                     static_cast<std::size_t>(count);
             }
@@ -294,7 +294,7 @@ class DataReader : public FrameReader {
                 styles.push_back(layout.style);
             fail({},
                  must_name + (fitting.empty() ? "no style without sub-styles fits its " +
-                                                    std::to_string(table.most_width()) + " columns"
+                                                    std::to_string(table.max_width()) + " columns"
                                               : "it can be " + alternatives(styles)));
         }
         if (!remark.empty())
@@ -332,7 +332,7 @@ class DataReader : public FrameReader {
         const auto kind_of = [&](const std::string& type) {
             const std::size_t kind =
                 kinds.index_of(label_of(type), [](std::string_view) { return Element{0}; });
-            if (kind == Structure::most_kinds)
+            if (kind == Structure::max_kinds)
                 throw BadInput(file_.name(), "", "must have at most 65535 types of atoms");
             return static_cast<std::uint16_t>(kind);
         };

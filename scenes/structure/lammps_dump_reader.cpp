@@ -33,7 +33,7 @@ class DumpReader : public FrameReader {
                 next_line("the number of atoms");
                 Words words(lines_);
                 count = static_cast<std::size_t>(words.whole(
-                    "the number of atoms", 0, static_cast<long long>(Structure::most_atoms)));
+                    "the number of atoms", 0, static_cast<long long>(Structure::max_atoms)));
                 has_count = true;
             } else if (what.starts_with("BOX BOUNDS")) {
                 read_box(frame.cell, what.substr(10));
@@ -77,12 +77,12 @@ class DumpReader : public FrameReader {
             upper[axis] = words.number("an upper bound");
             if (is_tilted) lean[axis] = words.number("a tilt");
         }
-        const auto [least_x, most_x] = std::minmax({0.0, lean[0], lean[1], lean[0] + lean[1]});
-        lower[0] -= least_x;
-        upper[0] -= most_x;
-        const auto [least_y, most_y] = std::minmax({0.0, lean[2]});
-        lower[1] -= least_y;
-        upper[1] -= most_y;
+        const auto [min_x, max_x] = std::minmax({0.0, lean[0], lean[1], lean[0] + lean[1]});
+        lower[0] -= min_x;
+        upper[0] -= max_x;
+        const auto [min_y, max_y] = std::minmax({0.0, lean[2]});
+        lower[1] -= min_y;
+        upper[1] -= max_y;
         cell.origin = {lower[0], lower[1], lower[2]};
         cell.edges = {core::Vec3d(upper[0] - lower[0], 0.0, 0.0),
                       core::Vec3d(lean[0], upper[1] - lower[1], 0.0),
@@ -220,7 +220,7 @@ class DumpReader : public FrameReader {
         const std::size_t kind = kinds.index_of(label, [&](std::string_view name) {
             return has_element_ ? element_of_label(name) : Element{0};
         });
-        if (kind == Structure::most_kinds) lines_.fail("must be of one of at most 65535 types");
+        if (kind == Structure::max_kinds) lines_.fail("must be of one of at most 65535 types");
         if (has_radius_) frame.radii.push_back(radius);
         frame.positions.push_back(at);
         frame.kinds.push_back(static_cast<std::uint16_t>(kind));

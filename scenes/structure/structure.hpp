@@ -63,8 +63,8 @@ struct Cell {
 
 /// One frame. Arrays by atom are as long as `positions`, or empty if the file lacks the data.
 struct Structure {
-    static constexpr std::size_t most_kinds = 65535;
-    static constexpr std::size_t most_atoms = std::numeric_limits<AtomIndex>::max() / 2;
+    static constexpr std::size_t max_kinds = 65535;
+    static constexpr std::size_t max_atoms = std::numeric_limits<AtomIndex>::max() / 2;
 
     std::string title;
     std::vector<core::Vec3f> positions;

@@ -103,7 +103,7 @@ class XyzReader : public FrameReader {
         ++frames_;
         Words words(lines_);
         const auto count = static_cast<std::size_t>(
-            words.whole("the number of atoms", 0, static_cast<long long>(Structure::most_atoms)));
+            words.whole("the number of atoms", 0, static_cast<long long>(Structure::max_atoms)));
         if (!trimmed(words.rest()).empty())
             words.fail("must be only the number of atoms, got more on the line");
         if (!lines_.next()) lines_.fail("must be a comment, got the end of the file");
@@ -120,9 +120,9 @@ class XyzReader : public FrameReader {
   private:
     /// Reserves no more than the file can hold, as the number of atoms may be wrong.
     void reserve(Structure& frame, std::size_t count) const {
-        constexpr std::size_t least_bytes = 8; // "C 0 0 0\n"
+        constexpr std::size_t min_bytes = 8; // "C 0 0 0\n"
         if (file_.size() != 0)
-            count = std::min(count, static_cast<std::size_t>(file_.size()) / least_bytes);
+            count = std::min(count, static_cast<std::size_t>(file_.size()) / min_bytes);
         else
             count = std::min(count, std::size_t{1} << 20);
         frame.positions.reserve(count);
@@ -264,7 +264,7 @@ class XyzReader : public FrameReader {
         }
         const std::size_t kind = kinds.index_of(
             species, [&](std::string_view label) { return element_of_species(label, has_types_); });
-        if (kind == Structure::most_kinds) lines_.fail("must be of one of at most 65535 elements");
+        if (kind == Structure::max_kinds) lines_.fail("must be of one of at most 65535 elements");
         if (has_radius_) frame.radii.push_back(radius);
         frame.positions.push_back(position);
         frame.kinds.push_back(static_cast<std::uint16_t>(kind));

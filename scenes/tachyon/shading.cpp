@@ -45,7 +45,7 @@ TachyonShading TachyonShading::overridden_by(const TachyonShading& over) const {
     take_over(result.weighed_by_opacity, over.weighed_by_opacity);
     take_over(result.opaque_aslant, over.opaque_aslant);
     take_over(result.planar_fog, over.planar_fog);
-    take_over(result.most_transparent_surfaces, over.most_transparent_surfaces);
+    take_over(result.max_transparent_surfaces, over.max_transparent_surfaces);
     take_over(result.sky, over.sky);
     take_over(result.direct, over.direct);
     take_over(result.sky_samples, over.sky_samples);
@@ -70,7 +70,7 @@ void read_shader_mode(TachyonWords& words, TachyonShading& shading) {
         } else if (words.accept("TRANS_ORIG")) {
             shading.weighed_by_opacity = false;
         } else if (words.accept("TRANS_MAX_SURFACES")) {
-            shading.most_transparent_surfaces =
+            shading.max_transparent_surfaces =
                 words.whole_number("TRANS_MAX_SURFACES", 0, std::numeric_limits<int>::max());
         } else if (words.accept("FOG_VMD")) {
             shading.planar_fog = true;

@@ -24,7 +24,7 @@ struct TachyonShading {
     /// TRANS_RASTER3D: surfaces are more opaque at oblique angles.
     std::optional<bool> opaque_aslant;
     std::optional<bool> planar_fog; ///< by depth, not by distance
-    std::optional<int> most_transparent_surfaces;
+    std::optional<int> max_transparent_surfaces;
 
     // Light from the whole sky, and the factor of all other light.
     std::optional<core::Vec3f> sky;

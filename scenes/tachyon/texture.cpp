@@ -35,8 +35,8 @@ void read_highlight(TachyonWords& words, TachyonTexture& texture) {
 /// For an opacity above 0 this equals weighing the surface's light, after it has been divided by
 /// the opacity.
 void set_opacity(core::Material& material, float opacity, bool weighed) {
-    constexpr float least_to_divide_by = 0x1p-12F; // this share of the light behind is lost
-    material.opacity = weighed ? opacity : std::max(opacity, least_to_divide_by);
+    constexpr float min_divisor_limit = 0x1p-12F; // this share of the light behind is lost
+    material.opacity = weighed ? opacity : std::max(opacity, min_divisor_limit);
     if (weighed) return;
     for (float* const term : {&material.ambient, &material.diffuse, &material.specular})
         *term /= material.opacity;
@@ -107,7 +107,7 @@ core::Material TachyonMaterials::material_of(const TachyonTexture& texture) {
     if (texture.opacity < 1.0F) {
         if (shading_.opaque_aslant.value_or(false))
             words_.remark("TRANS_RASTER3D is ignored: opacity does not change with the angle");
-        if (shading_.most_transparent_surfaces == 0)
+        if (shading_.max_transparent_surfaces == 0)
             material.opacity = 0.0F;
         else
             set_opacity(material, std::max(texture.opacity, 0.0F),

@@ -40,7 +40,7 @@ bool is_step(const FirstHit& a, const FirstHit& b) {
 Outlines::Outlines(FirstHits& tracer, const core::Outline& outline)
     : tracer_(tracer), outline_(outline) {
     constexpr double degree = 3.14159265358979323846 / 180.0;
-    most_bent_ = core::cos(static_cast<double>(outline.creases) * degree);
+    max_bend_ = core::cos(static_cast<double>(outline.creases) * degree);
     radius_ = 0.5 * per_pixel * static_cast<double>(outline.width);
     reach_ = static_cast<int>(std::ceil(radius_ + 0.5));
 }
@@ -56,7 +56,7 @@ bool Outlines::is_edge(const FirstHit& a, const FirstHit& b) const {
 bool Outlines::is_crease(const FirstHit& a, const FirstHit& b) const {
     if (a.material != b.material) return true;
     return (a.shape != b.shape || a.face != b.face) &&
-           core::dot(a.shading_normal, b.shading_normal) < most_bent_;
+           core::dot(a.shading_normal, b.shading_normal) < max_bend_;
 }
 
 void Outlines::draw(const core::Region& region, core::Film& film) {

@@ -30,9 +30,9 @@ class Outlines {
 
     FirstHits& tracer_;
     core::Outline outline_;
-    double most_bent_; // cosine of the angle
-    double radius_;    // of a line, in points
-    int reach_;        // distance in points from a line's middle at which the line has ended
+    double max_bend_; // cosine of the angle
+    double radius_;   // of a line, in points
+    int reach_;       // distance in points from a line's middle at which the line has ended
 
     // The points around a region. An edge is in the middle between two of them, so edges have rows
     // at the points' rows and in between.

@@ -21,7 +21,7 @@ constexpr std::size_t beyond = 32;
 constexpr std::size_t at_first = 64;
 
 /// The smallest limit of a list that includes bounds of 0.
-constexpr float least_limit = std::numeric_limits<float>::min();
+constexpr float min_limit = std::numeric_limits<float>::min();
 
 bool crosses(std::uint32_t hit) {
     return (hit & (hit_doubtful | hit_none)) == 0;
@@ -95,7 +95,7 @@ void CandidateResolver::list(const Paths& paths, const CandidateSearch& search, 
         // from it are listed, too. It also includes the error of the difference.
         const double beyond_there = before == 0.0 ? limit : limit * (1.0 + 0x1p-50) - before;
         const float limit_there =
-            std::max(static_cast<float>(beyond_there) * candidate_grace, least_limit);
+            std::max(static_cast<float>(beyond_there) * candidate_grace, min_limit);
         if (room > slots_.size()) {
             slots_.resize(room);
             bounds_.resize(room);

@@ -76,7 +76,7 @@ void Certifier::certify(const Paths& paths, CandidateSearch& search, const Candi
     finish(hits.found(paths, 0, paths.count));
     const std::size_t uncertain = tracing_.kernels->rays.list_uncertain(
         paths.count, candidates, search.approach().from_there(hits.t), hits.error, hits.hit,
-        doubtful_, resolver_.works() ? least_length : 0.0F, lanes_);
+        doubtful_, resolver_.works() ? min_length : 0.0F, lanes_);
     if (!resolver_.works()) {
         compare_in_double(paths, {lanes_, uncertain}, hits, counters);
         return;

@@ -21,7 +21,7 @@ struct RayColumns {
 };
 
 /// Lengths below this may lose digits as floats.
-inline constexpr float least_length = 0x1p-100F;
+inline constexpr float min_length = 0x1p-100F;
 
 /// Origin bit in addition to the kernels': the ray may cross again the shape that it starts on.
 inline constexpr std::uint32_t origin_may_return = 0x10000;

@@ -12,7 +12,7 @@ namespace {
 /// Returns a float that is not below the number that was rounded to `value`; 0 if `value` is
 /// negative.
 float rounded_up(float value) {
-    return value < 0.0F ? 0.0F : std::max(value, least_length) * (1.0F + 0x1p-21F);
+    return value < 0.0F ? 0.0F : std::max(value, min_length) * (1.0F + 0x1p-21F);
 }
 
 } // namespace
@@ -26,7 +26,7 @@ void Query::take_from(Arena& arena, std::size_t capacity) {
 }
 
 void Query::nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters,
-                    const double* t_most) {
+                    const double* t_limit) {
     const std::size_t padded = (paths.count + 15) / 16 * 16;
     const Candidates candidates{first_, second_, hits_.slot};
     std::fill_n(candidates.second, padded, core::infinity<float>);
@@ -34,11 +34,11 @@ void Query::nearest(const Paths& paths, const Coherence* coherence, EngineCounte
 
     const bool few = tracing_.method().nearest_of_few != nullptr && !scene_.has_tree();
     if (!few) search_.take(paths.columns());
-    if (t_most == nullptr)
+    if (t_limit == nullptr)
         std::fill_n(candidates.first, padded, core::infinity<float>);
     else // like an unknown candidate there
         for (std::size_t lane = 0; lane < paths.count; ++lane)
-            first_[lane] = rounded_up(search_.t_most(lane, t_most[lane]));
+            first_[lane] = rounded_up(search_.t_limit(lane, t_limit[lane]));
     certifier_.find_own_exits(paths, search_, candidates);
     if (few) return certifier_.find_of_few(paths, candidates, hits_, counters);
     search_.nearest(coherence, candidates, counters);
@@ -62,10 +62,10 @@ void Query::occluded(const RayColumns& rays, const double* distance, std::uint8_
                      const Coherence* coherence, EngineCounters& counters) {
     search_.take(rays);
     for (std::size_t lane = 0; lane < rays.count; ++lane)
-        first_[lane] = search_.t_most(lane, distance[lane]);
+        first_[lane] = search_.t_limit(lane, distance[lane]);
     search_.occluded(coherence, {first_, state}, counters);
     for (std::size_t lane = 0; lane < rays.count; ++lane)
-        if (first_[lane] < least_length && first_[lane] >= 0.0F) state[lane] = doubtful;
+        if (first_[lane] < min_length && first_[lane] >= 0.0F) state[lane] = doubtful;
     if (!search_.approach().any()) return;
     for (std::size_t lane = 0; lane < rays.count; ++lane)
         if (state[lane] == blocked && search_.approach().before(lane) > 0.25 * distance[lane])

@@ -22,9 +22,9 @@ class Query {
     void take_from(Arena& arena, std::size_t capacity);
 
     /// Finds the first hit of each ray. `coherence`: null if the rays have nothing in common.
-    /// `t_most` (one per ray, or null for infinity): hits beyond it may be omitted.
+    /// `t_limit` (one per ray, or null for infinity): hits beyond it may be omitted.
     void nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters,
-                 const double* t_most = nullptr);
+                 const double* t_limit = nullptr);
     /// Returns the hits of the last rays.
     const Hits& hits() const { return hits_; }
     /// Returns true if, shortly behind the lane's hit, the ray crosses no other surface: none

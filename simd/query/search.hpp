@@ -20,11 +20,11 @@ class CandidateSearch {
     /// `coherence`: null if the rays have nothing in common.
     void nearest(const Coherence* coherence, const Candidates& candidates,
                  EngineCounters& counters);
-    /// Finds occlusion before distances. Occlusions::t_most holds those of the rounded rays, as
-    /// t_most() returns them.
+    /// Finds occlusion before distances. Occlusions::t_limit holds those of the rounded rays, as
+    /// t_limit() returns them.
     void occluded(const Coherence* coherence, const Occlusions& occlusions,
                   EngineCounters& counters);
-    float t_most(std::size_t lane, double distance) const {
+    float t_limit(std::size_t lane, double distance) const {
         return static_cast<float>(distance - approach_.before(lane));
     }
 

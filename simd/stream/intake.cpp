@@ -19,8 +19,8 @@ StreamRays from(StreamRays rays, std::size_t to) {
         rays.direction[axis] += to;
         rays.meant_direction[axis] += to;
     }
-    for (double** const column :
-         {&rays.meant_length, &rays.unit, &rays.per_unit, &rays.t_after, &rays.start, &rays.t_most})
+    for (double** const column : {&rays.meant_length, &rays.unit, &rays.per_unit, &rays.t_after,
+                                  &rays.start, &rays.t_limit})
         *column += to;
     rays.bits += to;
     return rays;
@@ -132,7 +132,7 @@ void StreamIntake::stand_in(std::size_t begin, std::size_t end) {
 void StreamIntake::keep(const std::uint32_t* lanes, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {
         paths_.copy_ray(paths_, lanes[k], k);
-        for (double* const column : {taken_.unit, taken_.per_unit, taken_.t_most})
+        for (double* const column : {taken_.unit, taken_.per_unit, taken_.t_limit})
             column[k] = column[lanes[k]];
     }
     paths_.count = count;

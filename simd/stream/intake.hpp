@@ -20,7 +20,7 @@ struct LoneRay {
     int exponent; ///< the caller's t is this ray's t times 2^exponent
     double t_min, t_max;
     bool by_floats; ///< the limits are compared with the float nearest to t
-    double t_most;  ///< no crossing counts from here on
+    double t_limit; ///< no crossing counts from here on
 
     core::LeavingRay leaving() const { return {ray, origins}; }
 
@@ -41,7 +41,7 @@ struct LoneRay {
                is_before_t_max(scene, hit);
     }
     bool is_before_t_max(const core::Scene& scene, const core::Hit<double>& hit) const {
-        if (t_most == std::numeric_limits<double>::infinity()) return true;
+        if (t_limit == std::numeric_limits<double>::infinity()) return true;
         return by_floats ? static_cast<double>(t_of(scene, hit)) <= t_max
                          : compare_t(scene, hit, t_max) <= 0;
     }
@@ -77,7 +77,7 @@ class StreamIntake {
     const StreamRays& taken() const { return taken_; }
     /// Returns the property that all taken rays share; null if they share none.
     const Coherence* coherence() const { return coherence_; }
-    bool is_ray(std::size_t lane) const { return taken_.t_most[lane] >= 0.0; }
+    bool is_ray(std::size_t lane) const { return taken_.t_limit[lane] >= 0.0; }
 
     /// Returns ray i of those that were taken, which is in this lane.
     template <class Real>

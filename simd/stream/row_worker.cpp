@@ -56,7 +56,7 @@ RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const Shape
     arena_ = arena_for([&](Arena& arena) {
         intake_.take_from(arena);
         search_.take_from(arena, at_a_time);
-        t_most_ = arena.take<float>(at_a_time);
+        t_limit_ = arena.take<float>(at_a_time);
     });
     first_of_ray_.resize(at_a_time + 1);
     listed_ray_.resize(std::size_t{16} * at_a_time);
@@ -83,24 +83,24 @@ void RowWorker::for_each_ray(const RayStream<Real>& rays, const Visit& visit) {
 }
 
 /// Lists the pairs of a ray in lanes `begin` to `end` - 1 and a shape that this ray may cross,
-/// sorted by ray. Returns false if there are more than most_pairs pairs, unless there is only one
+/// sorted by ray. Returns false if there are more than max_pairs pairs, unless there is only one
 /// ray.
 bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
     const Paths& paths = intake_.paths();
-    constexpr auto most_of_floats = static_cast<double>(std::numeric_limits<float>::max());
+    constexpr auto max_of_floats = static_cast<double>(std::numeric_limits<float>::max());
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         const double left =
-            intake_.taken().t_most[lane] * (1.0 + 0x1p-40) - search_.approach().before(lane);
+            intake_.taken().t_limit[lane] * (1.0 + 0x1p-40) - search_.approach().before(lane);
         const bool is_asked = begin <= lane && lane < end && intake_.is_ray(lane);
-        t_most_[lane] =
+        t_limit_[lane] =
             !is_asked
                 ? -1.0F
-                : std::max(static_cast<float>(std::min(left, most_of_floats)) * candidate_grace,
+                : std::max(static_cast<float>(std::min(left, max_of_floats)) * candidate_grace,
                            std::numeric_limits<float>::min());
     }
     PairList list{};
     do {
-        if (list.count > most_pairs && end - begin > 1) return false;
+        if (list.count > max_pairs && end - begin > 1) return false;
         if (list.count > listed_ray_.size()) {
             listed_ray_.resize(list.count + list.count / 4);
             listed_slot_.resize(listed_ray_.size());
@@ -117,7 +117,7 @@ bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
             ++list.count;
         }
         tracing_.method().refine.list_all(scene_.view(), scene_.listed_kinds(), paths.count,
-                                          search_.rounded(), t_most_, search_.pending(), list);
+                                          search_.rounded(), t_limit_, search_.pending(), list);
     } while (list.count > list.room);
 
     // Counts the pairs of each ray, finds where they begin, then moves each pair to its place.

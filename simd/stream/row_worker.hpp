@@ -71,8 +71,8 @@ class RowWorker {
     void add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
                       bool normals, CrossingRows& rows);
 
-    static constexpr std::size_t at_a_time = 1024;       // rays
-    static constexpr std::size_t most_pairs = 1U << 18U; // of several rays at a time
+    static constexpr std::size_t at_a_time = 1024;      // rays
+    static constexpr std::size_t max_pairs = 1U << 18U; // of several rays at a time
 
     const SceneData& scene_;
     Tracing tracing_;
@@ -81,7 +81,7 @@ class RowWorker {
     core::PathLengths lengths_;
     StreamIntake intake_;
     CandidateSearch search_;
-    float* t_most_ = nullptr;
+    float* t_limit_ = nullptr;
     Arena arena_;
 
     // Shapes that rays may cross: as listed, and then by ray, from each ray's first up to the next

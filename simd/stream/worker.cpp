@@ -137,7 +137,7 @@ template <class Real>
 void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits) {
     EngineCounters counters;
     query_.nearest(intake_.paths(), intake_.coherence(), counters,
-                   is_exact() && rays.t_max != nullptr ? intake_.taken().t_most : nullptr);
+                   is_exact() && rays.t_max != nullptr ? intake_.taken().t_limit : nullptr);
     mark_unanswered(rays);
     const Hits& found = query_.hits();
     LeftOver left{doubtful_, unsharp_, 0, 0};
@@ -296,7 +296,7 @@ void StreamWorker::search(const LoneRay& ray, const HitStream& hits, std::size_t
     const auto counts = [&](const core::Hit<double>& hit) {
         return ray.finds(scene_.scene(), hit);
     };
-    const core::Hit<double> hit = searcher_.nearest(ray.ray, ray.origins, counts, ray.t_most).hit;
+    const core::Hit<double> hit = searcher_.nearest(ray.ray, ray.origins, counts, ray.t_limit).hit;
     if (!hit.any()) return store_none(hits, i);
     core::Vec3f normal(0.0F);
     if (wants_normals(hits))
@@ -313,17 +313,17 @@ void StreamWorker::search(const LoneRay& ray, const HitStream& hits, std::size_t
 template <class Real>
 void StreamWorker::occluded_of(const RayStream<Real>& rays, std::uint8_t* occluded) {
     // A tiny t counts by the float to which it is rounded; bounds cannot decide that.
-    constexpr auto least_t = static_cast<Real>(0x1p-102);
+    constexpr auto min_t = static_cast<Real>(0x1p-102);
     std::fill_n(state_, rays.count, std::uint8_t{unblocked});
     if (rays.t_max != nullptr)
         for (std::size_t lane = 0; lane < rays.count; ++lane)
-            if (rays.t_max[lane] < least_t) state_[lane] = doubtful;
+            if (rays.t_max[lane] < min_t) state_[lane] = doubtful;
     for (std::size_t lane = 0; lane < rays.count; ++lane) {
         if ((intake_.paths().origin_bits[lane] & origin_may_return) != 0) state_[lane] = doubtful;
         if (!intake_.is_ray(lane)) state_[lane] = blocked;
     }
     EngineCounters counters;
-    query_.occluded(intake_.paths().columns(), intake_.taken().t_most, state_, intake_.coherence(),
+    query_.occluded(intake_.paths().columns(), intake_.taken().t_limit, state_, intake_.coherence(),
                     counters);
     // Without certificates, bounds cannot decide lower limits either.
     if (!is_exact() && rays.t_min != nullptr)
@@ -350,7 +350,7 @@ void StreamWorker::settle(const RayStream<Real>& rays, std::size_t left, std::ui
     intake_.keep(doubtful_, left);
     EngineCounters counters;
     query_.nearest(intake_.paths(), intake_.coherence() != nullptr ? &neighbours : nullptr,
-                   counters, intake_.taken().t_most);
+                   counters, intake_.taken().t_limit);
     for (std::size_t k = 0; k < left; ++k) {
         const std::size_t i = doubtful_[k];
         occluded[i] = 0;
@@ -364,7 +364,7 @@ void StreamWorker::settle(const RayStream<Real>& rays, std::size_t left, std::ui
 
 std::uint8_t StreamWorker::is_occluded(const LoneRay& ray) {
     std::uint8_t found = 0;
-    searcher_.each(ray.ray, ray.origins, ray.t_most, [&](const core::Hit<double>& hit) {
+    searcher_.each(ray.ray, ray.origins, ray.t_limit, [&](const core::Hit<double>& hit) {
         found = ray.finds(scene_.scene(), hit) ? 1 : 0;
         return found == 0;
     });

@@ -63,11 +63,11 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     if (camera_rays_.regular())
         for (int number = 0; number < settings.grid * settings.grid; ++number)
             cells_.push_back(camera_rays_.in_pixel(0, 0, number));
-    constexpr std::size_t most_pixels = static_cast<std::size_t>(max_region) * max_region;
+    constexpr std::size_t max_pixels = static_cast<std::size_t>(max_region) * max_region;
     if (settings.quality == 0.0F) {
         common_samples_ = settings.grid * settings.grid;
-        sums_.reserve(most_pixels);
-        transmittances_.reserve(settings.alpha ? most_pixels : 0);
+        sums_.reserve(max_pixels);
+        transmittances_.reserve(settings.alpha ? max_pixels : 0);
         return;
     }
     to_quality_.emplace(scene.scene(), settings, *survey);
@@ -77,14 +77,14 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
 
 void Wavefront::take_from(Arena& arena) {
     // Each ray may spawn a reflected ray, a transmitted one, and one that goes straight on.
-    const std::size_t most_spawned = wave_rays * (see_through_ ? 3 : 2);
+    const std::size_t max_spawned = wave_rays * (see_through_ ? 3 : 2);
     const auto take_paths = [&](Paths& paths, std::size_t capacity) {
         paths.take_from(arena, capacity, with_media_);
         if (see_through_)
             paths.take_passed_from(arena, capacity, scene_.fog().kind != core::FogKind::none);
     };
-    take_paths(paths_, most_spawned);
-    take_paths(next_, most_spawned);
+    take_paths(paths_, max_spawned);
+    take_paths(next_, max_spawned);
     finder_.take_from(arena, wave_rays);
     way_ = arena.take<double>(wave_rays);
     across_ = arena.take<double>(chunk_samples);
@@ -113,7 +113,7 @@ void Wavefront::take_from(Arena& arena) {
         light_u_ = arena.take<double>(wave_rays);
         light_v_ = arena.take<double>(wave_rays);
     }
-    take_paths(deferred_, deferred_waves * most_spawned); // last: rarely touched
+    take_paths(deferred_, deferred_waves * max_spawned); // last: rarely touched
 }
 
 EngineCounters Wavefront::counters() const {

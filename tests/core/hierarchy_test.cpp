@@ -42,9 +42,9 @@ Aimed heap(bool lattice, int of_each_kind, std::uint64_t seed) {
     return {builder.finish(), rays};
 }
 
-bool crosses(Searcher<double>& searcher, const Ray<double>& ray, double t_most) {
+bool crosses(Searcher<double>& searcher, const Ray<double>& ray, double t_limit) {
     bool found = false;
-    searcher.each(ray, OriginSurfaces<double>{}, t_most, [&](const Hit<double>&) {
+    searcher.each(ray, OriginSurfaces<double>{}, t_limit, [&](const Hit<double>&) {
         found = true;
         return false;
     });

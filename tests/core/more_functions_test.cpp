@@ -23,7 +23,7 @@ double draw(Random& random, const Domain& of) {
     return random.sign() * std::exp(random.uniform(std::log(of.least), std::log(of.most)));
 }
 
-void check(const char* name, Function computed, Exact exact, double most_ulps,
+void check(const char* name, Function computed, Exact exact, double max_ulps,
            std::initializer_list<Domain> domains) {
     Random random;
     Errors errors;
@@ -32,7 +32,7 @@ void check(const char* name, Function computed, Exact exact, double most_ulps,
             const double x = draw(random, of);
             errors.add(computed(x), exact(Number(x)));
         }
-    errors.check(name, most_ulps, 0.5);
+    errors.check(name, max_ulps, 0.5);
 }
 
 constexpr double nan_ = std::numeric_limits<double>::quiet_NaN();

@@ -140,12 +140,12 @@ TEST_CASE("rows with bit patterns that are 2^24 or more apart are stored whole")
 }
 
 TEST_CASE("radii that do not fit in a word with the ids are stored whole") {
-    const std::pair<std::size_t, std::size_t> most_radii[] = {{0, 256},
-                                                              {1, 256},
-                                                              {std::size_t{1} << 24, 255},
-                                                              {(std::size_t{1} << 27) + 1, 15},
-                                                              {most_packed_ids, 3}};
-    for (const auto& [ids, numbers] : most_radii) {
+    const std::pair<std::size_t, std::size_t> max_radii[] = {{0, 256},
+                                                             {1, 256},
+                                                             {std::size_t{1} << 24, 255},
+                                                             {(std::size_t{1} << 27) + 1, 15},
+                                                             {max_packed_ids, 3}};
+    for (const auto& [ids, numbers] : max_radii) {
         std::vector<float> radii;
         for (int i = 1; i <= 300; ++i)
             radii.push_back(static_cast<float>(i));

@@ -46,7 +46,7 @@ class Errors {
         ulps_.push_back(static_cast<double>(error));
     }
 
-    void check(const std::string& name, double most, double most_median = 0.3) {
+    void check(const std::string& name, double most, double max_median = 0.3) {
         std::sort(ulps_.begin(), ulps_.end());
         const auto at = [&](double part) {
             return ulps_[static_cast<std::size_t>(part * static_cast<double>(ulps_.size() - 1))];
@@ -56,7 +56,7 @@ class Errors {
                                    std::to_string(at(1.0));
         INFO(report);
         CHECK(at(1.0) <= most);
-        CHECK(at(0.5) <= most_median);
+        CHECK(at(0.5) <= max_median);
         if (std::getenv("RAYLANE_TEST_REPORT") != nullptr) WARN(report);
     }
 

@@ -118,10 +118,10 @@ TEST_CASE("a journal that is truncated or damaged at any byte does not change th
         CHECK(journal.keep());
     }
     const std::string content = tests::content_of(drawing.path.string() + ".part");
-    const auto goes_on = [&](const std::string& with, std::int64_t most_pixels) {
+    const auto goes_on = [&](const std::string& with, std::int64_t max_pixels) {
         directory.write("picture.part", with);
         Journal journal(drawing.path, drawing.subject(), drawing.records());
-        CHECK(journal.found_pixels() <= most_pixels);
+        CHECK(journal.found_pixels() <= max_pixels);
         const simd::Rendering rendering = drawing.draw(&journal);
         REQUIRE(rendering.complete);
         REQUIRE(rendering.film.pixels() == whole.film.pixels());

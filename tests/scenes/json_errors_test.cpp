@@ -148,7 +148,7 @@ TEST_CASE("shapes of instances and generators have a limit for the whole scene")
     document.begin("scene.json", "/objects/7");
     document.add(scenes::JsonType::number, {}, "", "8", 8.0);
     scenes::Definitions definitions;
-    definitions.count(scenes::Definitions::most_asked_for, document.root());
+    definitions.count(scenes::Definitions::max_requested, document.root());
     CHECK(message_of<scenes::BadInput>([&] { definitions.count(1, document.root()); })
               .ends_with("/objects/7: must not expand to more than 67108864 shapes of instances, "
                          "lattices and sphereflakes in one scene"));

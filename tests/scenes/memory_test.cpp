@@ -70,8 +70,8 @@ namespace {
 
 /// Limits in bytes for each sphere: for a finished scene, and for the peak while it is built. The
 /// second pair is for packed spheres: for all that a tracer holds, and for the peak.
-constexpr double most_bytes = 40.0, most_at_peak = 2.5 * most_bytes;
-constexpr double most_packed_bytes = 20.0, most_at_packed_peak = 60.0;
+constexpr double max_bytes = 40.0, max_at_peak = 2.5 * max_bytes;
+constexpr double max_packed_bytes = 20.0, max_at_packed_peak = 60.0;
 
 template <class Fill>
 void check_memory(const Fill& fill) {
@@ -86,8 +86,8 @@ void check_memory(const Fill& fill) {
         return static_cast<double>(bytes) / static_cast<double>(scene.shape_count());
     };
     CAPTURE(scene.shape_count(), each(scene.bytes()), each(live - before), each(peak - before));
-    CHECK(each(scene.bytes()) <= most_bytes);
-    CHECK(each(peak - before) <= most_at_peak);
+    CHECK(each(scene.bytes()) <= max_bytes);
+    CHECK(each(peak - before) <= max_at_peak);
     // The reported bytes are those that the scene holds, but for an overhead that does not grow
     // with it: mostly memory that the heap spends on aligning huge pages.
     constexpr std::size_t overhead = std::size_t{3} << 20;
@@ -143,8 +143,8 @@ void check_packed_memory(const Fill& fill) {
     CAPTURE(scene.shape_count(), each(scene.bytes()), each(of_scene), each(live - before),
             each(at_peak));
     CHECK(scene.bytes() <= of_scene);
-    CHECK(each(live - before) <= most_packed_bytes);
-    CHECK(each(at_peak) <= most_at_packed_peak);
+    CHECK(each(live - before) <= max_packed_bytes);
+    CHECK(each(at_peak) <= max_at_packed_peak);
 }
 
 } // namespace
@@ -175,7 +175,7 @@ TEST_CASE("JSON takes no more memory if objects come before the materials") {
         const double each = static_cast<double>(peak - before) / static_cast<double>(count);
         CAPTURE(objects_first, each);
         REQUIRE(scene.shape_count() == count);
-        CHECK(each <= most_at_peak);
+        CHECK(each <= max_at_peak);
     }
 }
 

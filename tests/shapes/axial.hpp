@@ -70,7 +70,7 @@ struct Axes {
     float count;
 
     Axes(double size, Random& r) {
-        const double gap = r.log_uniform(least_gap + 1.0, std::max(0.25 * size, 8.0));
+        const double gap = r.log_uniform(min_gap + 1.0, std::max(0.25 * size, 8.0));
         step = whole(r.direction() * gap);
         count = number_of_gaps(size * r.log_uniform(0.25, 4.0), gap);
     }

@@ -68,14 +68,14 @@ template <>
 struct NestOf<core::Box> {
     static Nest make(double size, Random& r) {
         while (true) {
-            const double gap = r.log_uniform(least_gap, std::max(0.25 * size, 6.0));
+            const double gap = r.log_uniform(min_gap, std::max(0.25 * size, 6.0));
             const Vec3d n = r.direction(), m = ray_sets::across(n, r);
             Vec3f u = whole(n * (gap * r.uniform(1.0, 1.5)));
             Vec3f v = whole((m + r.cube(0.2)) * (gap * r.uniform(1.0, 1.5)));
             const Vec3f w = whole((core::cross(n, m) + r.cube(0.2)) * (gap * r.uniform(1.0, 1.5)));
             if (r.integer(0, 1) == 0) std::swap(u, v); // a left-handed one
-            if (!(height(u, v, w) >= least_gap && height(v, w, u) >= least_gap &&
-                  height(w, u, v) >= least_gap))
+            if (!(height(u, v, w) >= min_gap && height(v, w, u) >= min_gap &&
+                  height(w, u, v) >= min_gap))
                 continue;
             const float count = number_of_gaps(size, gap);
             const auto box = [&](float by) {

@@ -200,7 +200,7 @@ void check_rounds(int of_each, int count) {
     CAPTURE(counters.refined, counters.doubtful, rays);
     CHECK(counters.refined * 20 > rays);
     CHECK(static_cast<double>(counters.doubtful) <
-          tests::most_by_chance(static_cast<double>(rays) / 400.0));
+          tests::max_by_chance(static_cast<double>(rays) / 400.0));
 }
 
 } // namespace

@@ -105,8 +105,8 @@ struct Comparison {
 inline constexpr double invisible = 1e-5; // in brightness
 
 /// Checks that enough pixels show the shapes, and that none differs visibly.
-inline void check_right(const Comparison& ours, double least_hits) {
-    CHECK(ours.hits > least_hits);
+inline void check_right(const Comparison& ours, double min_hits) {
+    CHECK(ours.hits > min_hits);
     CHECK(ours.wrong == 0);
     CHECK(ours.worst < invisible);
 }

@@ -324,7 +324,7 @@ TEMPLATE_TEST_CASE("finish is certain of ordinary rays", "", RAYLANE_ALL_SHAPES)
                 std::string(name_of(core::kind_of<TestType>)).c_str(), part, share.hits);
     // Some of the cones are a thousand times as wide as they are long.
     CHECK(static_cast<double>(share.doubtful) <=
-          tests::most_by_chance(2e-4 * static_cast<double>(share.hits)));
+          tests::max_by_chance(2e-4 * static_cast<double>(share.hits)));
 }
 
 TEST_CASE("finish sorts out packets of many kinds and leaves lanes without a shape alone") {

@@ -22,7 +22,7 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
         const Ray<double> ray = rays.get(i);
         const Vec3d way = light - ray.origin;
         rays.aim(i, normalized(way));
-        rays.t_most[i] = static_cast<float>(length(way));
+        rays.t_limit[i] = static_cast<float>(length(way));
     }
     const Coherence to_light{{20.0F, 15.0F, 10.0F}, true, false, false, false};
     const TraceKernels& trace = Traced::exactly(kernels);
@@ -38,9 +38,9 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
                                                               : unblocked;
         const std::vector<std::uint8_t> before = together.state;
         trace.occluded(traced.data.view(), 0, nullptr, count, rounded,
-                       {rays.t_most.data(), alone.state.data()}, traced.workspace, counters);
+                       {rays.t_limit.data(), alone.state.data()}, traced.workspace, counters);
         trace.occluded(traced.data.view(), 0, &to_light, count, rounded,
-                       {rays.t_most.data(), together.state.data()}, traced.workspace, counters);
+                       {rays.t_limit.data(), together.state.data()}, traced.workspace, counters);
         int opposed = 0, different = 0, any = 0, lowered = 0;
         for (std::size_t i = 0; i < rays.padded; ++i) {
             any += i < count && (before[i] == blocked || together.state[i] != before[i]) ? 1 : 0;

@@ -337,7 +337,7 @@ struct LanesCheck {
             std::uint16_t keys[16];
             for (std::uint16_t& key : keys)
                 key = static_cast<std::uint16_t>(random() >> (round % 3 == 0 ? 30 : 16));
-            const std::uint32_t least = ShortLanes<Arch>::least_of_16(keys), place = least & 0xFFFF;
+            const std::uint32_t least = ShortLanes<Arch>::min_of_16(keys), place = least & 0xFFFF;
             failures += place < 16 && keys[place] == least >> 16 ? 0 : 1;
             for (std::uint32_t i = 0; i < 16; ++i)
                 failures += keys[i] < least >> 16 || (i < place && keys[i] == least >> 16) ? 1 : 0;

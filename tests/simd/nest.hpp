@@ -27,7 +27,7 @@ struct Nest {
 
 /// The smallest gap between coordinates. If a nest is far away, an ulp of the largest coordinate is
 /// 1.
-inline constexpr double least_gap = 4.0;
+inline constexpr double min_gap = 4.0;
 
 inline double ulp(float value) {
     return static_cast<double>(std::nextafter(value, 2 * value) - value);
@@ -46,8 +46,8 @@ inline Vec3f whole(const Vec3d& v) {
 inline Vec3f step_across(const Vec3d& normal, double size, Random& r) {
     const Vec3d n = core::normalized(normal);
     while (true) {
-        const Vec3f step = whole(n * r.log_uniform(least_gap, std::max(size, 8.0)));
-        if (core::dot(n, core::convert<double>(step)) >= least_gap) return step;
+        const Vec3f step = whole(n * r.log_uniform(min_gap, std::max(size, 8.0)));
+        if (core::dot(n, core::convert<double>(step)) >= min_gap) return step;
     }
 }
 

@@ -40,7 +40,7 @@ inline std::uint64_t seed(std::uint64_t usual) {
 
 /// Returns the most that is plausible of a rare (Poisson) event with this expected count: four
 /// standard deviations more.
-inline double most_by_chance(double expected) {
+inline double max_by_chance(double expected) {
     return expected + 4.0 * std::sqrt(expected);
 }
 

@@ -45,9 +45,9 @@ void check(const Kernels& kernels, bool overlapping) {
     const TraceKernels& trace = Traced::exactly(kernels);
     TraceCounters counters{};
     trace.occluded(traced.data.view(), all_kinds, nullptr, rays.count, rounded,
-                   {rays.t_most.data(), by_all.state.data()}, {}, counters);
+                   {rays.t_limit.data(), by_all.state.data()}, {}, counters);
     trace.occluded(traced.data.view(), 0, nullptr, rays.count, rounded,
-                   {rays.t_most.data(), by_tree.state.data()}, traced.workspace, counters);
+                   {rays.t_limit.data(), by_tree.state.data()}, traced.workspace, counters);
     by_lists.state = by_tree.state;
 
     int hits = 0, different = 0;
@@ -58,9 +58,9 @@ void check(const Kernels& kernels, bool overlapping) {
             CAPTURE(i, answers == &by_tree, hit.t);
             traced.check(*answers, i, hit);
             const std::uint8_t state = answers->state[i];
-            const auto t_most = static_cast<double>(rays.t_most[i]);
-            if (state == blocked && !(hit.any() && hit.t < t_most)) FAIL("nothing blocks it");
-            if (state == unblocked && hit.any() && hit.t < t_most) FAIL("not open");
+            const auto t_limit = static_cast<double>(rays.t_limit[i]);
+            if (state == blocked && !(hit.any() && hit.t < t_limit)) FAIL("nothing blocks it");
+            if (state == unblocked && hit.any() && hit.t < t_limit) FAIL("not open");
         }
         // Bounds of nodes can rule out uncertain candidates, above all along the faces of boxes.
         if (i % 4 == 1) continue;

@@ -55,11 +55,11 @@ inline Scene make_scene(bool overlapping, int planes = 0) {
 struct Rays {
     std::size_t count, padded;
     std::vector<double> of[6];
-    std::vector<float> rounded[7], t_most;
+    std::vector<float> rounded[7], t_limit;
     std::vector<std::uint32_t> origin_first, origin_last;
 
     Rays(std::size_t n, double size)
-        : count(n), padded((n + 31) / 16 * 16), t_most(padded), origin_first(padded, no_slot),
+        : count(n), padded((n + 31) / 16 * 16), t_limit(padded), origin_first(padded, no_slot),
           origin_last(padded, no_slot) {
         Random random(7);
         for (std::vector<double>& values : of)
@@ -81,7 +81,7 @@ struct Rays {
                 of[axis][i] = origin[axis];
                 of[3 + axis][i] = direction[axis];
             }
-            t_most[i] = static_cast<float>(random.log_uniform(0.05, 30.0));
+            t_limit[i] = static_cast<float>(random.log_uniform(0.05, 30.0));
         }
     }
 

@@ -311,7 +311,7 @@ void Journal::note(std::size_t number, std::string_view bytes) {
     waiting_bytes_ += record.size();
     waiting_.push_back(std::move(record));
     if (std::chrono::steady_clock::now() >= next_try_) write_waiting();
-    while (!problem_.empty() && waiting_bytes_ > most_waiting)
+    while (!problem_.empty() && waiting_bytes_ > max_waiting)
         drop_oldest();
 }
 

@@ -41,11 +41,11 @@ struct JournalSubject {
 ///
 /// A lock on the file ensures that one process uses it at a time. Errors of the file do not end the
 /// rendering; problem() returns them. Records that cannot be written are kept in memory, up to
-/// `most_waiting` bytes. The journal tries to write them again every `sync_every` seconds.
+/// `max_waiting` bytes. The journal tries to write them again every `sync_every` seconds.
 class Journal {
   public:
     static constexpr std::chrono::seconds begin_after{2}, sync_every{3};
-    static constexpr std::size_t most_waiting = std::size_t{256} << 20;
+    static constexpr std::size_t max_waiting = std::size_t{256} << 20;
 
     /// The file that was found at construction, and the journal's reaction.
     enum class Found : std::uint8_t {

@@ -122,7 +122,7 @@ void TachyonOptions::add_shading_options() {
     set("-fog_radial", shading.planar_fog, false);
     set("-fog_normal", shading.planar_fog, false);
     set("-fog_vmd", shading.planar_fog, true);
-    options_["-trans_max_surfaces"] = [&] { shading.most_transparent_surfaces = whole(0); };
+    options_["-trans_max_surfaces"] = [&] { shading.max_transparent_surfaces = whole(0); };
     options_["-raydepth"] = [&] { shading.ray_depth = whole(0); };
     options_["-rescale_lights"] = [this] { arguments_.rescale_lights = number(1e6F); };
     options_["-auto_skylight"] = [&] {

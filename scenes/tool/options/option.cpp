@@ -152,13 +152,13 @@ Values<int> whole(int least, int most) {
             [](const int& value) { return std::to_string(value); }};
 }
 
-Values<int> square_of(int most_root) {
-    const std::string most = std::to_string(most_root * most_root);
+Values<int> square_of(int max_root) {
+    const std::string most = std::to_string(max_root * max_root);
     return {"N", "1 to " + most,
             [=](const std::string& option, const std::string& text) {
                 const int value = to_int(text).value_or(0);
                 const auto root = static_cast<int>(std::lround(std::sqrt(std::max(value, 0))));
-                if (root < 1 || root > most_root || root * root != value)
+                if (root < 1 || root > max_root || root * root != value)
                     refuse(option, "a square number from 1 to " + most + ", such as 1, 4, 9 or 16",
                            text);
                 return root;

@@ -280,7 +280,7 @@ Values<T> choice(const std::vector<std::pair<std::string_view, T>>& choices) {
 Values<bool> flag();
 Values<int> whole(int least, int most);
 /// Returns the integer root of a square number.
-Values<int> square_of(int most_root);
+Values<int> square_of(int max_root);
 Values<float> number(float least, float most, std::string type = "X");
 Values<std::string> word(std::string type);
 /// The name of a file, which must not be empty.

@@ -43,7 +43,7 @@ void make_orthographic(core::Camera& camera) {
     camera.height = static_cast<float>(2.0 * distance * core::slope_of_view(camera.field_of_view));
 }
 
-constexpr int most_images = 1'000'000;
+constexpr int max_images = 1'000'000;
 
 std::optional<double> to_double(std::string_view word) {
     if (!is_number(word)) return std::nullopt;
@@ -82,7 +82,7 @@ std::optional<ParameterSweep> parameter_sweep_of(const std::string& text) {
     sweep.is_sweep = true;
     const std::optional<double> last = to_double(parts[1]);
     const std::optional<int> count = to_int(parts[2]);
-    if (!last || !count || *count < 1 || *count > most_images) return std::nullopt;
+    if (!last || !count || *count < 1 || *count > max_images) return std::nullopt;
     // The division comes last, so that whole numbers stay whole.
     for (int i = 1; i + 1 < *count; ++i)
         sweep.values.push_back(*first + i * (*last - *first) / (*count - 1));
@@ -107,9 +107,9 @@ core::AutoCamera ViewChange::auto_camera(const core::Scene& scene, core::Camera&
                                                          : core::fit_camera_of(camera).direction;
         of_camera = *up;
         const auto wide_up = core::convert<double>(*up), forward = core::convert<double>(along);
-        constexpr double least_sine = 1e-5;
+        constexpr double min_sine = 1e-5;
         if (core::length(core::cross(wide_up, forward)) <=
-            least_sine * core::length(wide_up) * core::length(forward))
+            min_sine * core::length(wide_up) * core::length(forward))
             throw BadInput("--up", "", "must not be parallel to the direction of view");
     }
     if (auto_camera.fit_camera) {
@@ -252,7 +252,7 @@ Values<Turn> turns() {
                 const std::vector<std::string_view> parts = parts_of(text, '/');
                 const std::optional<float> degrees = to_float(parts[0]);
                 const int count = parts.size() == 2 ? to_int(parts[1]).value_or(0) : 0;
-                if (!degrees || count < 1 || count > most_images)
+                if (!degrees || count < 1 || count > max_images)
                     refuse(option, "DEGREES/IMAGES, such as 360/120", text);
                 return Turn{static_cast<double>(*degrees), static_cast<std::size_t>(count)};
             }};

@@ -14,7 +14,7 @@ namespace raylane::scenes {
 namespace {
 
 /// Counts in MPI are ints, so longer messages are sent in pieces of this many bytes.
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr std::size_t max_bytes = std::size_t{1} << 30;
 
 class MpiRanks : public Ranks {
   public:
@@ -64,7 +64,7 @@ class MpiRanks : public Ranks {
     void broadcast(void* bytes, std::size_t count) override {
         auto* at = static_cast<char*>(bytes);
         while (count > 0) {
-            const std::size_t piece = std::min(count, most_bytes);
+            const std::size_t piece = std::min(count, max_bytes);
             MPI_Bcast(at, static_cast<int>(piece), MPI_BYTE, 0, all_);
             at += piece;
             count -= piece;

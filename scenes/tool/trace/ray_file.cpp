@@ -19,7 +19,7 @@ namespace {
 using std::string_view_literals::operator""sv;
 
 constexpr std::string_view magic = "\x93NUMPY"sv;
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 62;
+constexpr std::uint64_t max_bytes = std::uint64_t{1} << 62;
 
 /// Parser of the header, a dictionary as a Python literal.
 class Literal {
@@ -203,7 +203,7 @@ void RayFile::read_head() {
     count_ = shape[0];
     columns_ = is_pairs ? 6 : shape[1];
     const std::size_t ray_bytes = columns_ * (has_doubles_ ? 8 : 4);
-    if (count_ > most_bytes / ray_bytes || size - start_ != count_ * ray_bytes)
+    if (count_ > max_bytes / ray_bytes || size - start_ != count_ * ray_bytes)
         refuse("has another length than its header states");
 }
 

@@ -11,7 +11,7 @@ namespace raylane::simd {
 ///   compress_keys   writes bits 15 to 30 of the wanted lanes, in their order, to `out`; they sort
 ///                   like the values where these are positive; may write as many numbers as there
 ///                   are lanes, and at least 8
-///   least_of_16     the first index of the minimum of 16 numbers; and, 16 bits higher, the minimum
+///   min_of_16     the first index of the minimum of 16 numbers; and, 16 bits higher, the minimum
 ///   equal_16        bit i is set if byte i of 16 equals the value
 ///   raise_16        raises the bytes whose bits are set, of 16, to the value if they are less
 template <class Arch>
@@ -35,7 +35,7 @@ struct ShortLanes<Portable> {
         for (std::size_t i = 0; i < keys.size; ++i)
             if ((wanted >> i & 1) != 0) *out++ = static_cast<std::uint16_t>(keys.lanes()[i]);
     }
-    static std::uint32_t least_of_16(const std::uint16_t* keys) {
+    static std::uint32_t min_of_16(const std::uint16_t* keys) {
         std::uint32_t least = 0;
         for (std::uint32_t i = 1; i < 16; ++i)
             least = keys[i] < keys[least] ? i : least;
@@ -61,7 +61,7 @@ struct EightLanes {
         return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
     }
 
-    static std::uint32_t least_of_16(const std::uint16_t* keys) {
+    static std::uint32_t min_of_16(const std::uint16_t* keys) {
         const __m128i low = _mm_minpos_epu16(load(keys)), high = _mm_minpos_epu16(load(keys + 8));
         // _mm_minpos_epu16 returns the index above the minimum. This swaps them.
         const __m128i low_first = _mm_shufflelo_epi16(low, 1);

@@ -31,9 +31,9 @@ struct FirstCrossing {
         none = (most < o) | (apart & (divisor < o));
         low = select(apart, (size - C_error) / divisor * F(1 - 4 * half_ulp), o);
 
-        const F least_divisor = sqrt(least) * F(1 - 4 * half_ulp) - away - B_error;
-        definite = apart & (least > o) & (least_divisor > o);
-        high = (size + C_error) / least_divisor * F(1 + 4 * half_ulp);
+        const F min_divisor = sqrt(least) * F(1 - 4 * half_ulp) - away - B_error;
+        definite = apart & (least > o) & (min_divisor > o);
+        high = (size + C_error) / min_divisor * F(1 + 4 * half_ulp);
     }
 };
 

@@ -54,11 +54,11 @@ template <class Arch>
     using F = Floats<Arch>;
     const Vectors<Arch> n = absolute(normal);
     const F relative(6 * half_ulp), reach = n.x + n.y + n.z;
-    const F least_error = fast_mul_add<Arch>(F(underflow), reach, F(underflow));
+    const F min_error = fast_mul_add<Arch>(F(underflow), reach, F(underflow));
     const F height_error = fast_mul_add<Arch>(relative, fast_dot(n, absolute(to_point)),
-                                              fast_mul_add<Arch>(reach, rays.slack, least_error));
+                                              fast_mul_add<Arch>(reach, rays.slack, min_error));
     const F approach_error =
-        fast_mul_add<Arch>(relative, fast_dot(n, absolute(rays.direction)), least_error);
+        fast_mul_add<Arch>(relative, fast_dot(n, absolute(rays.direction)), min_error);
     return {fast_dot(normal, to_point), height_error, fast_dot(normal, rays.direction),
             approach_error};
 }

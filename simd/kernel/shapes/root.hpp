@@ -28,8 +28,8 @@ struct Quadratic {
     Mask<Arch> opens_up() const { return A > A_error; }
     Mask<Arch> opens_down() const { return A < negated(A_error); }
     /// True where F is linear and has one root, as for a plane.
-    Mask<Arch> is_linear() const { return most_A() == zero<Arch>(); }
-    Floats<Arch> most_A() const { return abs(A) + A_error; }
+    Mask<Arch> is_linear() const { return max_A() == zero<Arch>(); }
+    Floats<Arch> max_A() const { return abs(A) + A_error; }
 
     /// Returns the root where F rises (the ray leaves) in lanes of `rises`, and the root where F
     /// falls in the others. Neither form cancels.
@@ -53,20 +53,20 @@ struct Quadratic {
         const F inverse = F(1.0) / residual.rise;
         const F step = F(0.5) * residual.value * inverse;
         const F step_size = abs(step), rise_size = abs(residual.rise);
-        const F bend = most_A() * step_size;
+        const F bend = max_A() * step_size;
         const F value = residual.value_error + step_size * (F(5.0) * residual.rise_error + bend);
         const Mask<Arch> wanted_sign =
             (rises & (residual.rise > zero<Arch>())) | (~rises & (residual.rise < zero<Arch>()));
         const F eighth = F(0.125) * rise_size;
         return {wanted_sign & (residual.rise_error < eighth) & (bend < eighth) &
-                    (F(2.0) * most_A() * value < rise_size * rise_size),
+                    (F(2.0) * max_A() * value < rise_size * rise_size),
                 s - step, F(1.5) * value * abs(inverse), rise_size};
     }
 
     /// True where the other root is further than `reach` from s = 0. This follows from `root`
     /// alone, as the roots are F' / A apart.
     Mask<Arch> other_is_beyond(const Floats<Arch>& reach, const Root<Arch>& root) const {
-        return root.certain & (root.rise > most_A() * (abs(root.s) + reach));
+        return root.certain & (root.rise > max_A() * (abs(root.s) + reach));
     }
 };
 

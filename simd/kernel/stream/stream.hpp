@@ -35,7 +35,7 @@ class CallerStream {
         const Steps steps = steps_between(count, rays);
         const double most = static_cast<double>(count - 1);
         if (ends_at_one_point(count, rays, coherence)) return true;
-        if (!(steps.turn <= most_turn * most)) return false;
+        if (!(steps.turn <= max_turn * most)) return false;
         if (steps.turn == 0.0) {
             coherence.parallel = steps.is_near(radius, most);
             return coherence.parallel;
@@ -102,7 +102,7 @@ class CallerStream {
     static constexpr std::size_t fewest = 16;
     /// Mean steps from one ray to the next that count as small: of directions, and of origins in
     /// radii of the scene.
-    static constexpr double most_turn = 0.25, most_move = 0.05;
+    static constexpr double max_turn = 0.25, max_move = 0.05;
 
     static std::size_t least(std::size_t a, std::size_t b) { return a < b ? a : b; }
     static bool wants_normals(const CallerHits& hits) {
@@ -196,12 +196,12 @@ class CallerStream {
                                   Number::load_unaligned(v[2] + from + k)};
             };
             const Vectors<D> origin = load(rays.origin), direction = load(rays.direction);
-            const Number least(least_double);
+            const Number least(min_double);
             const Number largest = max(max(abs(direction.x), abs(direction.y)), abs(direction.z));
-            const Number least_turn = largest * Number(least_of_largest);
+            const Number min_turn = largest * Number(min_of_largest);
             Mask<D> is_ray = in_range(origin.x, least) & in_range(origin.y, least) &
-                             in_range(origin.z, least) & in_range(direction.x, least_turn) &
-                             in_range(direction.y, least_turn) & in_range(direction.z, least_turn) &
+                             in_range(origin.z, least) & in_range(direction.x, min_turn) &
+                             in_range(direction.y, min_turn) & in_range(direction.z, min_turn) &
                              (largest >= least);
             Number t_min = zero<D>(), t_max(__builtin_inf());
             if (rays.t_min != nullptr) {
@@ -222,8 +222,8 @@ class CallerStream {
 
     static constexpr float largest_float = 0x1.fffffep127F;
     /// Doubles must be in the range of floats, where no solver overflows or underflows.
-    static constexpr double least_double = 0x1p-149, too_large = 0x1p128;
-    static constexpr double least_of_largest = 0x1p-276;
+    static constexpr double min_double = 0x1p-149, too_large = 0x1p128;
+    static constexpr double min_of_largest = 0x1p-276;
     static constexpr std::uint32_t all_lanes = (std::uint64_t{1} << F::size) - 1;
     static constexpr std::uint32_t all_halves = (1U << half) - 1;
 
@@ -298,7 +298,7 @@ class CallerStream {
             zero<D>().store_unaligned(taken.t_after + at);
             zero<D>().store_unaligned(taken.start + at);
             select(Lanes<D>::from_bits(part_of(valid, part)), Number(__builtin_inf()), Number(-1.0))
-                .store_unaligned(taken.t_most + at);
+                .store_unaligned(taken.t_limit + at);
         }
         S::store_bits(zero<Arch>(), taken.bits + to);
     }
@@ -314,7 +314,7 @@ class CallerStream {
         (after_here * length).store_unaligned(taken.start + at);
         // Rounded up.
         select(is_ray, most / unit * length * Number(1 + 0x1p-50), Number(-1.0))
-            .store_unaligned(taken.t_most + at);
+            .store_unaligned(taken.t_limit + at);
     }
 
     /// Sums of the steps from each ray to the next, over the coordinates.
@@ -322,7 +322,7 @@ class CallerStream {
         double turn, move;
 
         bool is_near(float radius, double count) const {
-            return move <= most_move * static_cast<double>(radius) * count;
+            return move <= max_move * static_cast<double>(radius) * count;
         }
     };
     static Steps steps_between(std::size_t count, const StreamRays& rays) {
@@ -363,9 +363,9 @@ class CallerStream {
     /// True if all rays have an end, and all ends are one point within the accuracy of float.
     static bool ends_at_one_point(std::size_t count, const StreamRays& rays, Coherence& coherence) {
         std::size_t first = 0;
-        while (first + 1 < count && rays.t_most[first] < 0.0)
+        while (first + 1 < count && rays.t_limit[first] < 0.0)
             ++first;
-        const double end = rays.t_most[first];
+        const double end = rays.t_limit[first];
         if (!(end >= 0.0 && end < __builtin_inf())) return false;
         float apex[3];
         for (int axis = 0; axis < 3; ++axis)
@@ -374,7 +374,7 @@ class CallerStream {
         Number off = zero<D>(), longest = zero<D>();
         for (std::size_t i = 0; i < count; i += half) {
             Number here = zero<D>();
-            const Number t = Number::load_unaligned(rays.t_most + i);
+            const Number t = Number::load_unaligned(rays.t_limit + i);
             for (int axis = 0; axis < 3; ++axis) {
                 const Number there = mul_add<D>(t, Number::load_unaligned(rays.direction[axis] + i),
                                                 Number::load_unaligned(rays.origin[axis] + i));
@@ -394,9 +394,9 @@ class CallerStream {
         return true;
     }
     static bool is_one_point(const Number& off, const Number& longest) {
-        constexpr double most_off = 0x1p-18; // of the longest ray's length
+        constexpr double max_distance_off = 0x1p-18; // of the longest ray's length
         const double length = greatest_of(longest);
-        return length < __builtin_inf() && greatest_of(off) <= most_off * length;
+        return length < __builtin_inf() && greatest_of(off) <= max_distance_off * length;
     }
 
     struct Answers {
@@ -425,7 +425,7 @@ class CallerStream {
             hit_doubtful | (wants_normals(hits) ? hit_normal_doubtful | hit_normal_unknown : 0));
         const M known = Lanes<Arch>::in_range(S::load_bits(found.hit + i) & unknown, zero<Arch>(),
                                               zero<Arch>());
-        const M any = (Lanes<Arch>::narrow(taken.t_most + i) >= zero<Arch>()) & ~missed &
+        const M any = (Lanes<Arch>::narrow(taken.t_limit + i) >= zero<Arch>()) & ~missed &
                       S::first_lanes(here);
         M certain = sure & known, hit = any & certain;
         if (limits.t_max != nullptr) {
@@ -433,21 +433,21 @@ class CallerStream {
             __builtin_memcpy(most, limits.t_max + i, here * sizeof(float));
             hit = hit & (t <= S::load(most));
         } else if (limits.truly) {
-            const Sides sides = sides_of_t_most(taken, found, i);
+            const Sides sides = sides_of_t_limit(taken, found, i);
             certain = certain & (sides.before | sides.beyond);
             hit = hit & sides.before;
         }
         return {t, hit, Lanes<Arch>::bits(hit), Lanes<Arch>::bits(any & ~certain)};
     }
 
-    /// Lanes whose t is certainly not after t_most, and lanes whose t certainly is.
+    /// Lanes whose t is certainly not after t_limit, and lanes whose t certainly is.
     struct Sides {
         M before, beyond;
     };
-    static Sides sides_of_t_most(const StreamRays& taken, const StreamHits& found, std::size_t i) {
+    static Sides sides_of_t_limit(const StreamRays& taken, const StreamHits& found, std::size_t i) {
         float before[F::size], beyond[F::size];
         for (std::size_t lane = 0; lane < F::size; ++lane) {
-            const double t = found.t[i + lane], most = taken.t_most[i + lane];
+            const double t = found.t[i + lane], most = taken.t_limit[i + lane];
             const double error = found.error[i + lane] * (1 + 0x1p-50);
             before[lane] = t + error <= most * (1 - 0x1p-47) ? 1 : 0;
             beyond[lane] = t - error > most * (1 + 0x1p-50) ? 1 : 0;

@@ -37,12 +37,12 @@ struct BoxRay {
         return rows;
     }
 
-    /// Returns the boxes that are entered before t_most, as bits, and in `near` where they are
+    /// Returns the boxes that are entered before t_limit, as bits, and in `near` where they are
     /// entered. `near` must be 0 on input. NaN, as of infinity - infinity, bounds nothing.
     template <class Arch>
     [[gnu::always_inline]] std::uint32_t
     enter(const Floats<Arch> (&near_planes)[3], const Floats<Arch> (&far_planes)[3],
-          const Floats<Arch>& t_most, Floats<Arch>& near) const {
+          const Floats<Arch>& t_limit, Floats<Arch>& near) const {
         using F = Floats<Arch>;
         const auto at = [&](const F& plane, int axis, float offset) {
             if constexpr (Lanes<Arch>::has_mul_add)
@@ -50,7 +50,7 @@ struct BoxRay {
             else
                 return (plane + F(offset)) * F(inverse[axis]);
         };
-        F far = t_most;
+        F far = t_limit;
         for (int axis = 0; axis < 3; ++axis) {
             near = max(at(near_planes[axis], axis, near_offset[axis]), near);
             far = min(at(far_planes[axis], axis, far_offset[axis]), far);
@@ -61,7 +61,7 @@ struct BoxRay {
     /// Same for the entries of a node from `from` on.
     template <class Arch>
     [[gnu::always_inline]] std::uint32_t enter(const NodeView& node, const Rows& rows, int from,
-                                               const Floats<Arch>& t_most,
+                                               const Floats<Arch>& t_limit,
                                                Floats<Arch>& near) const {
         using F = Floats<Arch>;
         const float* const planes = node.lower[0] + from;
@@ -71,7 +71,7 @@ struct BoxRay {
         const F far_planes[] = {F::load_unaligned(planes + rows.far[0]),
                                 F::load_unaligned(planes + rows.far[1]),
                                 F::load_unaligned(planes + rows.far[2])};
-        return enter<Arch>(near_planes, far_planes, t_most, near) &
+        return enter<Arch>(near_planes, far_planes, t_limit, near) &
                Streams<Arch>::filled(node, from);
     }
 };

@@ -123,8 +123,8 @@ template <class Arch, class Method>
 /// before. The bound is that of the reverse ray from there. Its origin is off by the roundings of
 /// end * direction and of the sum.
 template <class Arch, class Filter>
-[[gnu::noinline]] inline Floats<Arch> least_exit(const Filter& filter, const FilterRays<Arch>& rays,
-                                                 const Floats<Arch>& end) {
+[[gnu::noinline]] inline Floats<Arch> min_exit(const Filter& filter, const FilterRays<Arch>& rays,
+                                               const Floats<Arch>& end) {
     using F = Floats<Arch>;
     const Vectors<Arch>& o = rays.origin;
     const F size = abs(o.x) + abs(o.y) + abs(o.z) + end;
@@ -157,7 +157,7 @@ bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const CutView& cu
         if (Lanes<Arch>::bits(goes_on) == 0) return bounds;
         F exit = chord.exit;
         if constexpr (Filter::has_chord_around)
-            exit = least_exit<Arch>(filter, rays.rays, chord.exit_end);
+            exit = min_exit<Arch>(filter, rays.rays, chord.exit_end);
         bounds.lower = select(goes_on & (exit > bounds.lower), exit, bounds.lower);
     } else if constexpr (crosses_once_where_cut<Filter>) {
         const Removed<Arch> removed(cut, rays,

@@ -115,7 +115,7 @@ struct Leaf : Streams<Arch> {
     template <class Filter, class Lanes16>
     [[gnu::always_inline]] static std::uint8_t
     occluded(const SceneView& scene, const TableView& table, std::uint32_t number,
-             const Lanes16& block, const RoundedRays& rays, std::size_t i, float t_most) {
+             const Lanes16& block, const RoundedRays& rays, std::size_t i, float t_limit) {
         const typename Method::Rays ray = Method::broadcast(rays, i);
         const std::uint32_t slot = table.first_slot + 16 * number;
         const std::uint32_t plain = S::plain_lanes(scene, slot);
@@ -127,11 +127,11 @@ struct Leaf : Streams<Arch> {
             std::uint32_t asked =
                 Lanes<Arch>::bits(elsewhere(block.ids(from), rays, i)) & counts >> from;
             const Obstacle<Arch> obstacle = obstacle_of<Arch>(
-                filter, ray, asked, F(t_most * perhaps_within), F(t_most * surely_within));
+                filter, ray, asked, F(t_limit * perhaps_within), F(t_limit * surely_within));
             if constexpr (knows_cuts<Method>)
                 if (cut != nullptr) {
                     const std::uint32_t perhaps = Lanes<Arch>::bits(may_cross_cut<Arch>(
-                        filter, to_cut(ray, rays, i), *cut, F(t_most * perhaps_within)));
+                        filter, to_cut(ray, rays, i), *cut, F(t_limit * perhaps_within)));
                     if ((perhaps & asked & ~(plain >> from)) != 0) state = doubtful;
                     asked &= plain >> from;
                 }

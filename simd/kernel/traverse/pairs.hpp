@@ -54,7 +54,7 @@ class Pairs : Streams<Arch> {
     /// Returns the bounds of the pairs. Not inlined, as all callers share it.
     template <class Filter>
     [[gnu::noinline]] PairBounds bound() const {
-        static_assert(Filter::values <= most_values);
+        static_assert(Filter::values <= max_values);
         PairBounds result{};
         for (int from = 0; from < count_; from += static_cast<int>(F::size)) {
             const auto load = [&](const float(&rows)[3][16]) {
@@ -89,9 +89,9 @@ class Pairs : Streams<Arch> {
         whose[count_++] = owner;
     }
 
-    static constexpr int most_values = 8;
+    static constexpr int max_values = 8;
 
-    float values_[most_values][16];
+    float values_[max_values][16];
     float origin_[3][16], direction_[3][16], slack_[16];
     int count_ = 0;
 };

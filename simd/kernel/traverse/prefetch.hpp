@@ -8,13 +8,13 @@ namespace raylane::simd {
 template <class Arch>
 struct Prefetcher {
     /// Cache lines of a node, and of the smallest block.
-    static constexpr std::uint32_t most_lines = (sizeof(NodeView) + 63) / 64, least_lines = 4;
+    static constexpr std::uint32_t max_lines = (sizeof(NodeView) + 63) / 64, min_lines = 4;
     struct Addresses {
         const char* from;
         std::uint32_t bytes; ///< from one child to the next
         std::uint32_t
-            further[most_lines - least_lines]; ///< offsets of further lines, 0 if there are fewer
-    } of[32];                                  ///< indexed by the bits of a child above its index
+            further[max_lines - min_lines]; ///< offsets of further lines, 0 if there are fewer
+    } of[32];                               ///< indexed by the bits of a child above its index
 
     explicit Prefetcher(const SceneView& scene) {
         for (Addresses& table : of)
@@ -33,7 +33,7 @@ struct Prefetcher {
         const Addresses& table = of[child >> 27];
         const char* const from =
             table.from + static_cast<std::size_t>(child & child_index) * table.bytes;
-        for (std::uint32_t line = 0; line < least_lines; ++line)
+        for (std::uint32_t line = 0; line < min_lines; ++line)
             __builtin_prefetch(from + 64 * line);
         for (const std::uint32_t start : table.further)
             __builtin_prefetch(from + start);
@@ -43,8 +43,8 @@ struct Prefetcher {
     static void set(Addresses& table, const void* from, std::size_t bytes) {
         table.from = static_cast<const char*>(from);
         table.bytes = static_cast<std::uint32_t>(bytes);
-        for (std::uint32_t k = 0; k < most_lines - least_lines; ++k) {
-            const std::uint32_t start = 64 * (least_lines + k);
+        for (std::uint32_t k = 0; k < max_lines - min_lines; ++k) {
+            const std::uint32_t start = 64 * (min_lines + k);
             table.further[k] = start < table.bytes ? start : 0;
         }
     }

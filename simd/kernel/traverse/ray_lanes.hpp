@@ -82,13 +82,13 @@ struct LaneOcclusions {
     using S = Streams<Arch>;
     using F = Floats<Arch>;
 
-    F t_most, perhaps_before, surely_before;
+    F t_limit, perhaps_before, surely_before;
     std::uint32_t some = 0; ///< rays that may be blocked, as bits
     std::uint32_t sure = 0; ///< rays that are certainly blocked, as bits
 
     LaneOcclusions(const Occlusions& occlusions, std::size_t i)
-        : t_most(S::load(occlusions.t_most + i)), perhaps_before(t_most * F(perhaps_within)),
-          surely_before(t_most * F(surely_within)) {}
+        : t_limit(S::load(occlusions.t_limit + i)), perhaps_before(t_limit * F(perhaps_within)),
+          surely_before(t_limit * F(surely_within)) {}
 
     /// Updates the occlusions with one shape, for the rays in `asked`.
     template <class Filter, class Method>

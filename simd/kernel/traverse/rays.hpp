@@ -6,8 +6,8 @@
 
 namespace raylane::simd {
 
-/// Factors of a ray's t_most. Crossings below the first product may be before the limit, and those
-/// below the second certainly are. Both t_most and the product are rounded.
+/// Factors of a ray's t_limit. Crossings below the first product may be before the limit, and those
+/// below the second certainly are. Both t_limit and the product are rounded.
 inline constexpr float perhaps_within = 1 + 4 * half_ulp, surely_within = 1 - 4 * half_ulp;
 
 /// The 16 shapes of a block in memory, where they are stored or have been unpacked to.
@@ -65,7 +65,7 @@ struct Streams {
             result = max(result, load(from + k));
         return Lanes<Arch>::greatest(result);
     }
-    static float least_of_16(const float* from) {
+    static float min_of_16(const float* from) {
         F result = load(from);
         for (std::size_t k = lanes; k < 16; k += lanes)
             result = min(result, load(from + k));

@@ -39,10 +39,10 @@ struct TraversalQueue {
     /// so far.
     [[gnu::always_inline]] void enter(const NodeView& node, const BoxRay& ray,
                                       const BoxRay::Rows& rows, float first) {
-        const F t_most(first * culling_slack);
+        const F t_limit(first * culling_slack);
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
-            const std::uint32_t bits = ray.template enter<Arch>(node, rows, from, t_most, near);
+            const std::uint32_t bits = ray.template enter<Arch>(node, rows, from, t_limit, near);
             add(near, node.children + from, bits);
         }
     }
@@ -70,7 +70,7 @@ struct TraversalQueue {
         const float positive = limit > 0 ? limit : 0;
         const std::uint32_t last = __builtin_bit_cast(std::uint32_t, positive) >> 15;
         for (;;) {
-            const std::uint32_t nearest = ShortLanes<Arch>::least_of_16(key + size - window);
+            const std::uint32_t nearest = ShortLanes<Arch>::min_of_16(key + size - window);
             const std::uint32_t behind = static_cast<std::uint32_t>((nearest >> 16) <= last) - 1;
             const int at = size - window + static_cast<int>(nearest & 0xFFFF);
             const std::uint32_t result = child[at] | behind;

@@ -25,8 +25,8 @@ struct Trace : Streams<Arch> {
 
     /// The number of shapes that a frustum may list before it gives up: for rays to a light, and
     /// for nearest hits. With more shapes its rays are faster by another traversal.
-    static constexpr int most_occluders = 512;
-    static constexpr int most_candidates = 2048;
+    static constexpr int max_occluders = 512;
+    static constexpr int max_candidates = 2048;
 
     static bool makes_frusta(const Coherence* coherence) {
         return coherence != nullptr && !coherence->loose;
@@ -40,9 +40,8 @@ struct Trace : Streams<Arch> {
                            counters);
             return;
         }
-        for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
-            const std::size_t end =
-                count - begin < Rays::most_rays ? count : begin + Rays::most_rays;
+        for (std::size_t begin = 0; begin < count; begin += Rays::max_rays) {
+            const std::size_t end = count - begin < Rays::max_rays ? count : begin + Rays::max_rays;
             Rays frustum;
             if (!frustum.enclose(rays, begin, end, *coherence, nullptr)) {
                 nearest_of_any(scene, kind_bits, &neighbours, begin, end, rays, candidates,
@@ -50,7 +49,7 @@ struct Trace : Streams<Arch> {
                 continue;
             }
             FrustumCandidates<Arch, Method> found(scene, rays, candidates, begin, end);
-            if (!Walk<true>(scene, frustum, workspace, counters, most_candidates)
+            if (!Walk<true>(scene, frustum, workspace, counters, max_candidates)
                      .go(kind_bits, found)) {
                 nearest_of_any(scene, kind_bits, &neighbours, begin, count, rays, candidates,
                                workspace, counters);
@@ -82,17 +81,16 @@ struct Trace : Streams<Arch> {
                                 const Coherence& coherence, std::size_t count,
                                 const RoundedRays& rays, const Occlusions& occlusions,
                                 const Workspace& workspace, TraceCounters& counters) {
-        for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
-            const std::size_t end =
-                count - begin < Rays::most_rays ? count : begin + Rays::most_rays;
+        for (std::size_t begin = 0; begin < count; begin += Rays::max_rays) {
+            const std::size_t end = count - begin < Rays::max_rays ? count : begin + Rays::max_rays;
             Rays frustum;
-            if (!frustum.enclose(rays, begin, end, coherence, occlusions.t_most)) {
+            if (!frustum.enclose(rays, begin, end, coherence, occlusions.t_limit)) {
                 occluded_of_any(scene, kind_bits, begin, end, rays, occlusions, workspace,
                                 counters);
                 continue;
             }
             FrustumOcclusions<Arch, Method> found(scene, rays, occlusions, begin, end);
-            const bool done = Walk<false>(scene, frustum, workspace, counters, most_occluders)
+            const bool done = Walk<false>(scene, frustum, workspace, counters, max_occluders)
                                   .go(kind_bits, found);
             found.hand_back(occlusions, begin, end);
             if (!done) { // usually, the frusta that follow would give up, too
@@ -152,7 +150,7 @@ struct Trace : Streams<Arch> {
                                 const Occlusions& occlusions, const Workspace& workspace,
                                 TraceCounters& counters) {
         const RoundedRays some = from_ray(rays, begin);
-        const Occlusions theirs{occlusions.t_most + begin, occlusions.state + begin};
+        const Occlusions theirs{occlusions.t_limit + begin, occlusions.state + begin};
         if (kind_bits != 0)
             EveryShape<Arch, Method>::occluded(scene, kind_bits, end - begin, some, theirs,
                                                counters);

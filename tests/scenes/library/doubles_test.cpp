@@ -118,7 +118,7 @@ enum class Change {
 };
 constexpr Change all_changes[] = {Change::none, Change::enlarged, Change::stirred};
 
-/// Returns the changed number. Tiny ones stay, as numbers below core::least_double must be floats.
+/// Returns the changed number. Tiny ones stay, as numbers below core::min_double must be floats.
 double changed(double number, Change change) {
     if (change == Change::none || std::abs(number) < 0x1p-125) return number;
     constexpr double factor =

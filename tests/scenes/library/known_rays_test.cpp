@@ -21,12 +21,12 @@ using Shapes = std::vector<tests::AnyShape>;
 
 /// Checks all answers against the oracle, with limits at crossings, on every instruction set and on
 /// one and several threads. Returns the number of hits.
-long check(const Shapes& shapes, std::span<const Ray> rays, double least_hits = 0.25) {
+long check(const Shapes& shapes, std::span<const Ray> rays, double min_hits = 0.25) {
     Tally tally;
     Exam(shapes).ask(rays, Limits::at_crossings, Ways::all, tally);
     INFO(tally.report());
     CHECK(tally.wrong() == 0);
-    CHECK(static_cast<double>(tally.hits) >= least_hits * static_cast<double>(tally.rays));
+    CHECK(static_cast<double>(tally.hits) >= min_hits * static_cast<double>(tally.rays));
     return tally.hits;
 }
 

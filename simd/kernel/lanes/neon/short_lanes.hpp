@@ -29,7 +29,7 @@ struct ShortLanes<Neon> {
                                         wanted);
     }
 
-    static std::uint32_t least_of_16(const std::uint16_t* keys) {
+    static std::uint32_t min_of_16(const std::uint16_t* keys) {
         const uint16x8_t low = vld1q_u16(keys), high = vld1q_u16(keys + 8);
         const std::uint32_t least = vminvq_u16(vminq_u16(low, high));
         const uint16x8_t all = vdupq_n_u16(static_cast<std::uint16_t>(least));

@@ -18,8 +18,8 @@ struct EveryShape : Streams<Arch> {
     /// no further test. They are stored by block, in the order of the kinds. Blocks that do not fit
     /// have no spheres.
     struct Spheres {
-        static constexpr int most_blocks = 12;
-        BlockSpheres<Arch> around[most_blocks];
+        static constexpr int max_blocks = 12;
+        BlockSpheres<Arch> around[max_blocks];
         int blocks = 0;
 
         Spheres(const SceneView& scene, std::uint32_t kind_bits) {
@@ -27,16 +27,15 @@ struct EveryShape : Streams<Arch> {
                 const TableView& table = S::table_of(scene, kind);
                 Method::with_filter(kind, [&]<class Filter>() {
                     if constexpr (is_slow<Filter>)
-                        for (std::uint32_t b = 0; b < table.block_count && blocks < most_blocks;
-                             ++b)
+                        for (std::uint32_t b = 0; b < table.block_count && blocks < max_blocks; ++b)
                             around[blocks++].enclose(kind, S::rows_of(S::block_of(table, b)));
                 });
             });
         }
 
-        /// True if a ray may meet the sphere before t_most. The roundings are about 20 u of the
+        /// True if a ray may meet the sphere before t_limit. The roundings are about 20 u of the
         /// distance, squared or not; `grace` is 32 u.
-        bool may_meet(int block, int lane, const FilterRays<Arch>& rays, const F& t_most) const {
+        bool may_meet(int block, int lane, const FilterRays<Arch>& rays, const F& t_limit) const {
             if (block >= blocks) return true;
             const F grace(32 * half_ulp), o = zero<Arch>();
             const SphereAround<Arch> sphere = around[block].broadcast(lane);
@@ -49,7 +48,7 @@ struct EveryShape : Streams<Arch> {
             const M beside = (squared < S::infinity()) &
                              (squared - tau * tau - grace * squared > radius * radius);
             const M misses =
-                beside | (tau + radius < o) | (tau - radius > t_most * F(culling_slack));
+                beside | (tau + radius < o) | (tau - radius > t_limit * F(culling_slack));
             return Lanes<Arch>::bits(~misses) != 0;
         }
     };
@@ -82,7 +81,7 @@ struct EveryShape : Streams<Arch> {
     };
 
     static const F& limit_of(const LaneCandidates<Arch>& found) { return found.first; }
-    static const F& limit_of(const LaneOcclusions<Arch>& found) { return found.t_most; }
+    static const F& limit_of(const LaneOcclusions<Arch>& found) { return found.t_limit; }
     template <class Filter>
     [[gnu::always_inline]] static void test(LaneCandidates<Arch>& found, const Filter& filter,
                                             std::uint32_t id, std::uint32_t slot,

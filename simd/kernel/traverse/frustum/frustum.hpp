@@ -21,7 +21,7 @@ struct Frustum : Streams<Arch> {
     using typename S::F;
     using typename S::M;
 
-    static constexpr std::size_t most_rays = 256;
+    static constexpr std::size_t max_rays = 256;
     static constexpr float steepest = 4.0F;
 
     /// One side of the frustum: w_a - slope w_k > offset is outside, or < offset for the opposite
@@ -36,7 +36,7 @@ struct Frustum : Streams<Arch> {
     int along;          ///< k
     int across[2];      ///< the other coordinates
     float sense;        ///< sign of the rays along k: 1 or -1
-    float least_w;      ///< of sense * w_k: anything before is behind all rays
+    float min_w;        ///< of sense * w_k: anything before is behind all rays
     float greatest_w;   ///< of sense * w_k: anything after is beyond all rays
     float fastest;      ///< the largest |d_k|
     float t_per_w;      ///< less than 1 / fastest
@@ -47,7 +47,7 @@ struct Frustum : Streams<Arch> {
     /// Encloses rays that start or end at `apex`, which for rays in one direction is any point near
     /// them. Returns whether the rays are coherent enough.
     bool enclose(const RoundedRays& rays, std::size_t begin, std::size_t end, Coherence coherence,
-                 const float* t_most) {
+                 const float* t_limit) {
         packets = (end - begin + 15) / 16;
         choose_apex(rays, begin, coherence);
         choose_axes(rays, begin, end, coherence.converging);
@@ -55,11 +55,11 @@ struct Frustum : Streams<Arch> {
 
         Extent extent;
         for (std::size_t packet = 0; packet < packets; ++packet)
-            enclose_packet(rays, packet, begin, end, coherence, t_most, extent);
+            enclose_packet(rays, packet, begin, end, coherence, t_limit, extent);
         for (std::size_t packet = packets; packet < 16; ++packet)
             leave_out(packet);
 
-        bound_along(extent, coherence, t_most != nullptr);
+        bound_along(extent, coherence, t_limit != nullptr);
         slack += Lanes<Arch>::greatest(extent.slack);
         for (int side = 0; side < 2; ++side)
             enclose_packets(side);
@@ -73,7 +73,7 @@ struct Frustum : Streams<Arch> {
 
     /// Returns the boxes of a node that the frustum may meet, as bits, and in `near` the smallest t
     /// at which it does.
-    std::uint32_t enter(const NodeView& node, int from, const F& t_most, F& near) const {
+    std::uint32_t enter(const NodeView& node, int from, const F& t_limit, F& near) const {
         const F apex_along(apex[along]);
         const F lower_k = S::load(node.lower[along] + from) - apex_along;
         const F upper_k = S::load(node.upper[along] + from) - apex_along;
@@ -81,7 +81,7 @@ struct Frustum : Streams<Arch> {
         const F first_w = sense > 0.0F ? lower_k : negated(upper_k);
         const F last_w = sense > 0.0F ? upper_k : negated(lower_k);
         const F grace_k = grace(reach_k, zero<Arch>());
-        M meets = (last_w + grace_k >= F(least_w)) & (first_w - grace_k <= F(greatest_w));
+        M meets = (last_w + grace_k >= F(min_w)) & (first_w - grace_k <= F(greatest_w));
         for (int side = 0; side < 2; ++side) {
             const int a = across[side];
             const F apex_across(apex[a]);
@@ -89,13 +89,13 @@ struct Frustum : Streams<Arch> {
             const F upper = S::load(node.upper[a] + from) - apex_across;
             const F room = grace(reach_k, max(abs(lower), abs(upper)));
             const Side &high = above[side], &low = below[side];
-            const F least_above = lower - F(high.slope) * (high.slope > 0.0F ? upper_k : lower_k);
-            const F most_below = upper - F(low.slope) * (low.slope > 0.0F ? lower_k : upper_k);
-            meets = meets & (least_above - room <= F(high.offset)) &
-                    (most_below + room >= F(low.offset));
+            const F min_above = lower - F(high.slope) * (high.slope > 0.0F ? upper_k : lower_k);
+            const F max_below = upper - F(low.slope) * (low.slope > 0.0F ? lower_k : upper_k);
+            meets =
+                meets & (min_above - room <= F(high.offset)) & (max_below + room >= F(low.offset));
         }
         near = near_t(first_w - grace_k);
-        return Lanes<Arch>::bits(meets & (near <= t_most)) & S::filled(node, from);
+        return Lanes<Arch>::bits(meets & (near <= t_limit)) & S::filled(node, from);
     }
 
     /// Returns a lower bound of t at the distance w along the rays.
@@ -176,9 +176,9 @@ struct Frustum : Streams<Arch> {
         return reach.all();
     }
 
-    /// Returns the largest w of a ray at t_most. Inverse of near_t().
-    float furthest_w(float t_most) const {
-        const float way = t_most * fastest;
+    /// Returns the largest w of a ray at t_limit. Inverse of near_t().
+    float furthest_w(float t_limit) const {
+        const float way = t_limit * fastest;
         const float w = latest_start + way + 16 * half_ulp * (size(latest_start) + way);
         return least(greatest_w, w == w ? w : __builtin_inff());
     }
@@ -198,7 +198,7 @@ struct Frustum : Streams<Arch> {
             const F grace_along = fast_mul_add<Arch>(factor, abs(w_along), grace_apart);
             const F room = grace_along + radius;
             Reach reach;
-            reach.along[0] = w + room >= F(least_w);
+            reach.along[0] = w + room >= F(min_w);
             reach.along[1] = w - room <= F(furthest);
             near_t(w - room).store_unaligned(to.near + from);
             w_along.store_unaligned(to.along + from);
@@ -217,12 +217,12 @@ struct Frustum : Streams<Arch> {
         return reached(spheres.ends, reach_of);
     }
 
-    /// Returns the packets, from `from` on, that may meet one shape before t_most, as bits.
+    /// Returns the packets, from `from` on, that may meet one shape before t_limit, as bits.
     [[gnu::always_inline]] std::uint32_t
-    packets_that_meet(const SeenBlock& seen, int lane, std::size_t from, const F& t_most) const {
+    packets_that_meet(const SeenBlock& seen, int lane, std::size_t from, const F& t_limit) const {
         const auto reach_of = [&](int end) __attribute__((always_inline)) {
             Reach reach;
-            reach.along[0] = reach.along[1] = F(seen.end[end].near[lane]) <= t_most;
+            reach.along[0] = reach.along[1] = F(seen.end[end].near[lane]) <= t_limit;
             reach_sides(
                 seen.end[end], [&](const float* of) { return F(of[lane]); },
                 [&](const Side& side) { return Plane(side, from); }, reach);
@@ -257,7 +257,7 @@ struct Frustum : Streams<Arch> {
 
     [[gnu::always_inline]] void enclose_packet(const RoundedRays& rays, std::size_t packet,
                                                std::size_t begin, std::size_t end,
-                                               const Coherence& coherence, const float* t_most,
+                                               const Coherence& coherence, const float* t_limit,
                                                Extent& extent) {
         const std::size_t from = begin + 16 * packet;
         F low_slope[2] = {S::infinity(), S::infinity()}, high_slope[2];
@@ -267,7 +267,7 @@ struct Frustum : Streams<Arch> {
         for (std::size_t i = from; i < from + 16; i += F::size) {
             const F direction = S::load(rays.direction[along] + i);
             const F w = S::load(rays.origin[along] + i) - F(apex[along]);
-            extend(extent, rays, i, end, coherence, t_most, direction, w);
+            extend(extent, rays, i, end, coherence, t_limit, direction, w);
             for (int side = 0; side < 2; ++side) {
                 const int a = across[side];
                 const F slope = S::load(rays.direction[a] + i) / direction;
@@ -293,7 +293,7 @@ struct Frustum : Streams<Arch> {
     /// Extends the extent by the lanes from ray i on.
     [[gnu::always_inline]] void extend(Extent& extent, const RoundedRays& rays, std::size_t i,
                                        std::size_t end, const Coherence& coherence,
-                                       const float* t_most, const F& direction, const F& w) const {
+                                       const float* t_limit, const F& direction, const F& w) const {
         extent.slack = max(extent.slack, S::load(rays.slack + i));
         const F d = F(coherence.converging ? -sense : sense) * direction;
         extent.slowest = min(extent.slowest, d);
@@ -302,9 +302,9 @@ struct Frustum : Streams<Arch> {
             extent.first_start = min(extent.first_start, F(sense) * w);
             extent.last_start = max(extent.last_start, F(sense) * w);
         }
-        if (t_most != nullptr && coherence.converging && i < end)
+        if (t_limit != nullptr && coherence.converging && i < end)
             extent.last_end = max(extent.last_end, select(S::first_lanes(end - i),
-                                                          d * S::load(t_most + i), zero<Arch>()));
+                                                          d * S::load(t_limit + i), zero<Arch>()));
     }
 
     /// Sets the sides of an absent packet so that it meets only infinite spheres.
@@ -319,10 +319,10 @@ struct Frustum : Streams<Arch> {
     /// the rays go towards the apex, points far from it are near the rays' starts.
     void bound_along(const Extent& extent, const Coherence& coherence, bool have_limits) {
         const bool anywhere = start_anywhere(coherence);
-        least_w = coherence.converging || !anywhere ? 0.0F : __builtin_inff();
+        min_w = coherence.converging || !anywhere ? 0.0F : __builtin_inff();
         latest_start = coherence.converging && !anywhere ? __builtin_inff() : 0.0F;
         if (anywhere) {
-            least_w = least(least_w, Lanes<Arch>::least(extent.first_start));
+            min_w = least(min_w, Lanes<Arch>::least(extent.first_start));
             latest_start = Lanes<Arch>::greatest(extent.last_start);
         }
         greatest_w = coherence.converging && have_limits ? Lanes<Arch>::greatest(extent.last_end)
@@ -378,10 +378,10 @@ struct Frustum : Streams<Arch> {
     void enclose_packets(int side) {
         Side &high = above[side], &low = below[side];
         const bool forwards = sense > 0.0F;
-        high.slope = forwards ? S::greatest_of_16(high.slopes) : S::least_of_16(high.slopes);
-        low.slope = forwards ? S::least_of_16(low.slopes) : S::greatest_of_16(low.slopes);
+        high.slope = forwards ? S::greatest_of_16(high.slopes) : S::min_of_16(high.slopes);
+        low.slope = forwards ? S::min_of_16(low.slopes) : S::greatest_of_16(low.slopes);
         high.offset = S::greatest_of_16(high.offsets);
-        low.offset = S::least_of_16(low.offsets);
+        low.offset = S::min_of_16(low.offsets);
         high.norm = norm_above(high.slope);
         low.norm = norm_above(low.slope);
     }

@@ -175,7 +175,7 @@ class FrustumOcclusions : Streams<Arch> {
     using S = Streams<Arch>;
 
     struct Rays : Packet<Arch, Method> {
-        float t_most[16];
+        float t_limit[16];
     };
     const SceneView& scene_;
     Rays packets_[16];
@@ -192,7 +192,7 @@ class FrustumOcclusions : Streams<Arch> {
             if (i >= end) continue;
             packets_[which].gather(rays, i);
             for (std::size_t k = 0; k < 16; k += S::lanes)
-                S::load(occlusions.t_most + i + k).store_unaligned(packets_[which].t_most + k);
+                S::load(occlusions.t_limit + i + k).store_unaligned(packets_[which].t_limit + k);
             with_states(occlusions.state + i, end - i, [&](const std::uint8_t* states) {
                 blocked_[which] = ShortLanes<Arch>::equal_16(states, blocked);
             });
@@ -207,7 +207,7 @@ class FrustumOcclusions : Streams<Arch> {
         const bool plain = S::is_plain(scene_, slot);
         const Rays& packet = packets_[which];
         for (std::size_t k = 0; k < 16; k += S::lanes) {
-            LaneOcclusions<Arch> found({packet.t_most, nullptr}, k);
+            LaneOcclusions<Arch> found({packet.t_limit, nullptr}, k);
             found.test(filter, id, plain, cut_of<Method>(scene_, slot), packet.packet(k),
                        ~blocked_[which] >> k);
             blocked_[which] |= found.sure << k;

@@ -20,9 +20,9 @@ struct SortedByDirection : Streams<Arch> {
     static constexpr std::size_t columns = 13;
     static constexpr std::size_t column_of(std::size_t count) { return (count + 31) / 16 * 16; }
     /// Sorting does not pay for fewer rays.
-    static constexpr std::size_t least_count = 64;
+    static constexpr std::size_t min_count = 64;
     static bool has_room(std::size_t count, const Workspace& workspace) {
-        return count >= least_count && count <= workspace.capacity &&
+        return count >= min_count && count <= workspace.capacity &&
                column_of(count) * (columns * sizeof(float) + 1) <=
                    workspace.capacity * list_record_bytes;
     }
@@ -51,8 +51,8 @@ struct SortedByDirection : Streams<Arch> {
         std::uint32_t *const first = ids(7), *const last = ids(8);
         rays.origin_first = first;
         rays.origin_last = last;
-        float* const t_most = column + 9 * room;
-        occlusions = {t_most, reinterpret_cast<std::uint8_t*>(column + columns * room)};
+        float* const t_limit = column + 9 * room;
+        occlusions = {t_limit, reinterpret_cast<std::uint8_t*>(column + columns * room)};
         for (int axis = 0; axis < 3; ++axis) {
             gather(from.origin[axis], count, rays.origin[axis]);
             gather(from.direction[axis], count, rays.direction[axis]);
@@ -60,7 +60,7 @@ struct SortedByDirection : Streams<Arch> {
         gather(from.slack, count, rays.slack);
         gather(from.origin_first, count, first);
         gather(from.origin_last, count, last);
-        gather(asked.t_most, count, t_most);
+        gather(asked.t_limit, count, t_limit);
         gather(asked.state, count, occlusions.state);
     }
 

@@ -21,14 +21,14 @@ struct FrustumWalk : Streams<Arch> {
     TraceCounters& counters;
     /// The number of shapes that is still worth testing. If a frustum is so wide that it meets
     /// more, its rays are faster one by one.
-    const int most_shapes;
+    const int max_shapes;
     alignas(64) float limits[16]; ///< by packet: crossings beyond this t do not matter
     float largest_limit;
 
     FrustumWalk(const SceneView& scene_view, const Rays& rays, const Workspace& space,
                 TraceCounters& trace_counters, int shapes)
         : scene(scene_view), frustum(rays), workspace(space), counters(trace_counters),
-          most_shapes(shapes) {}
+          max_shapes(shapes) {}
 
     /// Visits the shapes that packets may meet. For each of them it calls
     ///   found.test(filter, id, slot, which)  for each of these packets, by number, and sometimes
@@ -48,7 +48,7 @@ struct FrustumWalk : Streams<Arch> {
             }
         });
         if (workspace.key == nullptr) return test_crossed(found);
-        int budget = most_shapes; // shapes outside of the tree need a test by any traversal
+        int budget = max_shapes; // shapes outside of the tree need a test by any traversal
         const Prefetcher<Arch> prefetcher(scene);
         TraversalQueue<Arch> queue;
         queue.place(workspace, 0, scene.tree_depth);

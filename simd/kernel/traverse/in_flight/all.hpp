@@ -12,14 +12,14 @@ class InFlightAll : InFlight<Arch, Method> {
     using typename S::F;
 
     struct Lister : Base::Traveller {
-        float t_most;
+        float t_limit;
         std::uint32_t* bottom; ///< holds no_child
         std::uint32_t* top;    ///< one past the last child that is yet to be visited
     };
 
     const SceneView& scene_;
     const RoundedRays& rays_;
-    const float* const t_most_;
+    const float* const t_limit_;
     const std::size_t count_;
     PairList& list_;
     Lister listers_[in_flight];
@@ -27,14 +27,14 @@ class InFlightAll : InFlight<Arch, Method> {
     BoxRays<Arch> box_rays_{};
 
     InFlightAll(const SceneView& scene, std::size_t count, const RoundedRays& rays,
-                const float* t_most, PairList& list)
-        : scene_(scene), rays_(rays), t_most_(t_most), count_(count), list_(list) {}
+                const float* t_limit, PairList& list)
+        : scene_(scene), rays_(rays), t_limit_(t_limit), count_(count), list_(list) {}
 
   public:
     static void list(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
-                     const RoundedRays& rays, const float* t_most, const Pending& pending,
+                     const RoundedRays& rays, const float* t_limit, const Pending& pending,
                      PairList& list) {
-        InFlightAll all(scene, count, rays, t_most, list);
+        InFlightAll all(scene, count, rays, t_limit, list);
         all.add_listed(kind_bits);
         if (pending.key == nullptr) return;
         for (std::size_t which = 0; which < in_flight; ++which) {
@@ -46,7 +46,7 @@ class InFlightAll : InFlight<Arch, Method> {
     }
 
     bool start(Lister& lister) {
-        while (next_ < count_ && !(t_most_[next_] > 0))
+        while (next_ < count_ && !(t_limit_[next_] > 0))
             ++next_;
         if (next_ >= count_) return false;
         if (loaded_ != next_ / 16) {
@@ -54,7 +54,7 @@ class InFlightAll : InFlight<Arch, Method> {
             box_rays_.load(scene_, rays_, 16 * loaded_);
         }
         lister.set_out(box_rays_, next_);
-        lister.t_most = t_most_[next_];
+        lister.t_limit = t_limit_[next_];
         lister.top = lister.bottom + 1;
         ++next_;
         return true;
@@ -67,11 +67,11 @@ class InFlightAll : InFlight<Arch, Method> {
     }
 
     static void at_node(Lister& lister, const NodeView& node) {
-        const F t_most(lister.t_most);
+        const F t_limit(lister.t_limit);
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
             const std::uint32_t bits =
-                lister.box.template enter<Arch>(node, lister.rows, from, t_most, near);
+                lister.box.template enter<Arch>(node, lister.rows, from, t_limit, near);
             Lanes<Arch>::compress_store(reinterpret_cast<float*>(lister.top),
                                         S::load_bits(node.children + from), bits);
             lister.top += __builtin_popcount(bits);
@@ -84,7 +84,7 @@ class InFlightAll : InFlight<Arch, Method> {
 
     template <class Filter>
     [[gnu::always_inline]] void all(const Lister& lister, const TableView& table) {
-        add_of_block<Filter>(table, lister.child & child_index, lister.i, lister.t_most);
+        add_of_block<Filter>(table, lister.child & child_index, lister.i, lister.t_limit);
     }
     template <class Filter>
     [[gnu::always_inline]] void some(const Pairs<Arch, Method>& pairs) {
@@ -92,7 +92,7 @@ class InFlightAll : InFlight<Arch, Method> {
         for (std::uint32_t bits = bounds.possible; bits != 0; bits &= bits - 1) {
             const int k = __builtin_ctz(bits);
             const Lister& lister = listers_[pairs.whose[k]];
-            if (bounds.lower[k] < lister.t_most) add(lister.i, pairs.slot[k]);
+            if (bounds.lower[k] < lister.t_limit) add(lister.i, pairs.slot[k]);
         }
     }
 
@@ -110,16 +110,16 @@ class InFlightAll : InFlight<Arch, Method> {
     [[gnu::noinline, gnu::flatten]] void add_table(core::Kind kind) {
         const TableView& table = S::table_of(scene_, kind);
         for (std::size_t i = 0; i < count_; ++i)
-            for (std::uint32_t block = 0; t_most_[i] > 0 && block < table.block_count; ++block)
-                add_of_block<Filter>(table, block, i, t_most_[i]);
+            for (std::uint32_t block = 0; t_limit_[i] > 0 && block < table.block_count; ++block)
+                add_of_block<Filter>(table, block, i, t_limit_[i]);
     }
 
     template <class Filter>
     [[gnu::always_inline]] void add_of_block(const TableView& table, std::uint32_t number,
-                                             std::size_t i, float t_most) {
+                                             std::size_t i, float t_limit) {
         LeafHits hits;
         S::template with_lanes<Filter>(table, number, [&](const auto& block) {
-            Leaf<Arch, Method>::template find<Filter>(block, nullptr, rays_, i, t_most, hits);
+            Leaf<Arch, Method>::template find<Filter>(block, nullptr, rays_, i, t_limit, hits);
         });
         for (std::uint32_t bits = hits.lanes; bits != 0; bits &= bits - 1)
             add(i,

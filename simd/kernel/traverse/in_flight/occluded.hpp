@@ -12,7 +12,7 @@ class InFlightOccluded : InFlight<Arch, Method> {
     using typename S::F;
 
     struct Shadow : Base::Traveller {
-        float t_most;
+        float t_limit;
         std::uint8_t state;
         std::uint32_t* bottom; ///< holds no_child
         std::uint32_t* top;    ///< one past the last child that is yet to be visited
@@ -53,7 +53,7 @@ class InFlightOccluded : InFlight<Arch, Method> {
             box_rays_.load(scene_, rays_, 16 * loaded_);
         }
         shadow.set_out(box_rays_, next_);
-        shadow.t_most = occlusions_.t_most[next_];
+        shadow.t_limit = occlusions_.t_limit[next_];
         shadow.state = occlusions_.state[next_];
         shadow.top = shadow.bottom + 1;
         ++next_;
@@ -67,11 +67,11 @@ class InFlightOccluded : InFlight<Arch, Method> {
     }
 
     static void at_node(Shadow& shadow, const NodeView& node) {
-        const F t_most(shadow.t_most);
+        const F t_limit(shadow.t_limit);
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
             const std::uint32_t bits =
-                shadow.box.template enter<Arch>(node, shadow.rows, from, t_most, near);
+                shadow.box.template enter<Arch>(node, shadow.rows, from, t_limit, near);
             Lanes<Arch>::compress_store(reinterpret_cast<float*>(shadow.top),
                                         S::load_bits(node.children + from), bits);
             shadow.top += __builtin_popcount(bits);
@@ -88,7 +88,7 @@ class InFlightOccluded : InFlight<Arch, Method> {
         const std::uint32_t number = shadow.child & child_index;
         take(shadow, S::template with_lanes<Filter>(table, number, [&](const auto& block) {
                  return Leaf<Arch, Method>::template occluded<Filter>(
-                     scene_, table, number, block, rays_, shadow.i, shadow.t_most);
+                     scene_, table, number, block, rays_, shadow.i, shadow.t_limit);
              }));
     }
     /// Same for pairs.
@@ -101,11 +101,11 @@ class InFlightOccluded : InFlight<Arch, Method> {
             const std::uint32_t slot = pairs.slot[k];
             if (only_cuts<Arch, Method>(scene_, slot)) continue;
             // A cut inside of the shape may be nearer.
-            if (!(bounds.lower[k] < shadow.t_most * perhaps_within) &&
+            if (!(bounds.lower[k] < shadow.t_limit * perhaps_within) &&
                 (cut_of<Method>(scene_, slot) == nullptr || S::is_plain(scene_, slot)))
                 continue;
             const bool certain =
-                (bounds.certain >> k & 1) != 0 && bounds.upper[k] < shadow.t_most * surely_within;
+                (bounds.certain >> k & 1) != 0 && bounds.upper[k] < shadow.t_limit * surely_within;
             take(shadow, certain && S::is_plain(scene_, slot) ? blocked : doubtful);
         }
     }

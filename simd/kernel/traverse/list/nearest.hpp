@@ -137,10 +137,10 @@ class ListNearest : Streams<Arch> {
             const std::uint32_t filled = S::filled(node, from);
             for (int k = 0; k < count; ++k) {
                 const Record& record = records_[list[k]];
-                const F t_most(record.best.first * culling_slack);
+                const F t_limit(record.best.first * culling_slack);
                 F near = zero<Arch>();
                 const std::uint32_t bits =
-                    record.box.template enter<Arch>(near_planes, far_planes, t_most, near);
+                    record.box.template enter<Arch>(near_planes, far_planes, t_limit, near);
                 const std::uint32_t before = from == 0 ? 0U : masks[k];
                 masks[k] = static_cast<Number>(before | (bits & filled) << from);
                 any |= bits << from;
