@@ -241,10 +241,10 @@ void Cuts::find(const core::Scene& scene, SceneView& view, std::uint32_t slots) 
     view.cuts = views_.data();
     view.cut_of_block = of_block_.data();
     view.only_cut_lanes = only_cut_.data();
-    view.waiting_lanes = waiting_.data();
+    view.deferred_lanes = deferred_.data();
 }
 
-/// Marks the faces whose clip tests are deferred (SceneView::waiting_lanes). The test of a face is
+/// Marks the faces whose clip tests are deferred (SceneView::deferred_lanes). The test of a face is
 /// not deferred if a part of the union that it cuts shares a block with shapes outside of the
 /// union, because the cut is not known there.
 void Cuts::let_faces_wait(const core::Scene& scene) {
@@ -264,7 +264,7 @@ void Cuts::let_faces_wait(const core::Scene& scene) {
         const std::uint16_t cut = parent != Solids::none ? number_[parent] : std::uint16_t{0};
         if (cut != 0 && of_block_[slot / core::block_size] != cut) is_known[cut] = 0;
     });
-    waiting_.resize(only_cut_.size());
+    deferred_.resize(only_cut_.size());
     for_each_lane([&](std::uint32_t slot, core::ShapeId id, Solids::Index part) {
         const std::uint16_t cut = part != Solids::none ? cut_by_[part] : std::uint16_t{0};
         if (cut == 0 || is_known[cut] == 0) return;
@@ -273,7 +273,7 @@ void Cuts::let_faces_wait(const core::Scene& scene) {
         if (std::count_if(by.begin(), by.end(), is_its) != faces_of(solids.node(part))) return;
         for (std::size_t k = 0; k < by.size(); ++k)
             if (is_its(by[k])) views_[cut].face[k] = slot;
-        std::uint16_t& lanes = waiting_[slot / core::block_size];
+        std::uint16_t& lanes = deferred_[slot / core::block_size];
         lanes = static_cast<std::uint16_t>(lanes | 1U << slot % core::block_size);
     });
 }

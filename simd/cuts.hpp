@@ -52,7 +52,7 @@ class Cuts {
     std::vector<std::uint16_t> cut_by_; // the same of the union that a part cuts, if it only cuts
     std::vector<std::uint16_t> of_block_;
     std::vector<std::uint16_t> only_cut_;
-    std::vector<std::uint16_t> waiting_;
+    std::vector<std::uint16_t> deferred_;
 };
 
 } // namespace raylane::simd

@@ -37,8 +37,8 @@ struct Found {
 
     /// Exact directions, of any length, and their lengths. `direction` is then their normalised
     /// form, and results that are certain hold for the exact rays. Null: `direction` is exact.
-    const double* meant_direction[3] = {};
-    const double* meant_length = nullptr;
+    const double* exact_direction[3] = {};
+    const double* exact_length = nullptr;
     /// True if hit points are wanted: t is then certain only if it is accurate enough for a point.
     bool holds_points = true;
     /// Lower limits, as in StreamRays. Crossings before or at them are ignored. If a ray crosses

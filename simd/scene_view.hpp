@@ -94,7 +94,7 @@ struct SceneView {
     /// The only_cut_lanes whose clip tests are deferred: they are searched only where a ray crosses
     /// them within a part of the union that they cut. All parts of that union are in blocks with
     /// their cut. Null: no such lanes.
-    const std::uint16_t* waiting_lanes;
+    const std::uint16_t* deferred_lanes;
 };
 
 /// core::Child's bits.

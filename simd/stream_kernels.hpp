@@ -23,14 +23,14 @@ struct CallerRays {
 };
 
 /// Rays in the kernels' format, structure of arrays of whole packets of 16. The exact directions
-/// (`meant_direction`) are the caller's, scaled to about length 1 by a power of two. Scaling is
+/// (`exact_direction`) are the caller's, scaled to about length 1 by a power of two. Scaling is
 /// exact and prevents overflow and underflow of products in the solvers. A ray that is invalid, or
 /// has no interval between its limits, has t_limit < 0; its other numbers are meaningless.
 struct StreamRays {
     double* origin[3];
     double* direction[3]; ///< unit
-    double* meant_direction[3];
-    double* meant_length;
+    double* exact_direction[3];
+    double* exact_length;
     double* unit; ///< the caller's t per t of the exact ray: the power of two
     double*
         per_unit; ///< the same per t of the unit direction, with a relative error of at most 2^-51

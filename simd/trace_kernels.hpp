@@ -20,8 +20,8 @@ struct RoundedRays {
     float* slack;
     const std::uint32_t* origin_first;
     const std::uint32_t* origin_last;
-    const double* meant_origin[3]; ///< exact, before rounding
-    const double* meant_direction[3];
+    const double* exact_origin[3]; ///< exact, before rounding
+    const double* exact_direction[3];
     /// Distances along the exact rays at which the rounded ones start. The search ignores
     /// everything before, and t counts from there. Null: 0.
     const double* before = nullptr;
@@ -156,7 +156,7 @@ struct CandidateList {
 
 /// Factor between the limit of a list and the upper bound that it is computed from, so that
 /// candidates that are nearly as near are listed, too.
-inline constexpr float candidate_grace = 1.0F + 0x1p-18F;
+inline constexpr float candidate_tolerance = 1.0F + 0x1p-18F;
 
 /// Crossings in extended precision: t as the sum of two doubles, and a bound on its error.
 struct WideCrossings {

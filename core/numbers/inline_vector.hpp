@@ -19,7 +19,7 @@ class InlineVector {
     InlineVector(InlineVector&& other) noexcept { *this = std::move(other); }
     InlineVector& operator=(const InlineVector& other) {
         if (this == &other) return *this;
-        make_room(other.size_);
+        reserve_room(other.size_);
         size_ = other.size_;
         std::copy_n(other.begin(), size_, begin());
         return *this;
@@ -32,7 +32,7 @@ class InlineVector {
             return *this;
         }
         more_ = std::move(other.more_);
-        room_ = std::exchange(other.room_, own);
+        capacity_ = std::exchange(other.capacity_, own);
         return *this;
     }
     ~InlineVector() = default;
@@ -49,7 +49,7 @@ class InlineVector {
     /// Resizes to `size` elements with unspecified values.
     void reset(std::size_t size) {
         size_ = 0;
-        make_room(size);
+        reserve_room(size);
         size_ = size;
     }
     /// Keeps elements `first` to `last`, the latter excluded.
@@ -59,15 +59,15 @@ class InlineVector {
     }
 
   private:
-    void make_room(std::size_t size) {
-        if (size <= room_) return;
+    void reserve_room(std::size_t size) {
+        if (size <= capacity_) return;
         std::unique_ptr<Value[]> more(new Value[size]);
         std::copy_n(begin(), size_, more.get());
         more_ = std::move(more);
-        room_ = size;
+        capacity_ = size;
     }
 
-    std::size_t size_ = 0, room_ = own;
+    std::size_t size_ = 0, capacity_ = own;
     std::unique_ptr<Value[]> more_; // null: the elements are in few_
     Value few_[own];                // NOLINT: only elements that were set are read
 };

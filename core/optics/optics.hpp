@@ -100,7 +100,7 @@ Real let_straight_through(const Material& material, Real cos, Real n1, Real n2) 
         false, cos, std::sqrt(std::max(Real(0), Real(1) - sin_squared)), {}};
     const Real share =
         (Real(1) - reflectance(material, refraction, rarer, denser)) * Real(material.transmission);
-    if (!material.is_see_through()) return share;
+    if (!material.is_transparent()) return share;
     return mul_add(Real(material.opacity), share, Real(1) - Real(material.opacity));
 }
 

@@ -153,7 +153,7 @@ Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
     const MaterialIndex medium = medium_before(hit, path.media);
     Vector before = path.throughput;
     if (medium != no_medium) before = absorbed(medium, hit.t) * before;
-    if (surface.material.is_see_through()) {
+    if (surface.material.is_transparent()) {
         // Each surface on a straight line has the fog that it would have as the only one.
         const Real opacity =
             path.passed < settings_.max_see_through ? Real(surface.material.opacity) : Real(0);

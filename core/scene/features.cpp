@@ -21,7 +21,7 @@ std::array<std::pair<std::string_view, bool>, 19> Features::named() const {
              {"Fresnel weights", fresnel},
              {"refracted rays", refraction},
              {"absorption", absorption},
-             {"transparent surfaces", see_through},
+             {"transparent surfaces", transparent},
              {"fog", fog},
              {"spectrum", spectrum},
              {"one-sided surfaces", one_sided},
@@ -52,7 +52,7 @@ Features features_of(const Scene& scene, const Settings& settings) {
         features.fresnel |= material.reflection != Reflection::constant;
         features.refraction |= material.transmits();
         features.absorption |= material.transmits() && material.absorption != Vec3f(0.0F);
-        features.see_through |= material.is_see_through();
+        features.transparent |= material.is_transparent();
         features.one_sided |= material.visible != Visible::both;
     }
     features.soft_light =

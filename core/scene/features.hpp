@@ -25,7 +25,7 @@ struct Features {
     bool fresnel = false;        ///< a reflected fraction that depends on the angle
     bool refraction = false;  ///< transmissive materials; needs refracted rays and tinted shadows
     bool absorption = false;  ///< inside of transmissive materials
-    bool see_through = false; ///< opacities below 1; needs rays that continue straight on
+    bool transparent = false; ///< opacities below 1; needs rays that continue straight on
     bool fog = false;
     bool spectrum = false;      ///< one image for each of several wavelengths
     bool one_sided = false;     ///< surfaces that are visible from one side only

@@ -62,9 +62,9 @@ struct Material {
     Visible visible = Visible::both;
 
     bool transmits() const { return transmission > 0.0F; }
-    bool is_see_through() const { return opacity < 1.0F; }
+    bool is_transparent() const { return opacity < 1.0F; }
     /// Returns true if light may pass it in any way.
-    bool lets_light_pass() const { return transmits() || is_see_through(); }
+    bool lets_light_pass() const { return transmits() || is_transparent(); }
     bool reflects() const { return reflection != Reflection::constant || reflectivity > 0.0F; }
     /// Returns true if a ray that enters (or leaves) here sees the surface.
     bool is_seen(bool entering) const {

@@ -93,14 +93,14 @@ struct Settings {
     float min_weight = 0.001F; ///< paths end below this largest throughput, in [0, 1]
     /// Maximum number of transparent surfaces, one behind the other, that a path shows, at least 1;
     /// further ones are ignored.
-    int max_see_through = see_through_limit;
+    int max_see_through = transparent_limit;
     Outline outline;
 
     static constexpr int max_size = 65535;                ///< pixels on a side
     static constexpr std::int64_t max_pixels = 1LL << 28; ///< 3 GiB of film
     static constexpr int max_grid = 256;
     static constexpr int depth_limit = 1000;
-    static constexpr int see_through_limit = 1'000'000;
+    static constexpr int transparent_limit = 1'000'000;
     static constexpr int max_light_samples = 4096;
     static constexpr int hard_light = -1;
 

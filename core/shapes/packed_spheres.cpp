@@ -47,7 +47,7 @@ unsigned whole_rows_of(const Block<Sphere>& block, const RadiusPalette& palette)
 RadiusPalette::RadiusPalette(std::size_t id_count)
     : id_bits_(
           std::max(static_cast<int>(std::bit_width(std::max<std::size_t>(id_count, 1) - 1)), 8)),
-      room_(std::min(most, (std::size_t{1} << (32 - id_bits_)) - 1)) {}
+      capacity_(std::min(most, (std::size_t{1} << (32 - id_bits_)) - 1)) {}
 
 std::size_t RadiusPalette::place_of(float radius) const {
     std::size_t place = pattern_of(radius) * 0x9E3779B1U >> 22;
@@ -58,7 +58,7 @@ std::size_t RadiusPalette::place_of(float radius) const {
 
 void RadiusPalette::add(float radius) {
     std::uint16_t& number = places_[place_of(radius)];
-    if (number != 0 || size_ == room_) return;
+    if (number != 0 || size_ == capacity_) return;
     radii_[size_++] = radius;
     number = static_cast<std::uint16_t>(size_);
 }

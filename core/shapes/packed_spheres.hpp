@@ -58,7 +58,7 @@ class RadiusPalette {
     std::size_t place_of(float radius) const;
 
     int id_bits_;
-    std::size_t room_;
+    std::size_t capacity_;
     std::size_t size_ = 0;
     std::array<float, most> radii_{}; // at least 16 elements, for registers
     std::array<std::uint16_t, 4 * most> places_{};

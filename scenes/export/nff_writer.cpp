@@ -88,7 +88,7 @@ class NffWriter {
         if (m.visible == core::Visible::outside)
             differences_.insert("surfaces seen from outside only");
         if (m.specular != m.reflectivity) differences_.insert("specular coefficients");
-        if (m.is_see_through()) differences_.insert("opacity");
+        if (m.is_transparent()) differences_.insert("opacity");
         differences_.insert("ambient coefficients");
         file_ << "f ";
         file_.list(m.pattern.colors[0], " ")

@@ -336,7 +336,7 @@ class PovWriter {
     int trace_level() const {
         const std::vector<core::Material>& materials = scene_.materials();
         const bool most = std::any_of(materials.begin(), materials.end(),
-                                      [](const auto& m) { return m.is_see_through(); });
+                                      [](const auto& m) { return m.is_transparent(); });
         return most ? 256 : scene_.settings().max_depth + 1;
     }
 
@@ -366,12 +366,12 @@ class PovWriter {
             file_ << " reflection { 0, 1 fresnel on } conserve_energy";
         else if (material.reflectivity > 0.0F)
             file_ << " reflection { " << covered * material.reflectivity << " }";
-        const bool bends = material.transmits() || (is_fresnel && !material.is_see_through());
+        const bool bends = material.transmits() || (is_fresnel && !material.is_transparent());
         file_ << " } }";
         // Any other body around the camera, such as a sky, would refract the rays in POV-Ray.
         if (bends) file_ << " interior { ior " << material.index << " }";
         file_ << " }\n";
-        if (material.transmits() && material.is_see_through())
+        if (material.transmits() && material.is_transparent())
             differences_.insert("opacity of transmissive materials");
         if (is_fresnel && !bends)
             differences_.insert("Fresnel reflection of transparent materials");
@@ -387,7 +387,7 @@ class PovWriter {
     void write_use(core::MaterialIndex index) {
         const core::Material& material = scene_.materials()[index];
         file_ << " material { " << identifiers_[index] << " }";
-        if (scene_.fog().kind == core::FogKind::exponential && material.is_see_through() &&
+        if (scene_.fog().kind == core::FogKind::exponential && material.is_transparent() &&
             !material.transmits())
             file_ << " hollow";
     }

@@ -58,7 +58,7 @@ class SceneFromAtoms {
         find_images();
         add_atoms();
         if (scale_.style != Style::spheres && scale_.style != Style::points) add_bonds();
-        add_see_through();
+        add_transparent();
         if (drawing_.show_cell) add_cell();
         set_up_view();
         return scale_;
@@ -217,16 +217,16 @@ class SceneFromAtoms {
     template <class Shape>
     void add(const Shape& shape, MaterialIndex material, const AtomPair& atoms) {
         if (drawing_.opacity < 1.0F && atoms != no_atoms)
-            see_through_.parts.push_back({.shape = core::to_doubles(shape), .material = material});
+            transparent_.parts.push_back({.shape = core::to_doubles(shape), .material = material});
         else
             builder_.add(shape, material);
         if (atoms_of_shape_ != nullptr) atoms_of_shape_->push_back(atoms);
     }
-    void add_see_through() {
-        if (see_through_.parts.empty()) return;
-        if (see_through_.parts.size() == 1) see_through_ = core::Solid(see_through_.parts[0]);
-        builder_.add_solid(see_through_, see_through_.material);
-        see_through_ = {};
+    void add_transparent() {
+        if (transparent_.parts.empty()) return;
+        if (transparent_.parts.size() == 1) transparent_ = core::Solid(transparent_.parts[0]);
+        builder_.add_solid(transparent_, transparent_.material);
+        transparent_ = {};
     }
 
     void add_atoms() {
@@ -438,7 +438,7 @@ class SceneFromAtoms {
     Palette palette_;
     std::vector<AtomPair>* atoms_of_shape_;
     const OnRemark& on_remark_;
-    core::Solid see_through_{.made = core::Made::by_union};
+    core::Solid transparent_{.made = core::Made::by_union};
     std::vector<char> selected_; // empty: all
     std::size_t count_ = 0;
     DrawingScale scale_;

@@ -143,7 +143,7 @@ core::Scene Reader::build() {
             set_fog(builder_, *fog_, camera_, shading_.planar_fog.value_or(false), words_);
         if (shading_.max_transparent_surfaces)
             builder_.settings.max_see_through = std::clamp(*shading_.max_transparent_surfaces, 1,
-                                                           core::Settings::see_through_limit);
+                                                           core::Settings::transparent_limit);
         return std::move(builder_).build();
     } catch (const InvalidValue& invalid) {
         throw BadInput(file_.name(), "", invalid.what());

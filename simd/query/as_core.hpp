@@ -14,7 +14,7 @@ core::Ray<Real> ray_of(const Paths& paths, std::size_t lane) {
             core::Vec3d(columns[0][lane], columns[1][lane], columns[2][lane]));
     };
     return {vector(paths.origin),
-            vector(paths.stand_for_others() ? paths.meant_direction : paths.direction)};
+            vector(paths.stand_for_others() ? paths.exact_direction : paths.direction)};
 }
 
 /// Returns the hit of a lane. Its t is per unit of the exact direction.

@@ -95,7 +95,7 @@ void CandidateResolver::list(const Paths& paths, const CandidateSearch& search, 
         // from it are listed, too. It also includes the error of the difference.
         const double beyond_there = before == 0.0 ? limit : limit * (1.0 + 0x1p-50) - before;
         const float limit_there =
-            std::max(static_cast<float>(beyond_there) * candidate_grace, min_limit);
+            std::max(static_cast<float>(beyond_there) * candidate_tolerance, min_limit);
         if (room > slots_.size()) {
             slots_.resize(room);
             bounds_.resize(room);

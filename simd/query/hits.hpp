@@ -83,9 +83,9 @@ struct Hits {
             if (shading_normal[axis] != nullptr)
                 found.shading_normal[axis] = shading_normal[axis] + begin;
             if (paths.stand_for_others())
-                found.meant_direction[axis] = paths.meant_direction[axis] + begin;
+                found.exact_direction[axis] = paths.exact_direction[axis] + begin;
         }
-        if (paths.stand_for_others()) found.meant_length = paths.meant_length + begin;
+        if (paths.stand_for_others()) found.exact_length = paths.exact_length + begin;
         if (paths.t_after != nullptr) {
             found.t_after = paths.t_after + begin;
             found.start = paths.start + begin;

@@ -48,8 +48,8 @@ struct Paths {
     double* travelled = nullptr;
     /// Exact directions, of any length, and their lengths. `direction` is then their normalised
     /// form, which is rounded. Null: `direction` is exact.
-    double* meant_direction[3];
-    double* meant_length;
+    double* exact_direction[3];
+    double* exact_length;
     /// Lower limits, as in StreamRays, of rays with exact directions. Null: no limits.
     double* t_after;
     double* start;
@@ -64,9 +64,9 @@ struct Paths {
         origin_slot = arena.take<std::uint32_t>(capacity);
         origin_bits = arena.take<std::uint32_t>(capacity);
         media = with_media ? arena.take<core::Media>(capacity) : nullptr;
-        for (double*& column : meant_direction)
+        for (double*& column : exact_direction)
             column = for_others ? arena.take<double>(capacity) : nullptr;
-        meant_length = for_others ? arena.take<double>(capacity) : nullptr;
+        exact_length = for_others ? arena.take<double>(capacity) : nullptr;
         t_after = for_others ? arena.take<double>(capacity) : nullptr;
         start = for_others ? arena.take<double>(capacity) : nullptr;
     }
@@ -76,10 +76,10 @@ struct Paths {
         if (with_fog) travelled = arena.take<double>(capacity);
     }
 
-    bool stand_for_others() const { return meant_length != nullptr; }
+    bool stand_for_others() const { return exact_length != nullptr; }
     /// Returns the length of the exact direction.
     double length_of(std::size_t lane) const {
-        return stand_for_others() ? meant_length[lane] : 1.0;
+        return stand_for_others() ? exact_length[lane] : 1.0;
     }
 
     core::Media media_at(std::size_t lane) const {
@@ -157,8 +157,8 @@ struct Paths {
         }
         if (stand_for_others() && other.stand_for_others()) {
             for (int axis = 0; axis < 3; ++axis)
-                meant_direction[axis][to] = other.meant_direction[axis][from];
-            meant_length[to] = other.meant_length[from];
+                exact_direction[axis][to] = other.exact_direction[axis][from];
+            exact_length[to] = other.exact_length[from];
         }
         if (t_after != nullptr) {
             t_after[to] = other.t_after != nullptr ? other.t_after[from] : 0.0;

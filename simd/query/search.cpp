@@ -27,8 +27,8 @@ void CandidateSearch::take_from(Arena& arena, std::size_t capacity) {
 
 void CandidateSearch::take(const RayColumns& rays) {
     count_ = rays.count;
-    std::copy_n(rays.origin, 3, rounded_.meant_origin);
-    std::copy_n(rays.direction, 3, rounded_.meant_direction);
+    std::copy_n(rays.origin, 3, rounded_.exact_origin);
+    std::copy_n(rays.direction, 3, rounded_.exact_direction);
     rounded_.origin_first = rays.origin_first;
     rounded_.origin_last = rays.origin_last;
     if (tracing_.precision == core::Precision::exact) approach_.find_starts(rays, rounded_);

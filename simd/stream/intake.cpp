@@ -17,9 +17,9 @@ StreamRays from(StreamRays rays, std::size_t to) {
     for (int axis = 0; axis < 3; ++axis) {
         rays.origin[axis] += to;
         rays.direction[axis] += to;
-        rays.meant_direction[axis] += to;
+        rays.exact_direction[axis] += to;
     }
-    for (double** const column : {&rays.meant_length, &rays.unit, &rays.per_unit, &rays.t_after,
+    for (double** const column : {&rays.exact_length, &rays.unit, &rays.per_unit, &rays.t_after,
                                   &rays.start, &rays.t_limit})
         *column += to;
     rays.bits += to;
@@ -41,8 +41,8 @@ void StreamIntake::take_from(Arena& arena) {
     paths_.take_from(arena, capacity_, false, /*for_others=*/true);
     taken_ = {{paths_.origin[0], paths_.origin[1], paths_.origin[2]},
               {paths_.direction[0], paths_.direction[1], paths_.direction[2]},
-              {paths_.meant_direction[0], paths_.meant_direction[1], paths_.meant_direction[2]},
-              paths_.meant_length,
+              {paths_.exact_direction[0], paths_.exact_direction[1], paths_.exact_direction[2]},
+              paths_.exact_length,
               arena.take<double>(capacity_),
               arena.take<double>(capacity_),
               paths_.t_after,

@@ -95,7 +95,7 @@ bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
         t_limit_[lane] =
             !is_asked
                 ? -1.0F
-                : std::max(static_cast<float>(std::min(left, max_of_floats)) * candidate_grace,
+                : std::max(static_cast<float>(std::min(left, max_of_floats)) * candidate_tolerance,
                            std::numeric_limits<float>::min());
     }
     PairList list{};
@@ -143,7 +143,7 @@ void RowWorker::cross_pairs() {
     bits_.resize(2 * slot_.size());
     const Paths& paths = intake_.paths();
     const double* const* const from = paths.origin;
-    const double* const* const along = paths.meant_direction;
+    const double* const* const along = paths.exact_direction;
     const double* const* const unit = paths.direction;
     tracing_.method().refine.cross_all(scene_.view(), {slot_.size(),
                                                        {from[0], from[1], from[2]},

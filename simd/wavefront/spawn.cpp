@@ -33,7 +33,7 @@ void Wavefront::spawn(int depth) {
         }
         refracted = add_to_next(transmitted_, /*through=*/true, depth);
     }
-    const std::size_t passed = see_through_ ? pass_on() : 0;
+    const std::size_t passed = transparent_ ? pass_on() : 0;
     counters_.reflected += mirrored;
     counters_.refracted += refracted;
     counters_.passed += passed;

@@ -46,8 +46,8 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_coherence_(camera_rays_.has_lens() ? neighbours : coherence_of(camera_)),
       with_media_(scene.scene().transmissive().any),
-      see_through_(std::any_of(scene.scene().materials().begin(), scene.scene().materials().end(),
-                               [](const core::Material& m) { return m.is_see_through(); })),
+      transparent_(std::any_of(scene.scene().materials().begin(), scene.scene().materials().end(),
+                               [](const core::Material& m) { return m.is_transparent(); })),
       shade_(tracing.kernels
                  ->shade[with_media_ ? 1 : 0][scene.fog().kind != core::FogKind::none ? 1 : 0]),
       reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
@@ -59,7 +59,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     light_keys_.resize(scene.soft_lights().empty() ? 0 : wave_rays);
     first_points_.resize(light_keys_.size());
     pending_.reserve(64);
-    if (see_through_) position_of_.resize(wave_rays);
+    if (transparent_) position_of_.resize(wave_rays);
     if (camera_rays_.regular())
         for (int number = 0; number < settings.grid * settings.grid; ++number)
             cells_.push_back(camera_rays_.in_pixel(0, 0, number));
@@ -77,10 +77,10 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
 
 void Wavefront::take_from(Arena& arena) {
     // Each ray may spawn a reflected ray, a transmitted one, and one that goes straight on.
-    const std::size_t max_spawned = wave_rays * (see_through_ ? 3 : 2);
+    const std::size_t max_spawned = wave_rays * (transparent_ ? 3 : 2);
     const auto take_paths = [&](Paths& paths, std::size_t capacity) {
         paths.take_from(arena, capacity, with_media_);
-        if (see_through_)
+        if (transparent_)
             paths.take_passed_from(arena, capacity, scene_.fog().kind != core::FogKind::none);
     };
     take_paths(paths_, max_spawned);
@@ -100,7 +100,7 @@ void Wavefront::take_from(Arena& arena) {
          {&surfaces_.point, &surfaces_.flat_normal, &surfaces_.normal, &surfaces_.direction,
           &surfaces_.throughput, &surfaces_.own, &surfaces_.radiance})
         arena.take(*columns, wave_rays);
-    if (see_through_) arena.take(surfaces_.behind, wave_rays);
+    if (transparent_) arena.take(surfaces_.behind, wave_rays);
     if (with_media_) {
         media_.index_before = arena.take<double>(wave_rays);
         media_.index_behind = arena.take<double>(wave_rays);
@@ -284,7 +284,7 @@ void Wavefront::start(std::size_t count) {
         std::fill_n(channel, count, 1.0);
     std::iota(paths_.sample, paths_.sample + count, 0U);
     paths_.start_nowhere(0, count);
-    if (see_through_)
+    if (transparent_)
         for (std::size_t lane = 0; lane < count; ++lane)
             paths_.set_passed(lane, 0, 0.0);
     if (with_media_ && (camera_.orthographic || camera_rays_.has_lens()))
@@ -478,7 +478,7 @@ void Wavefront::shade(int depth) {
     looked_ = false;
     add_lights();
     add_soft_lights(depth);
-    if (depth < settings_.max_depth || see_through_) spawn(depth);
+    if (depth < settings_.max_depth || transparent_) spawn(depth);
 }
 
 /// Sets the wave for shadow rays, before the first of them to any light.

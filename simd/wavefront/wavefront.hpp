@@ -117,7 +117,7 @@ class Wavefront {
     Coherence camera_coherence_{};
     Coherence next_coherence_ = neighbours; ///< of the rays that a wave has spawned
     bool with_media_;
-    bool see_through_; ///< some surfaces are transparent
+    bool transparent_; ///< some surfaces are transparent
     ShadeKernels shade_;
     core::ReferenceTracer<double> reference_;
     TransparencyWalk finder_;

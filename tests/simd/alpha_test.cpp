@@ -67,7 +67,7 @@ double largest_alpha_difference(const Film& a, const Film& b) {
 
 TEST_CASE("an image with alpha over a background equals the image without alpha") {
     for (const Color& background : {Color(0.0F), Color(1.0F), Color(0.2F, 0.5F, 3.0F)})
-        for (const int most : {1, 3, Settings::see_through_limit})
+        for (const int most : {1, 3, Settings::transparent_limit})
             for (const bool in_fog : {false, true}) {
                 Cloud cloud(/*with_mirrors=*/false);
                 cloud.settings.max_see_through = most;

@@ -57,7 +57,7 @@ TEST_CASE("both engines and all instruction sets render the same transparent sur
           "[native]") {
     for (const Projection projection : {Projection::perspective, Projection::orthographic})
         for (const bool in_fog : {false, true})
-            for (const int most : {2, Settings::see_through_limit})
+            for (const int most : {2, Settings::transparent_limit})
                 tests::check_engines_agree(cloud(projection, in_fog, most));
 }
 

@@ -118,7 +118,7 @@ void print(const Json& info) {
                       (info["quality"] == 0 ? number("samples_per_pixel") + " samples each, "
                                             : number("quality") + " dB, ") +
                       info["transfer"].get<std::string>() + " transfer");
-    const bool has_limit = info["max_see_through"] < core::Settings::see_through_limit;
+    const bool has_limit = info["max_see_through"] < core::Settings::transparent_limit;
     line("limits",
          "depth " + number("max_depth") + ", weight " + number("min_weight") +
              (has_limit ? ", " + number("max_see_through") + " transparent surfaces" : ""));

@@ -161,7 +161,7 @@ struct RenderArguments : OptionTable {
         "Maximum number of reflections and refractions along a path."};
     Option<int> max_see_through = {
         *this, "--max-see-through",
-        whole(1, core::Settings::see_through_limit)
+        whole(1, core::Settings::transparent_limit)
             .replacing_rarely(&core::Settings::max_see_through)
             .otherwise(as_in_file, "all"),
         "Maximum number of transparent surfaces shown one behind the other; further ones "

@@ -96,9 +96,9 @@ class FinishAgain {
     Loaded load(const Packet& packet, core::Kind kind) const {
         const TableView& table = S::table_of(scene_, kind);
         Loaded loaded{Reader(table), {}, {}, {}};
-        const bool stand_for_others = found_.meant_length != nullptr;
+        const bool stand_for_others = found_.exact_length != nullptr;
         const double* const* const directions =
-            stand_for_others ? found_.meant_direction : found_.direction;
+            stand_for_others ? found_.exact_direction : found_.direction;
         double numbers[8][width];
         for (std::size_t lane = 0; lane < width; ++lane) {
             // Unused lanes repeat the first one.
@@ -108,7 +108,7 @@ class FinishAgain {
                 numbers[axis][lane] = found_.origin[axis][ray];
                 numbers[3 + axis][lane] = directions[axis][ray];
             }
-            numbers[6][lane] = stand_for_others ? found_.meant_length[ray] : 1.0;
+            numbers[6][lane] = stand_for_others ? found_.exact_length[ray] : 1.0;
             numbers[7][lane] = found_.t_after != nullptr ? found_.t_after[ray] : 0.0;
         }
         const auto vectors = [&](double(*from)[width]) {

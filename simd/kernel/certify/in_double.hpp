@@ -53,7 +53,7 @@ struct DoubleMethod {
         Rays result{RaysInFloat<Arch>::packet(rays, i), {}};
         for (int half = 0; half < 2; ++half) {
             const std::size_t from = i + static_cast<std::size_t>(half) * Floats<D>::size;
-            result.halves[half] = {load(rays.meant_origin, from), load(rays.meant_direction, from)};
+            result.halves[half] = {load(rays.exact_origin, from), load(rays.exact_direction, from)};
         }
         return result;
     }
@@ -61,7 +61,7 @@ struct DoubleMethod {
         const auto in_all = [&](const double* const(&from)[3]) {
             return Vectors<D>{Floats<D>(from[0][i]), Floats<D>(from[1][i]), Floats<D>(from[2][i])};
         };
-        const simd::Rays<D> ray = {in_all(rays.meant_origin), in_all(rays.meant_direction)};
+        const simd::Rays<D> ray = {in_all(rays.exact_origin), in_all(rays.exact_direction)};
         return {RaysInFloat<Arch>::broadcast(rays, i), {ray, ray}};
     }
     template <class Visit>

@@ -76,7 +76,7 @@ struct ListCandidates : Streams<Arch> {
             if (bits == 0) continue;
             const float last =
                 Lanes<Arch>::least(select(counts & bounds.certain, bounds.upper, S::infinity()));
-            const float limit = last * candidate_grace;
+            const float limit = last * candidate_tolerance;
             list.limit = limit < list.limit ? limit : list.limit;
             if (list.sifts && list.count >= few) {
                 with_finisher<Double<Arch>>(kind, [&]<class Finisher>() {
@@ -106,7 +106,7 @@ struct ListCandidates : Streams<Arch> {
         const auto in_all = [&](const double* const(&of)[3]) {
             return Vectors<D>{Floats<D>(of[0][i]), Floats<D>(of[1][i]), Floats<D>(of[2][i])};
         };
-        const Rays<D> ray = {in_all(rays.meant_origin), in_all(rays.meant_direction)};
+        const Rays<D> ray = {in_all(rays.exact_origin), in_all(rays.exact_direction)};
         constexpr int width = static_cast<int>(Floats<D>::size);
         for (int half = 0; half < 2; ++half) {
             const std::uint32_t lanes = ((1U << width) - 1) << (half * width);

@@ -257,10 +257,10 @@ class CallerStream {
         const Number* const directions[] = {&meant.x, &meant.y, &meant.z};
         for (int axis = 0; axis < 3; ++axis) {
             select(is_ray, *origins[axis], nothing).store_unaligned(taken.origin[axis] + at);
-            directions[axis]->store_unaligned(taken.meant_direction[axis] + at);
+            directions[axis]->store_unaligned(taken.exact_direction[axis] + at);
             (*directions[axis] * inverse).store_unaligned(taken.direction[axis] + at);
         }
-        length.store_unaligned(taken.meant_length + at);
+        length.store_unaligned(taken.exact_length + at);
         unit.store_unaligned(taken.unit + at);
         (unit * inverse).store_unaligned(taken.per_unit + at);
     }
@@ -308,7 +308,7 @@ class CallerStream {
                                                     const Mask<D>& is_ray, const StreamRays& taken,
                                                     std::size_t at) {
         const Number unit = Number::load_unaligned(taken.unit + at);
-        const Number length = Number::load_unaligned(taken.meant_length + at);
+        const Number length = Number::load_unaligned(taken.exact_length + at);
         const Number after_here = select(is_ray, after / unit, zero<D>());
         after_here.store_unaligned(taken.t_after + at);
         (after_here * length).store_unaligned(taken.start + at);

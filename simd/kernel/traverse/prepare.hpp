@@ -103,18 +103,18 @@ struct Prepare : Streams<Arch> {
             for (std::size_t k = 0; k < F::size; k += Number::size) {
                 const Number before = Number::load_unaligned(rays.before + i + k);
                 Number size = before;
-                for (const double* const meant : rays.meant_origin)
+                for (const double* const meant : rays.exact_origin)
                     size = size + abs(Number::load_unaligned(meant + i + k));
                 select(before > zero<D>(), Number(0x1p-50) * size, zero<D>())
                     .store_unaligned(moved + k);
             }
         for (int axis = 0; axis < 3; ++axis) {
-            const double* meant = rays.meant_origin[axis] + i;
+            const double* meant = rays.exact_origin[axis] + i;
             double there[F::size];
             if constexpr (moves) {
                 for (std::size_t k = 0; k < F::size; k += Number::size)
                     mul_add<D>(Number::load_unaligned(rays.before + i + k),
-                               Number::load_unaligned(rays.meant_direction[axis] + i + k),
+                               Number::load_unaligned(rays.exact_direction[axis] + i + k),
                                Number::load_unaligned(meant + k))
                         .store_unaligned(there + k);
                 meant = there;
@@ -127,7 +127,7 @@ struct Prepare : Streams<Arch> {
                     Lanes<D>::widen(o, half) - Number::load_unaligned(meant + half * Number::size);
                 (Number::load_unaligned(sum) + abs(off)).store_unaligned(sum);
             }
-            Lanes<Arch>::narrow(rays.meant_direction[axis] + i)
+            Lanes<Arch>::narrow(rays.exact_direction[axis] + i)
                 .store_unaligned(rays.direction[axis] + i);
         }
         // FilterRays requires this.

@@ -110,8 +110,8 @@ struct Streams {
     /// True if the test of a slot's shape is deferred until a ray crosses it within a part that it
     /// cuts.
     static bool waits(const SceneView& scene, std::uint32_t slot) {
-        return scene.waiting_lanes != nullptr &&
-               (scene.waiting_lanes[slot / 16] >> slot % 16 & 1) != 0;
+        return scene.deferred_lanes != nullptr &&
+               (scene.deferred_lanes[slot / 16] >> slot % 16 & 1) != 0;
     }
 
     static core::Kind kind_of(std::uint32_t child) {

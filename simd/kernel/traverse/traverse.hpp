@@ -108,8 +108,8 @@ struct Trace : Streams<Arch> {
         for (int axis = 0; axis < 3; ++axis) {
             result.origin[axis] += begin;
             result.direction[axis] += begin;
-            result.meant_origin[axis] += begin;
-            result.meant_direction[axis] += begin;
+            result.exact_origin[axis] += begin;
+            result.exact_direction[axis] += begin;
         }
         result.slack += begin;
         result.origin_first += begin;

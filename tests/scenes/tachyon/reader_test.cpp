@@ -150,9 +150,9 @@ TEST_CASE("a Tachyon surface is as transparent as its mode says") {
     const auto most = [](const std::string& mode) {
         return scene_of("SHADER_MODE FULL " + mode + " END_SHADER_MODE").settings().max_see_through;
     };
-    CHECK(most("") == core::Settings::see_through_limit);
+    CHECK(most("") == core::Settings::transparent_limit);
     CHECK(most("TRANS_MAX_SURFACES 3") == 3);
-    CHECK(most("TRANS_MAX_SURFACES 2000000000") == core::Settings::see_through_limit);
+    CHECK(most("TRANS_MAX_SURFACES 2000000000") == core::Settings::transparent_limit);
     CHECK(read("SHADER_MODE FULL TRANS_RASTER3D TRANS_VMD END_SHADER_MODE SPHERE CENTER 0 0 0 RAD "
                "1 TEXTURE AMBIENT 0 DIFFUSE 0 SPECULAR 0 OPACITY 0.5")
               .remarks ==

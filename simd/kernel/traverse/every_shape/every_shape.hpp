@@ -34,19 +34,19 @@ struct EveryShape : Streams<Arch> {
         }
 
         /// True if a ray may meet the sphere before t_limit. The roundings are about 20 u of the
-        /// distance, squared or not; `grace` is 32 u.
+        /// distance, squared or not; `tolerance` is 32 u.
         bool may_meet(int block, int lane, const FilterRays<Arch>& rays, const F& t_limit) const {
             if (block >= blocks) return true;
-            const F grace(32 * half_ulp), o = zero<Arch>();
+            const F tolerance(32 * half_ulp), o = zero<Arch>();
             const SphereAround<Arch> sphere = around[block].broadcast(lane);
             const Vectors<Arch> to_center = sphere.center - rays.origin;
             const F tau = fast_dot(to_center, rays.direction);
             const F squared = fast_dot(to_center, to_center);
             const F radius = fast_mul_add<Arch>(
-                grace, abs(tau), fast_mul_add<Arch>(F(4.0F), rays.slack, sphere.radius));
+                tolerance, abs(tau), fast_mul_add<Arch>(F(4.0F), rays.slack, sphere.radius));
             // Values that overflow prove nothing.
             const M beside = (squared < S::infinity()) &
-                             (squared - tau * tau - grace * squared > radius * radius);
+                             (squared - tau * tau - tolerance * squared > radius * radius);
             const M misses =
                 beside | (tau + radius < o) | (tau - radius > t_limit * F(culling_slack));
             return Lanes<Arch>::bits(~misses) != 0;

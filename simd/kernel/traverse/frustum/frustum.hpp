@@ -13,8 +13,8 @@ namespace raylane::simd {
 /// between the smallest and the largest of these. So does each of its sixteen packets of 16
 /// consecutive rays, which are lanes here.
 ///
-/// Roundings are a few u of |w_a| + |u w_k| + |offset|. `grace` allows 16 u of the sizes of w and,
-/// as slopes are at most 4, twice that of the rest.
+/// Roundings are a few u of |w_a| + |u w_k| + |offset|. `tolerance` allows 16 u of the sizes of w
+/// and, as slopes are at most 4, twice that of the rest.
 template <class Arch>
 struct Frustum : Streams<Arch> {
     using S = Streams<Arch>;
@@ -67,8 +67,8 @@ struct Frustum : Streams<Arch> {
     }
 
     /// Returns the tolerance for all roundings, at a distance of w along and across the rays.
-    F grace(const F& w_along, const F& w_across) const {
-        return F(grace_factor) * (abs(w_along) + abs(w_across)) + F(8 * steepest * slack);
+    F tolerance(const F& w_along, const F& w_across) const {
+        return F(tolerance_factor) * (abs(w_along) + abs(w_across)) + F(8 * steepest * slack);
     }
 
     /// Returns the boxes of a node that the frustum may meet, as bits, and in `near` the smallest t
@@ -80,21 +80,21 @@ struct Frustum : Streams<Arch> {
         const F reach_k = max(abs(lower_k), abs(upper_k));
         const F first_w = sense > 0.0F ? lower_k : negated(upper_k);
         const F last_w = sense > 0.0F ? upper_k : negated(lower_k);
-        const F grace_k = grace(reach_k, zero<Arch>());
-        M meets = (last_w + grace_k >= F(min_w)) & (first_w - grace_k <= F(greatest_w));
+        const F tolerance_k = tolerance(reach_k, zero<Arch>());
+        M meets = (last_w + tolerance_k >= F(min_w)) & (first_w - tolerance_k <= F(greatest_w));
         for (int side = 0; side < 2; ++side) {
             const int a = across[side];
             const F apex_across(apex[a]);
             const F lower = S::load(node.lower[a] + from) - apex_across;
             const F upper = S::load(node.upper[a] + from) - apex_across;
-            const F room = grace(reach_k, max(abs(lower), abs(upper)));
+            const F room = tolerance(reach_k, max(abs(lower), abs(upper)));
             const Side &high = above[side], &low = below[side];
             const F min_above = lower - F(high.slope) * (high.slope > 0.0F ? upper_k : lower_k);
             const F max_below = upper - F(low.slope) * (low.slope > 0.0F ? lower_k : upper_k);
             meets =
                 meets & (min_above - room <= F(high.offset)) & (max_below + room >= F(low.offset));
         }
-        near = near_t(first_w - grace_k);
+        near = near_t(first_w - tolerance_k);
         return Lanes<Arch>::bits(meets & (near <= t_limit)) & S::filled(node, from);
     }
 
@@ -142,7 +142,7 @@ struct Frustum : Streams<Arch> {
     struct alignas(64) Seen {
         float near[16];                ///< the smallest t
         float along[16];               ///< w_k
-        float low[2][16], high[2][16]; ///< w_a less and plus `grace`
+        float low[2][16], high[2][16]; ///< w_a less and plus `tolerance`
         float radius[16];
     };
     struct SeenBlock {
@@ -187,7 +187,7 @@ struct Frustum : Streams<Arch> {
     /// beyond `furthest`, as bits.
     [[gnu::always_inline]] std::uint32_t meet(const BlockSpheres<Arch>& spheres, int from,
                                               float furthest, SeenBlock& seen) const {
-        const F grace_apart(8 * steepest * slack), factor(grace_factor);
+        const F tolerance_apart(8 * steepest * slack), factor(tolerance_factor);
         seen.ends = spheres.ends;
         const auto reach_of = [&](int end) __attribute__((always_inline)) {
             Seen& to = seen.end[end];
@@ -195,8 +195,8 @@ struct Frustum : Streams<Arch> {
             const F radius = S::load(spheres.radius[end] + from);
             const F w_along = S::load(center[along] + from) - F(apex[along]);
             const F w = F(sense) * w_along;
-            const F grace_along = fast_mul_add<Arch>(factor, abs(w_along), grace_apart);
-            const F room = grace_along + radius;
+            const F tolerance_along = fast_mul_add<Arch>(factor, abs(w_along), tolerance_apart);
+            const F room = tolerance_along + radius;
             Reach reach;
             reach.along[0] = w + room >= F(min_w);
             reach.along[1] = w - room <= F(furthest);
@@ -205,7 +205,7 @@ struct Frustum : Streams<Arch> {
             radius.store_unaligned(to.radius + from);
             for (int side = 0; side < 2; ++side) {
                 const F w_across = S::load(center[across[side]] + from) - F(apex[across[side]]);
-                const F room_across = fast_mul_add<Arch>(factor, abs(w_across), grace_along);
+                const F room_across = fast_mul_add<Arch>(factor, abs(w_across), tolerance_along);
                 (w_across - room_across).store_unaligned(to.low[side] + from);
                 (w_across + room_across).store_unaligned(to.high[side] + from);
             }
@@ -386,7 +386,7 @@ struct Frustum : Streams<Arch> {
         low.norm = norm_above(low.slope);
     }
 
-    static constexpr float grace_factor = 2 * steepest * 16 * half_ulp;
+    static constexpr float tolerance_factor = 2 * steepest * 16 * half_ulp;
 };
 
 } // namespace raylane::simd
