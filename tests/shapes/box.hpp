@@ -66,7 +66,7 @@ inline core::Box placed(const core::Box& b, const Placing& by) {
 
 template <>
 struct NestOf<core::Box> {
-    static Nest make(double size, Random& r) {
+    static CloseShells make(double size, Random& r) {
         while (true) {
             const double gap = r.log_uniform(min_gap, std::max(0.25 * size, 6.0));
             const Vec3d n = r.direction(), m = ray_sets::across(n, r);

@@ -64,7 +64,7 @@ core::Cone<ends> placed(const core::Cone<ends>& c, const Placing& by) {
 
 template <core::Ends ends>
 struct NestOf<core::Cone<ends>> {
-    static Nest make(double size, Random& r) {
+    static CloseShells make(double size, Random& r) {
         const Axes axes(size, r);
         double base = size * r.uniform(0.5, 2.0), top = size * r.uniform(0.5, 2.0);
         const int apex = r.integer(0, 3);

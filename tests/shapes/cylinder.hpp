@@ -52,7 +52,7 @@ core::Cylinder<ends> placed(const core::Cylinder<ends>& c, const Placing& by) {
 
 template <core::Ends ends>
 struct NestOf<core::Cylinder<ends>> {
-    static Nest make(double size, Random& r) {
+    static CloseShells make(double size, Random& r) {
         const Axes axes(size, r);
         const float radius = rounded(size * r.uniform(1.0, 2.0)), gap = gap_of_radii(radius, r);
         return {core::Cylinder<ends>{axes.base(0), axes.axis(0), radius},

@@ -44,7 +44,7 @@ inline core::Disc placed(const core::Disc& d, const Placing& by) {
 
 template <>
 struct NestOf<core::Disc> {
-    static Nest make(double size, Random& r) {
+    static CloseShells make(double size, Random& r) {
         const core::Disc disc{Vec3f(0), rounded(r.direction() * r.log_uniform(0.1, 10.0)),
                               rounded(size * r.uniform(1.0, 2.0))};
         const auto step = [&] { return step_across(core::convert<double>(disc.normal), size, r); };

@@ -62,7 +62,7 @@ inline core::Ellipsoid placed(const core::Ellipsoid& e, const Placing& by) {
 
 template <>
 struct NestOf<core::Ellipsoid> {
-    static Nest make(double size, Random& r) {
+    static CloseShells make(double size, Random& r) {
         const double gap = r.log_uniform(3.0 * min_gap, std::max(0.25 * size, 10.0));
         const Vec3d n = r.direction(), m = ray_sets::across(n, r);
         const Vec3f u = whole((n + r.cube(0.2)) * (gap * r.uniform(1.0, 1.5)));

@@ -7,7 +7,7 @@
 #include "tests/oracle/line.hpp"
 #include "tests/placing.hpp"
 #include "tests/random.hpp"
-#include "tests/simd/nest.hpp"
+#include "tests/simd/close_shells.hpp"
 
 #include <array>
 #include <utility>

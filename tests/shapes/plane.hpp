@@ -39,7 +39,7 @@ inline core::Plane placed(const core::Plane& p, const Placing& by) {
 
 template <>
 struct NestOf<core::Plane> {
-    static Nest make(double size, Random& r) {
+    static CloseShells make(double size, Random& r) {
         const Vec3f normal = rounded(r.direction() * r.log_uniform(0.1, 10.0));
         const auto step = [&] { return step_across(core::convert<double>(normal), size, r); };
         return {core::Plane{Vec3f(0), normal}, core::Plane{step(), normal},

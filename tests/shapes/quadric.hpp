@@ -112,7 +112,7 @@ inline core::Quadric placed(core::Quadric q, const Placing& by) {
 /// The neighbours are other level sets of the same form.
 template <>
 struct NestOf<core::Quadric> {
-    static Nest make(double size, Random& r) {
+    static CloseShells make(double size, Random& r) {
         const bool closed = r.integer(0, 1) == 0;
         core::Quadric q = closed ? ellipsoid(r) : ray_sets::Target<core::Quadric>::make(r, false);
         q.center = Vec3f(0);

@@ -38,7 +38,7 @@ inline core::Sphere placed(const core::Sphere& s, const Placing& by) {
 
 template <>
 struct NestOf<core::Sphere> {
-    static Nest make(double size, Random& r) {
+    static CloseShells make(double size, Random& r) {
         const float radius = rounded(size * r.uniform(1.0, 2.0)), gap = gap_of_radii(radius, r);
         return {core::Sphere{Vec3f(0), radius}, core::Sphere{Vec3f(0), radius + gap},
                 core::Sphere{Vec3f(0), radius - gap}, true};

@@ -88,7 +88,7 @@ inline core::SmoothTriangle placed(const core::SmoothTriangle& t, const Placing&
 
 template <>
 struct NestOf<core::Triangle> {
-    static Nest make(double size, Random& r) {
+    static CloseShells make(double size, Random& r) {
         const core::Triangle t = triangle(size, r);
         const Vec3f normal = core::cross(t.b, t.c); // exact
         const auto step = [&] { return step_across(core::convert<double>(normal), size, r); };
@@ -114,8 +114,8 @@ struct NestOf<core::Triangle> {
 
 template <>
 struct NestOf<core::SmoothTriangle> {
-    static Nest make(double size, Random& r) {
-        Nest nest = NestOf<core::Triangle>::make(size, r);
+    static CloseShells make(double size, Random& r) {
+        CloseShells nest = NestOf<core::Triangle>::make(size, r);
         nest.shape = smooth(std::get<core::Triangle>(nest.shape), r);
         if (!nest.parted) {
             nest.outer = smooth(std::get<core::Triangle>(nest.outer), r);

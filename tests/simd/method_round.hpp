@@ -18,29 +18,29 @@ namespace raylane::tests {
 
 /// A double without fused operations. With it, core's templates give the same bits as the kernels
 /// in lanes of doubles.
-struct Separate {
+struct Unfused {
     double value = 0.0;
 
-    Separate() = default;
+    Unfused() = default;
     template <class Number>
-    requires std::is_arithmetic_v<Number> Separate(Number exact)
+    requires std::is_arithmetic_v<Number> Unfused(Number exact)
         : value(static_cast<double>(exact)) {} // NOLINT: implicit, exact
     explicit operator double() const { return value; }
 
-    friend Separate operator-(Separate a) { return -a.value; }
-    friend Separate operator+(Separate a, Separate b) { return a.value + b.value; }
-    friend Separate operator-(Separate a, Separate b) { return a.value - b.value; }
-    friend Separate operator*(Separate a, Separate b) { return a.value * b.value; }
-    friend Separate operator/(Separate a, Separate b) { return a.value / b.value; }
-    friend Separate sqrt(Separate a) { return std::sqrt(a.value); }
-    friend bool operator<(Separate a, Separate b) { return a.value < b.value; }
-    friend bool operator>(Separate a, Separate b) { return a.value > b.value; }
-    friend bool operator==(Separate a, Separate b) { return a.value == b.value; }
+    friend Unfused operator-(Unfused a) { return -a.value; }
+    friend Unfused operator+(Unfused a, Unfused b) { return a.value + b.value; }
+    friend Unfused operator-(Unfused a, Unfused b) { return a.value - b.value; }
+    friend Unfused operator*(Unfused a, Unfused b) { return a.value * b.value; }
+    friend Unfused operator/(Unfused a, Unfused b) { return a.value / b.value; }
+    friend Unfused sqrt(Unfused a) { return std::sqrt(a.value); }
+    friend bool operator<(Unfused a, Unfused b) { return a.value < b.value; }
+    friend bool operator>(Unfused a, Unfused b) { return a.value > b.value; }
+    friend bool operator==(Unfused a, Unfused b) { return a.value == b.value; }
 };
 
 /// Number type of a precision's twin.
 template <core::Precision precision>
-using Twin = std::conditional_t<core::is_single(precision), float, Separate>;
+using Twin = std::conditional_t<core::is_single(precision), float, Unfused>;
 
 /// Returns the crossing that stands for a miss: its t is infinite.
 template <class Real>

@@ -42,8 +42,8 @@ Scene scene_of(const std::vector<AnyShape>& shapes) {
 /// Spawns rays from a shape and checks them.
 class Spawning {
   public:
-    Spawning(const Nest& nest, const tests::Place& place, const Kernels& kernels, Random& random,
-             Tally& tally)
+    Spawning(const CloseShells& nest, const tests::Place& place, const Kernels& kernels,
+             Random& random, Tally& tally)
         : random_(random), tally_(tally), nest_(nest), place_(place),
           placing_(place.offset, place.factor), shapes_{placing_(nest.shape), placing_(nest.outer),
                                                         placing_(nest.inner)},
@@ -346,7 +346,7 @@ class Spawning {
 
     Random& random_;
     Tally& tally_;
-    const Nest& nest_;
+    const CloseShells& nest_;
     const tests::Place& place_;
     Placing placing_;
     std::vector<AnyShape> shapes_; // by id
@@ -375,7 +375,7 @@ TEMPLATE_TEST_CASE("spawned rays meet the next surface and not the one that they
     Tally tally;
     for (int round = 0; round < rounds(); ++round) {
         const tests::Place place(random);
-        const Nest nest = NestOf<TestType>::make(place.size, random);
+        const CloseShells nest = NestOf<TestType>::make(place.size, random);
         const Kernels& kernels = kernels_of(isas[static_cast<std::size_t>(round) % isas.size()]);
         Spawning(nest, place, kernels, random, tally).check();
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tests/simd/nest_place.hpp"
+#include "tests/simd/close_shells_place.hpp"
 
 #include <cmath>
 #include <limits>
@@ -22,7 +22,7 @@ struct Next {
 class SpawnTruth {
   public:
     /// `shapes` are the scene's, by id.
-    SpawnTruth(const Nest& nest, const Place& place, const std::vector<AnyShape>& shapes)
+    SpawnTruth(const CloseShells& nest, const Place& place, const std::vector<AnyShape>& shapes)
         : nest_(nest), place_(place), shapes_(shapes) {}
 
     /// Returns the largest distance of the start from the surface.
@@ -88,7 +88,7 @@ class SpawnTruth {
   private:
     static double to_double(const oracle::Number& number) { return static_cast<double>(number); }
 
-    const Nest& nest_;
+    const CloseShells& nest_;
     const Place& place_;
     const std::vector<AnyShape>& shapes_;
 };

@@ -16,7 +16,7 @@
 /// the outside and left from the inside, t may never fall, and far away no solid may be around the
 /// particle. A particle for which this fails is lost.
 ///
-/// usage: raylane-walk [STEPS]   crossings, default 1e8. Exit code 1: a particle was lost.
+/// usage: raylane-particle-walk [STEPS]   crossings, default 1e8. Exit code 1: a particle was lost.
 namespace raylane::bench {
 namespace {
 
@@ -207,7 +207,7 @@ int walk(std::uint64_t steps) {
 int main(int argc, char** argv) {
     const double steps = argc > 1 ? std::strtod(argv[1], nullptr) : 1e8;
     if (!(steps > 0.0 && steps < 1e18)) {
-        std::fprintf(stderr, "raylane-walk: a number of steps is wanted\n");
+        std::fprintf(stderr, "raylane-particle-walk: a number of steps is wanted\n");
         return 2;
     }
     return raylane::bench::walk(static_cast<std::uint64_t>(steps));

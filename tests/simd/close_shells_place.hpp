@@ -31,7 +31,7 @@ struct Place {
 };
 
 /// Returns a ray from one of the sets, for the shape of a nest.
-inline Ray<double> ray_to(const Nest& nest, const Place& place, Random& r) {
+inline Ray<double> ray_to(const CloseShells& nest, const Place& place, Random& r) {
     constexpr Set sets[] = {Set::random,  Set::random,   Set::inside, Set::on_surface,
                             Set::grazing, Set::parallel, Set::zeros,  Set::far};
     const Set set = sets[r.integer(0, static_cast<int>(std::size(sets)) - 1)];

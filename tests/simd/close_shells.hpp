@@ -17,7 +17,7 @@ using core::Vec3d;
 using ray_sets::Random;
 using ray_sets::rounded;
 
-struct Nest {
+struct CloseShells {
     AnyShape shape, outer, inner;
     /// Every ray that leaves `shape` outward meets `outer`.
     bool closed;

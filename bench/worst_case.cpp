@@ -21,7 +21,7 @@
 /// thread: the mean of one call for all rays, and the worst of one call per ray. Prints the same
 /// for `robust`, which tests in float, for Embree, and for all crossings.
 ///
-/// usage: raylane-cliffs [NAME...]   parts of names; default: all
+/// usage: raylane-worst-case [NAME...]   parts of names; default: all
 namespace raylane::bench {
 namespace {
 
