@@ -67,10 +67,10 @@ struct MethodKernels {
     /// same bits in every unit.
     void (*solve)(const SceneView& scene, const Found& found);
     /// Same as solve. It also sets hit_none where a ray certainly misses, and hit_normal_doubtful.
-    void (*finish_all)(const SceneView& scene, const Found& found);
+    void (*solve_all)(const SceneView& scene, const Found& found);
     RefineKernels refine; ///< null if the precision refines nothing
     /// Searches and solves in one pass, in scenes without a hierarchy. Candidates are in and out,
-    /// as in TraceKernels::nearest; candidates that came in are not finished. Null if the precision
+    /// as in TraceKernels::nearest; candidates that came in are not crossing. Null if the precision
     /// has no such kernel.
     void (*nearest_of_few)(const SceneView& scene, std::uint32_t kind_bits, const Found& found,
                            const Candidates& candidates, TraceCounters& counters);
@@ -100,8 +100,8 @@ struct KernelParts {
     /// The parts of core::Precision::exact, and the precisions that it is compared with.
     static decltype(TraceKernels::nearest) nearest();
     static decltype(TraceKernels::occluded) occluded();
-    static decltype(MethodKernels::finish) finish();
-    static decltype(MethodKernels::finish) finish_all();
+    static decltype(MethodKernels::solve) solve();
+    static decltype(MethodKernels::solve) solve_all();
     static RefineKernels refine();
     static MethodKernels in_float(bool textbook);
     static MethodKernels in_double();

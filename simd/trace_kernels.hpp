@@ -196,9 +196,9 @@ struct RefineKernels {
     bool (*list_candidates)(const SceneView& scene, std::uint32_t kind_bits,
                             const RoundedRays& rays, std::size_t i, const Pending& pending,
                             CandidateList& list, TraceCounters& counters);
-    /// Repeats MethodKernels::finish in extended precision for the lanes that it left doubtful.
+    /// Repeats MethodKernels::solve in extended precision for the lanes that it left doubtful.
     /// Other lanes are not changed.
-    void (*finish_again)(const SceneView& scene, const Found& found);
+    void (*refine)(const SceneView& scene, const Found& found);
     /// Extends the precision of `count` crossings that have been found, at `places` of `found`, for
     /// the exact rays. The error is infinite, and no normal is rounded, for unknown crossings, such
     /// as those of rays that start on the shape.

@@ -45,7 +45,7 @@ constexpr std::size_t rounded_up(std::size_t bytes) {
 
 /// Names of sections. A section of one kind of shape has the kind as a prefix.
 inline constexpr const char* scene = "scene"; ///< JSON: everything except the shapes
-inline constexpr const char* auto_camera = "auto_camera";
+inline constexpr const char* auto_camera = "staging";
 inline constexpr const char* nodes = "nodes";
 inline constexpr const char* materials = "materials";
 inline constexpr const char* polygons = "polygons";

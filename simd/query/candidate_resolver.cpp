@@ -77,7 +77,7 @@ std::size_t CandidateResolver::refine(const Paths& paths, const CandidateSearch&
             ++next;
             continue;
         }
-        finish(0);
+        solve(0);
         for (std::size_t i = 0; i < rays_.size(); ++i) {
             const std::size_t end = i + 1 < rays_.size() ? rays_[i + 1].begin : count_;
             settle(first + i, first_of(rays_[i].begin, end, counters), rays_[i].begin);
@@ -143,7 +143,7 @@ double CandidateResolver::end_of_first(const Paths& paths, std::size_t lane,
                                        EngineCounters& counters) {
     const std::size_t begin = count_;
     add(paths, lane, std::span(listed_).first(std::min({at_first, listed_.size(), most - begin})));
-    finish(begin);
+    solve(begin);
     const double end = end_of_first(begin, count_, counters);
     count_ = begin;
     return end;
@@ -158,12 +158,12 @@ void CandidateResolver::add(const Paths& paths, std::size_t lane,
     }
 }
 
-/// Finishes candidates from `begin` on.
-void CandidateResolver::finish(std::size_t begin) {
+/// Solves candidates from `begin` on.
+void CandidateResolver::solve(std::size_t begin) {
     Found found = hits_.found(paths_, begin, count_ - begin);
     found.holds_points = for_points_;
-    tracing_.method().finish_all(scene_.view(), found);
-    tracing_.method().refine.finish_again(scene_.view(), found);
+    tracing_.method().solve_all(scene_.view(), found);
+    tracing_.method().refine.refine(scene_.view(), found);
 }
 
 /// Same as first_of() for all listed candidates, which exceed the capacity.
@@ -175,7 +175,7 @@ std::size_t CandidateResolver::first_of_many(const Paths& paths, std::size_t lan
         if (found != 0 && listed_[next].lower > hits_.t[0] + hits_.error[0]) break;
         const std::size_t some = std::min(most - count_, listed_.size() - next);
         add(paths, lane, std::span(listed_).subspan(next, some));
-        finish(found);
+        solve(found);
         count_ = first_of(0, count_, counters);
         next += some;
     }
@@ -213,7 +213,7 @@ std::size_t CandidateResolver::first_of(std::size_t begin, std::size_t end,
 }
 
 /// Computes the hits of the close candidates, with as many digits of t as cost little.
-void CandidateResolver::widen_close() {
+void CandidateResolver::extend_close() {
     const std::size_t count = close_.size();
     wide_.resize(3 * count);
     const WideCrossings wide = {wide_.data(), wide_.data() + count, wide_.data() + 2 * count};
@@ -230,7 +230,7 @@ std::size_t CandidateResolver::first_of_close(std::size_t begin) {
     const core::Ray<double> ray = ray_of(paths_, begin);
     const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths_, begin);
     const core::CrossingOrder order(scene_.scene(), {ray, origins});
-    widen_close();
+    extend_close();
     std::size_t first = 0;
     for (std::size_t k = 1; k < sharp_.size(); ++k)
         if (order.is_before(sharp_[k], sharp_[first])) first = k;

@@ -24,7 +24,7 @@ class CandidateResolver {
     void take_from(Arena& arena);
 
     /// Returns true if the method has kernels for refinement.
-    bool works() const { return tracing_.method().refine.finish_again != nullptr; }
+    bool works() const { return tracing_.method().refine.refine != nullptr; }
 
     /// Decides `lanes`. `hits` holds the hits found so far, except for those that are `doubtful`.
     /// Moves lanes that meet several surfaces at one point to the front, and returns their number.
@@ -54,11 +54,11 @@ class CandidateResolver {
     double end_of_first(const Paths& paths, std::size_t lane, EngineCounters& counters);
     double end_of_first(std::size_t begin, std::size_t end, EngineCounters& counters);
     void add(const Paths& paths, std::size_t lane, std::span<const Listed> candidates);
-    void finish(std::size_t begin);
+    void solve(std::size_t begin);
     std::size_t first_of_many(const Paths& paths, std::size_t lane, EngineCounters& counters);
     std::size_t first_of(std::size_t begin, std::size_t end, EngineCounters& counters);
     std::size_t first_of_close(std::size_t begin);
-    void widen_close();
+    void extend_close();
     void solve(std::size_t candidate, EngineCounters& counters);
     bool counts(std::size_t candidate, const core::Crossing<double>& crossing) const;
     core::Hit<double> hit_of(std::size_t candidate) const;

@@ -49,7 +49,7 @@ void Certifier::find_own_exits(const Paths& paths, const CandidateSearch& search
         gathered_.copy_ray(paths, lanes_[i], i);
         gathered_hits_.slot[i] = paths.origin_slot[lanes_[i]];
     }
-    finish(gathered_hits_.found(gathered_, 0, count));
+    solve(gathered_hits_.found(gathered_, 0, count));
     own_exit_count_ = count;
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t lane = lanes_[i], hit = gathered_hits_.hit[i];
@@ -70,10 +70,10 @@ void Certifier::certify(const Paths& paths, CandidateSearch& search, const Candi
     contact_count_ = 0;
     if (!tracing_.certifies()) {
         break_ties(paths, candidates, hits);
-        finish(hits.found(paths, 0, paths.count));
+        solve(hits.found(paths, 0, paths.count));
         return;
     }
-    finish(hits.found(paths, 0, paths.count));
+    solve(hits.found(paths, 0, paths.count));
     const std::size_t uncertain = tracing_.kernels->rays.list_uncertain(
         paths.count, candidates, search.approach().from_there(hits.t), hits.error, hits.hit,
         doubtful_, resolver_.works() ? min_length : 0.0F, lanes_);
@@ -98,21 +98,21 @@ void Certifier::find_of_few(const Paths& paths, const Candidates& candidates, co
     for (std::size_t i = 0; i < own_exit_count_; ++i)
         if (hits.slot[lanes_[i]] == gathered_hits_.slot[i]) hits.copy(gathered_hits_, i, lanes_[i]);
     for (const std::uint32_t lane : break_ties(paths, candidates, hits))
-        finish_one(paths, lane, hits);
+        solve_one(paths, lane, hits);
 }
 
 /// Solves the shape that was found for one lane.
-void Certifier::finish_one(const Paths& paths, std::uint32_t lane, const Hits& hits) {
+void Certifier::solve_one(const Paths& paths, std::uint32_t lane, const Hits& hits) {
     gathered_.copy_ray(paths, lane, 0);
     gathered_hits_.slot[0] = hits.slot[lane];
-    finish(gathered_hits_.found(gathered_, 0, 1));
+    solve(gathered_hits_.found(gathered_, 0, 1));
     hits.copy(gathered_hits_, 0, lane);
 }
 
-void Certifier::finish(Found found) const {
+void Certifier::solve(Found found) const {
     found.holds_points = asked_ == Asked::points;
     const MethodKernels& method = tracing_.method();
-    (found.holds_points ? method.finish : method.finish_all)(scene_.view(), found);
+    (found.holds_points ? method.solve : method.solve_all)(scene_.view(), found);
 }
 
 /// Breaks ties. The kernels keep one of several crossings at the same t, whichever they meet first,
@@ -153,7 +153,7 @@ void Certifier::compare_in_double(const Paths& paths, std::span<const std::uint3
         }
         if (!first.is_alone) at_contacts_[contact_count_++] = lane;
         hits.slot[lane] = scene_.slot_of(first.hit.kind, first.hit.place);
-        finish_one(paths, lane, hits);
+        solve_one(paths, lane, hits);
     }
 }
 

@@ -41,10 +41,10 @@ class Certifier {
   private:
     std::span<const std::uint32_t> break_ties(const Paths& paths, const Candidates& candidates,
                                               const Hits& hits);
-    void finish_one(const Paths& paths, std::uint32_t lane, const Hits& hits);
+    void solve_one(const Paths& paths, std::uint32_t lane, const Hits& hits);
     void compare_in_double(const Paths& paths, std::span<const std::uint32_t> lanes,
                            const Hits& hits, EngineCounters& counters);
-    void finish(Found found) const;
+    void solve(Found found) const;
 
     const SceneData& scene_;
     Tracing tracing_;

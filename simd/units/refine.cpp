@@ -1,6 +1,7 @@
+#include "simd/kernel/certify/refine.hpp"
+
 #include "simd/kernel/certify/cross_all.hpp"
 #include "simd/kernel/certify/exact.hpp"
-#include "simd/kernel/certify/finish_again.hpp"
 #include "simd/kernel/certify/list_candidates.hpp"
 #include "simd/kernel/traverse/in_flight/all.hpp"
 #include "simd/kernels.hpp"
@@ -10,7 +11,7 @@ namespace raylane::simd {
 template <Isa isa>
 RefineKernels KernelParts<isa>::refine() {
     using Arch = ArchOf<isa>;
-    return {ListCandidates<Arch, ExactMethod<Arch>>::list, finish_again<Arch>, widen<Arch>,
+    return {ListCandidates<Arch, ExactMethod<Arch>>::list, simd::refine<Arch>, widen<Arch>,
             InFlightAll<Arch, ExactMethod<Arch>>::list, cross_all<Arch>};
 }
 template RefineKernels KernelParts<Isa::RAYLANE_ISA>::refine();

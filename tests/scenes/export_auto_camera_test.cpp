@@ -78,7 +78,7 @@ core::Scene water() {
 
 } // namespace
 
-TEST_CASE("JSON keeps to the bit the camera's fit_camera and the lights and fog that follow it") {
+TEST_CASE("JSON keeps to the bit the camera's framing and the lights and fog that follow it") {
     const std::string camera_lights = R"("lights": [{"type": "camera"}], )";
     const std::string both = R"("lights": [{"type": "point", "position": [9, 9, 9]},
                                            {"type": "camera"}], )";

@@ -16,7 +16,7 @@ struct Tally {
     long missed = 0;      ///< neighbours that were missed
     long other = 0;       ///< all other faults
     long by_oracle = 0, by_construction = 0;
-    long doubtful = 0; ///< left open by float bounds or `finish`
+    long doubtful = 0; ///< left open by float bounds or `solve`
     long followed = 0; ///< rays that only the reference could trace
     long into_the_open = 0, doubtful_in_the_open = 0;
     std::string first_faults;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "simd/kernel/certify/finish.hpp"
 #include "simd/kernel/certify/slot_reader.hpp"
 #include "simd/kernel/certify/slots.hpp"
+#include "simd/kernel/certify/solve.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
 #include "simd/kernels.hpp"
 
@@ -87,13 +87,14 @@ class CrossAll {
     }
 
     /// Removes the pairs of a packet whose rays certainly miss their shapes, by double arithmetic.
-    /// (The finishers' bounds cover the error of bringing directions to unit length.)
+    /// (The certified solvers' bounds cover the error of bringing directions to unit length.)
     void sift(Packet& packet) {
         if (packet.count == 0) return;
         const core::Kind kind = kind_of(packet);
         const Loaded loaded = load(packet, pairs_.unit_direction);
         std::uint32_t misses = 0;
-        with_finisher<D>(kind, [&]<class Finisher>() { misses = missed<Finisher>(loaded); });
+        with_certified_solver<D>(
+            kind, [&]<class CertifiedSolver>() { misses = missed<CertifiedSolver>(loaded); });
         for (std::size_t lane = 0; lane < packet.count; ++lane) {
             const std::size_t pair = packet.pair[lane];
             if ((misses >> lane & 1) == 0)
@@ -103,12 +104,12 @@ class CrossAll {
         }
         packet.count = 0;
     }
-    template <class Finisher>
+    template <class CertifiedSolver>
     [[gnu::noinline]] static std::uint32_t missed(const Loaded& loaded) {
-        const Finisher finisher{loaded.reader};
-        const Finished<D> finished =
-            finisher.template finish<Wanted::all>(loaded.rays, starts_nowhere<D>());
-        return Lanes<D>::bits(finished.misses & ~finished.certain);
+        const CertifiedSolver solver{loaded.reader};
+        const CertifiedCrossing<D> crossing =
+            solver.template solve<Wanted::all>(loaded.rays, starts_nowhere<D>());
+        return Lanes<D>::bits(crossing.misses & ~crossing.certain);
     }
 
     void cross(Packet& packet) {

@@ -69,10 +69,10 @@ struct DoubleMethod {
         with_solver<D>(
             kind, [&]<class Solver>() { visit.template operator()<DoubleFilter<Arch, Solver>>(); });
     }
-    static void finish(const SceneView& scene, const Found& found) {
-        PlainFinish<D, false>(scene, found).all_rays();
+    static void solve(const SceneView& scene, const Found& found) {
+        PlainSolve<D, false>(scene, found).all_rays();
     }
-    static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
+    static void solve_all(const SceneView& scene, const Found& found) { solve(scene, found); }
     static constexpr decltype(MethodKernels::nearest_of_few) nearest_of_few = nullptr;
 
   private:

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simd/kernel/certify/finish.hpp"
 #include "simd/kernel/certify/slot_reader.hpp"
+#include "simd/kernel/certify/solve.hpp"
 #include "simd/kernel/traverse/leaf.hpp"
 #include "simd/kernel/traverse/traversal_queue.hpp"
 
@@ -79,8 +79,8 @@ struct ListCandidates : Streams<Arch> {
             const float limit = last * candidate_tolerance;
             list.limit = limit < list.limit ? limit : list.limit;
             if (list.sifts && list.count >= few) {
-                with_finisher<Double<Arch>>(kind, [&]<class Finisher>() {
-                    bits = sifted<Finisher>(table, number, from, rays, i, bits);
+                with_certified_solver<Double<Arch>>(kind, [&]<class CertifiedSolver>() {
+                    bits = sifted<CertifiedSolver>(table, number, from, rays, i, bits);
                 });
             }
             float lower[F::size];
@@ -98,7 +98,7 @@ struct ListCandidates : Streams<Arch> {
 
     /// Returns the lanes in `bits` of a block, from `from` on, without those that the ray certainly
     /// misses.
-    template <class Finisher>
+    template <class CertifiedSolver>
     [[gnu::noinline]] static std::uint32_t sifted(const TableView& table, std::uint32_t number,
                                                   int from, const RoundedRays& rays, std::size_t i,
                                                   std::uint32_t bits) {
@@ -116,10 +116,10 @@ struct ListCandidates : Streams<Arch> {
                 reader.set(static_cast<std::size_t>(lane),
                            table.first_slot + 16 * number +
                                static_cast<std::uint32_t>(from + half * width + lane));
-            const Finisher finisher{reader};
-            const Finished<D> finished =
-                finisher.template finish<Wanted::all>(ray, starts_nowhere<D>());
-            bits &= ~(Lanes<D>::bits(finished.misses & ~finished.certain) << (half * width));
+            const CertifiedSolver solver{reader};
+            const CertifiedCrossing<D> crossing =
+                solver.template solve<Wanted::all>(ray, starts_nowhere<D>());
+            bits &= ~(Lanes<D>::bits(crossing.misses & ~crossing.certain) << (half * width));
         }
         return bits;
     }

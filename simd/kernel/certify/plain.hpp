@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/certify/plain_finish.hpp"
+#include "simd/kernel/certify/plain_solve.hpp"
 #include "simd/kernel/shapes/filter.hpp"
 #include "simd/kernel/traverse/every_shape/solved_once.hpp"
 
@@ -33,10 +33,10 @@ struct PlainMethod : RaysInFloat<Arch> {
         with_solver<Arch, textbook>(
             kind, [&]<class Solver>() { visit.template operator()<PlainFilter<Arch, Solver>>(); });
     }
-    static void finish(const SceneView& scene, const Found& found) {
-        PlainFinish<Arch, textbook>(scene, found).all_rays();
+    static void solve(const SceneView& scene, const Found& found) {
+        PlainSolve<Arch, textbook>(scene, found).all_rays();
     }
-    static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
+    static void solve_all(const SceneView& scene, const Found& found) { solve(scene, found); }
     static constexpr auto nearest_of_few = SolvedOnce<Arch, textbook>::nearest;
 };
 

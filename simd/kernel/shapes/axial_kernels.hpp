@@ -1,7 +1,7 @@
 #pragma once
 
+#include "simd/kernel/shapes/axial_certified_solver.hpp"
 #include "simd/kernel/shapes/axial_filter.hpp"
-#include "simd/kernel/shapes/axial_finisher.hpp"
 
 #include <type_traits>
 
@@ -17,7 +17,8 @@ struct AxialKernels {
     template <class Arch, bool textbook>
     using Solver = SolverOf<Arch, capped, textbook>;
     template <class D>
-    using Finisher = std::conditional_t<capped, CappedFinisher<D, tapers>, OpenFinisher<D, tapers>>;
+    using CertifiedSolver = std::conditional_t<capped, CappedCertifiedSolver<D, tapers>,
+                                               OpenCertifiedSolver<D, tapers>>;
 };
 
 } // namespace raylane::simd

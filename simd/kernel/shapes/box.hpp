@@ -1,7 +1,7 @@
 #pragma once
 
+#include "simd/kernel/shapes/certified_solver.hpp"
 #include "simd/kernel/shapes/enclosing.hpp"
-#include "simd/kernel/shapes/finisher.hpp"
 #include "simd/kernel/shapes/slab.hpp"
 
 namespace raylane::simd {
@@ -150,23 +150,23 @@ struct BoxSolver {
     }
 };
 
-/// Finisher of a box: three slabs 0 <= normal . p <= volume. A ray crosses the boundary of a convex
-/// solid only once in each direction. So if it crosses the plane of a face in one direction,
+/// CertifiedSolver of a box: three slabs 0 <= normal . p <= volume. A ray crosses the boundary of a
+/// convex solid only once in each direction. So if it crosses the plane of a face in one direction,
 /// certainly within the other two slabs, it enters or leaves the box there.
 ///
 /// With N = |v|_1 |w|_1 >= |v x w|, normal . at(s) errs by N times the error of the position and
 /// 10 u (|start| + |s|), normal . direction by 8 u N, and the volume by 12 u |u|_1 |v|_1 |w|_1.
 template <class Arch>
-struct BoxFinisher {
+struct BoxCertifiedSolver {
     BoxNumbers<Arch> box;
 
     template <class Reader>
-    explicit BoxFinisher(Reader reader) : box(reader) {}
+    explicit BoxCertifiedSolver(Reader reader) : box(reader) {}
 
     template <Wanted wanted>
-    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+    CertifiedCrossing<Arch> solve(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
         const Slabs slabs(box, rays);
-        Finished<Arch> result = slabs.pass(starts.on_surface, starts);
+        CertifiedCrossing<Arch> result = slabs.pass(starts.on_surface, starts);
         const Mask<Arch> behind =
             result.certain & ~starts.on_surface & (result.t < negated(result.error));
         if (any<Arch>(behind))
@@ -185,7 +185,7 @@ struct BoxFinisher {
     using F = Floats<Arch>;
     using M = Mask<Arch>;
 
-    Vectors<Arch> normal_error(const Finished<Arch>& result) const {
+    Vectors<Arch> normal_error(const CertifiedCrossing<Arch>& result) const {
         const M first = result.face<F(2.0), last = result.face> F(3.0);
         const Vectors<Arch> one =
             select<Arch>(first, box.edge_v, select<Arch>(last, box.edge_u, box.edge_w));
@@ -228,8 +228,8 @@ struct BoxFinisher {
         /// ray starts.
         M passed(const Starts<Arch>& starts) const {
             M in_known, out_known;
-            const Finished<Arch> in = pass(none<Arch>(), starts, &in_known),
-                                 out = pass(all<Arch>(), starts, &out_known);
+            const CertifiedCrossing<Arch> in = pass(none<Arch>(), starts, &in_known),
+                                          out = pass(all<Arch>(), starts, &out_known);
             return (in_known & out_known & (in.t - in.error > out.t + out.error)) |
                    (out_known & (out.t < negated(out.error)));
         }
@@ -237,7 +237,8 @@ struct BoxFinisher {
         /// Returns the crossing where the ray leaves, in lanes of `leaves`, and where it enters, in
         /// the others. `known`: lanes whose t is that of the slab which is the last to be entered,
         /// or the first to be left, even if this crossing is not inside the others.
-        Finished<Arch> pass(const M& leaves, const Starts<Arch>& starts, M* known = nullptr) const {
+        CertifiedCrossing<Arch> pass(const M& leaves, const Starts<Arch>& starts,
+                                     M* known = nullptr) const {
             // The last plane to be entered, or the first to be left.
             F s(0.0), face(0.0);
             F best_slope(0.0), best_size(0.0);
@@ -283,6 +284,7 @@ struct BoxFinisher {
 };
 
 template <>
-struct ShapeKernels<core::Box> : ShapeKernelsOf<BoxNumbers, BoxFilter, BoxSolver, BoxFinisher> {};
+struct ShapeKernels<core::Box>
+    : ShapeKernelsOf<BoxNumbers, BoxFilter, BoxSolver, BoxCertifiedSolver> {};
 
 } // namespace raylane::simd

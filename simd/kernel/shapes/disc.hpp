@@ -64,22 +64,22 @@ struct DiscSolver : DiscNumbers<Arch> {
     }
 };
 
-/// Finisher of a disc, with u as in finisher.hpp. Let approach be normal . direction, and N a bound
-/// on |normal|. The product normal . at(s) is off by N times local.error_at(s, 8), which is the
-/// error of the position, plus 6 * u * (|start| + |s|) for the roundings of the product. approach
-/// is off by 5 * u * N, which is less than a fifth of |approach| where `clear`. So the true divisor
-/// is at least 4/5 * |approach|, and s is off by at most
+/// CertifiedSolver of a disc, with u as in certified solver.hpp. Let approach be normal .
+/// direction, and N a bound on |normal|. The product normal . at(s) is off by N times
+/// local.error_at(s, 8), which is the error of the position, plus 6 * u * (|start| + |s|) for the
+/// roundings of the product. approach is off by 5 * u * N, which is less than a fifth of |approach|
+/// where `clear`. So the true divisor is at least 4/5 * |approach|, and s is off by at most
 ///   5/4 * N * error_at(s, 8) / |approach|.
 template <class Arch>
-struct DiscFinisher {
+struct DiscCertifiedSolver {
     DiscNumbers<Arch> disc;
 
     template <class Reader>
-    explicit DiscFinisher(Reader reader) : disc(reader) {}
+    explicit DiscCertifiedSolver(Reader reader) : disc(reader) {}
 
     template <Wanted wanted>
-    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
-                                                 const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] CertifiedCrossing<Arch> solve(const Rays<Arch>& rays,
+                                                         const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
         const F radius = disc.radius;
         const LocalRays<Arch> local(rays, disc.center);
@@ -100,13 +100,13 @@ struct DiscFinisher {
         const Mask<Arch> outside = squared > (reach * reach) * F(1.0 + 0x1p-48);
         const F t = local.shift + s;
         const Mask<Arch> passed = (clear & outside) | have_no_product(disc.normal, local.direction);
-        return finish_flat<wanted, Arch>(clear, inside, passed, t, local.error_of_t(t, s, error_s),
-                                         approach, unit<Arch>(disc.normal), starts);
+        return solve_flat<wanted, Arch>(clear, inside, passed, t, local.error_of_t(t, s, error_s),
+                                        approach, unit<Arch>(disc.normal), starts);
     }
 };
 
 template <>
 struct ShapeKernels<core::Disc>
-    : ShapeKernelsOf<DiscNumbers, DiscFilter, DiscSolver, DiscFinisher> {};
+    : ShapeKernelsOf<DiscNumbers, DiscFilter, DiscSolver, DiscCertifiedSolver> {};
 
 } // namespace raylane::simd

@@ -209,8 +209,9 @@ struct EllipsoidSolver {
     }
 };
 
-/// Finisher of an ellipsoid. With p = start + s * direction, relative to the centre, let b(s) =
-/// rows . p and a = rows . direction, so b(s) changes by a per unit of s. The ray crosses where
+/// CertifiedSolver of an ellipsoid. With p = start + s * direction, relative to the centre, let
+/// b(s) = rows . p and a = rows . direction, so b(s) changes by a per unit of s. The ray crosses
+/// where
 ///   F(s) = |b(s)|^2 - volume^2 = 0.
 /// Let u = 2^-53, and let U, V and W be |axis_u|_1, |axis_v|_1 and |axis_w|_1, where |x|_1 is the
 /// sum of the sizes of the components of x.
@@ -227,15 +228,16 @@ struct EllipsoidSolver {
 /// the sizes of the rows' components times the errors of b_i, by the errors of the rows times b_i,
 /// and by 8 * u of its terms.
 template <class Arch>
-struct EllipsoidFinisher {
+struct EllipsoidCertifiedSolver {
     EllipsoidNumbers<Arch> ellipsoid;
 
     template <class Reader>
-    explicit EllipsoidFinisher(Reader reader) : ellipsoid(reader) {}
+    explicit EllipsoidCertifiedSolver(Reader reader) : ellipsoid(reader) {}
 
     template <Wanted wanted>
-    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
-        Finished<Arch> result = first_passage<wanted, Arch>(Line<wanted>(ellipsoid, rays), starts);
+    CertifiedCrossing<Arch> solve(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        CertifiedCrossing<Arch> result =
+            first_passage<wanted, Arch>(Line<wanted>(ellipsoid, rays), starts);
         make_unit<wanted>(result);
         return result;
     }
@@ -355,6 +357,7 @@ struct EllipsoidFinisher {
 
 template <>
 struct ShapeKernels<core::Ellipsoid>
-    : ShapeKernelsOf<EllipsoidNumbers, EllipsoidFilter, EllipsoidSolver, EllipsoidFinisher> {};
+    : ShapeKernelsOf<EllipsoidNumbers, EllipsoidFilter, EllipsoidSolver, EllipsoidCertifiedSolver> {
+};
 
 } // namespace raylane::simd

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "simd/kernel/shapes/certified_solver.hpp"
 #include "simd/kernel/shapes/filter.hpp"
-#include "simd/kernel/shapes/finisher.hpp"
 
 /// Shared parts of flat shapes.
 namespace raylane::simd {
@@ -82,16 +82,17 @@ Crossings<Arch> only(const Crossing<Arch>& crossing) {
 /// lanes whose line certainly does not cross the shape, for example because they are parallel.
 /// `clear`: lanes where t is known, so that the shape may be proved to be behind the ray.
 template <Wanted wanted, class Arch>
-Finished<Arch> finish_flat(const Mask<Arch>& clear, const Mask<Arch>& inside,
-                           const Mask<Arch>& passed, const Floats<Arch>& t,
-                           const Floats<Arch>& error, const Floats<Arch>& approach,
-                           const Vectors<Arch>& unit_normal, const Starts<Arch>& starts) {
-    Finished<Arch> result = {clear & inside & ~starts.on_surface & is_result<Arch>(t, error),
-                             t,
-                             error,
-                             zero<Arch>(),
-                             approach < zero<Arch>(),
-                             unit_normal};
+CertifiedCrossing<Arch> solve_flat(const Mask<Arch>& clear, const Mask<Arch>& inside,
+                                   const Mask<Arch>& passed, const Floats<Arch>& t,
+                                   const Floats<Arch>& error, const Floats<Arch>& approach,
+                                   const Vectors<Arch>& unit_normal, const Starts<Arch>& starts) {
+    CertifiedCrossing<Arch> result = {clear & inside & ~starts.on_surface &
+                                          is_result<Arch>(t, error),
+                                      t,
+                                      error,
+                                      zero<Arch>(),
+                                      approach < zero<Arch>(),
+                                      unit_normal};
     if constexpr (wanted == Wanted::all) {
         result.misses = (clear & (t < negated(error))) | passed;
         result.normal_error = error_of_unit<Arch>(unit_normal);

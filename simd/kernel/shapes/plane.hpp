@@ -47,21 +47,21 @@ struct PlaneSolver : PlaneNumbers<Arch> {
     }
 };
 
-/// Finisher of a plane. t = (normal . (point - origin)) / (normal . direction), where rounding is
-/// relative to the single terms of each product. So for a plane along the coordinate axes, the
-/// distance of its point hardly matters. Each product errs by 4 u times the sum of its terms'
-/// sizes. t errs by both errors divided by approach, enlarged by the relative error of approach
-/// itself, which is at most 2^-27 where t is certain.
+/// CertifiedSolver of a plane. t = (normal . (point - origin)) / (normal . direction), where
+/// rounding is relative to the single terms of each product. So for a plane along the coordinate
+/// axes, the distance of its point hardly matters. Each product errs by 4 u times the sum of its
+/// terms' sizes. t errs by both errors divided by approach, enlarged by the relative error of
+/// approach itself, which is at most 2^-27 where t is certain.
 template <class Arch>
-struct PlaneFinisher {
+struct PlaneCertifiedSolver {
     PlaneNumbers<Arch> plane;
 
     template <class Reader>
-    explicit PlaneFinisher(Reader reader) : plane(reader) {}
+    explicit PlaneCertifiedSolver(Reader reader) : plane(reader) {}
 
     template <Wanted wanted>
-    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
-                                                 const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] CertifiedCrossing<Arch> solve(const Rays<Arch>& rays,
+                                                         const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
         const F inverse = F(1.0) / dot(plane.normal, rays.direction);
         const Vectors<Arch> to_point = plane.point - rays.origin;
@@ -69,9 +69,9 @@ struct PlaneFinisher {
         const F error = F(0x1p-50) * abs(inverse) *
                         (sum_of_terms(plane.normal, to_point) +
                          abs(t) * sum_of_terms(plane.normal, rays.direction));
-        return finish_flat<wanted, Arch>(all<Arch>(), all<Arch>(),
-                                         have_no_product(plane.normal, rays.direction), t, error,
-                                         inverse, unit<Arch>(plane.normal), starts);
+        return solve_flat<wanted, Arch>(all<Arch>(), all<Arch>(),
+                                        have_no_product(plane.normal, rays.direction), t, error,
+                                        inverse, unit<Arch>(plane.normal), starts);
     }
 
   private:
@@ -82,6 +82,6 @@ struct PlaneFinisher {
 
 template <>
 struct ShapeKernels<core::Plane>
-    : ShapeKernelsOf<PlaneNumbers, PlaneFilter, PlaneSolver, PlaneFinisher> {};
+    : ShapeKernelsOf<PlaneNumbers, PlaneFilter, PlaneSolver, PlaneCertifiedSolver> {};
 
 } // namespace raylane::simd

@@ -194,7 +194,7 @@ struct QuadricSolver : QuadricNumbers<Arch> {
     }
 };
 
-/// Finisher of a quadric. F(s) = Q(p) with p = start + s direction relative to the centre.
+/// CertifiedSolver of a quadric. F(s) = Q(p) with p = start + s direction relative to the centre.
 ///
 /// Let m be the largest of the square coefficients' sizes, l = |linear|_1, v = m |p|_1 + l, and
 /// P = local.error_at(s) the error of the position. Each component of the half gradient
@@ -205,15 +205,16 @@ struct QuadricSolver : QuadricNumbers<Arch> {
 /// Each component of N errs by the row of |M| times the errors of p, and by 8 u times the row's
 /// terms.
 template <class Arch>
-struct QuadricFinisher {
+struct QuadricCertifiedSolver {
     QuadricNumbers<Arch> quadric;
 
     template <class Reader>
-    explicit QuadricFinisher(Reader reader) : quadric(reader) {}
+    explicit QuadricCertifiedSolver(Reader reader) : quadric(reader) {}
 
     template <Wanted wanted>
-    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
-        Finished<Arch> result = first_passage<wanted, Arch>(Line<wanted>(quadric, rays), starts);
+    CertifiedCrossing<Arch> solve(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        CertifiedCrossing<Arch> result =
+            first_passage<wanted, Arch>(Line<wanted>(quadric, rays), starts);
         make_unit<wanted>(result);
         return result;
     }
@@ -336,6 +337,6 @@ struct QuadricFinisher {
 
 template <>
 struct ShapeKernels<core::Quadric>
-    : ShapeKernelsOf<QuadricNumbers, QuadricFilter, QuadricSolver, QuadricFinisher> {};
+    : ShapeKernelsOf<QuadricNumbers, QuadricFilter, QuadricSolver, QuadricCertifiedSolver> {};
 
 } // namespace raylane::simd

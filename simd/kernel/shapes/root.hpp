@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/shapes/finisher.hpp"
+#include "simd/kernel/shapes/certified_solver.hpp"
 
 /// Roots of F(s) = A s^2 + 2 B s + C: first computed without regard to errors, then certified.
 namespace raylane::simd {
@@ -99,21 +99,21 @@ struct Passage {
     Mask<Arch> does_not_count() const { return root.certain & (outside | (t < negated(error))); }
     Mask<Arch> is_before(const Passage& other) const { return t + error < other.t - other.error; }
 
-    [[gnu::always_inline]] Finished<Arch> finished(const Mask<Arch>& certain,
-                                                   const Mask<Arch>& entering) const {
+    [[gnu::always_inline]] CertifiedCrossing<Arch> crossing(const Mask<Arch>& certain,
+                                                            const Mask<Arch>& entering) const {
         return {certain, t, error, zero<Arch>(), entering, normal, none<Arch>(), normal_error};
     }
 };
 
 /// Brings a normal to length 1.
 template <Wanted wanted, class Arch>
-[[gnu::always_inline]] inline void make_unit(Finished<Arch>& finished) {
+[[gnu::always_inline]] inline void make_unit(CertifiedCrossing<Arch>& crossing) {
     const Floats<Arch> inverse =
-        constant<Arch>(1.0F) / sqrt(squared_length(finished.normal)); // same formula as unit()
-    finished.normal = scaled<Arch>(inverse, finished.normal);
+        constant<Arch>(1.0F) / sqrt(squared_length(crossing.normal)); // same formula as unit()
+    crossing.normal = scaled<Arch>(inverse, crossing.normal);
     if constexpr (wanted == Wanted::all)
-        finished.normal_error =
-            error_of_unit<Arch>(finished.normal, finished.normal_error, inverse);
+        crossing.normal_error =
+            error_of_unit<Arch>(crossing.normal, crossing.normal_error, inverse);
 }
 
 /// Returns the first of the two crossings with `surface`, which has
@@ -122,12 +122,12 @@ template <Wanted wanted, class Arch>
 ///   reach()                                the largest |s| inside its bounds,
 ///   has_no_root()                          true where this is certain
 template <Wanted wanted, class Arch, class Surface>
-Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts) {
+CertifiedCrossing<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts) {
     using M = Mask<Arch>;
     const Passage<Arch> entry = surface.passage(none<Arch>());
     const M opens_up = surface.quadratic.opens_up();
     const M enters = entry.counts();
-    Finished<Arch> result = entry.finished(enters & opens_up, all<Arch>());
+    CertifiedCrossing<Arch> result = entry.crossing(enters & opens_up, all<Arch>());
 
     if (any<Arch>(~result.certain & ~starts.on_surface)) {
         const Passage<Arch> exit = surface.passage(all<Arch>());
@@ -139,13 +139,13 @@ Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts)
         const M entry_first = enters & (opens_up | no_exit | (leaves & entry.is_before(exit)));
         const M exit_first = leaves & (no_entry | (enters & exit.is_before(entry)));
         result.certain = entry_first;
-        result = select<Arch>(exit_first, exit.finished(exit_first, none<Arch>()), result);
+        result = select<Arch>(exit_first, exit.crossing(exit_first, none<Arch>()), result);
         if constexpr (wanted == Wanted::all)
             result.misses = ~starts.on_surface & ((no_entry & no_exit) | surface.has_no_root());
     }
     if (any<Arch>(starts.on_surface)) {
         const Passage<Arch> onward = surface.from_surface(starts);
-        result = select<Arch>(starts.on_surface, onward.finished(onward.counts(), ~starts.inward),
+        result = select<Arch>(starts.on_surface, onward.crossing(onward.counts(), ~starts.inward),
                               result);
         // If the surface curves away from the ray, the other root is behind the start.
         const M behind = (starts.inward & surface.quadratic.opens_down()) |

@@ -15,7 +15,7 @@ namespace raylane::simd {
 ///       formulas, one shape per lane, for lanes of any number type; if `textbook`, the textbook
 ///       formulas where core has better ones
 ///   Filter<Arch>            float bounds on a ray's crossing (filter.hpp)
-///   Finisher<D>             the certified first crossing in double (finisher.hpp)
+///   Certified solver<D>             the certified first crossing in double (certified solver.hpp)
 /// Each is constructed from a reader, which returns the shape's floats one after the other. To
 /// extend precision, the solver runs in numbers with bounds. The stages after that are in core.
 template <class Shape>
@@ -23,7 +23,7 @@ struct ShapeKernels;
 
 /// ShapeKernels assembled from its parts.
 template <template <class> class NumbersOf, template <class> class FilterOf,
-          template <class, bool> class SolverOf, template <class> class FinisherOf>
+          template <class, bool> class SolverOf, template <class> class CertifiedSolverOf>
 struct ShapeKernelsOf {
     template <class Arch>
     using Numbers = NumbersOf<Arch>;
@@ -32,7 +32,7 @@ struct ShapeKernelsOf {
     template <class Arch, bool textbook>
     using Solver = SolverOf<Arch, textbook>;
     template <class D>
-    using Finisher = FinisherOf<D>;
+    using CertifiedSolver = CertifiedSolverOf<D>;
 };
 
 /// Reads the floats of consecutive shapes of a block, one row after the other, from `lane` on.

@@ -21,7 +21,8 @@ void with_shape(core::Kind kind, const Visit& visit) {
         kind, [&]<class Shape>(std::type_identity<Shape>) { visit.template operator()<Shape>(); });
 }
 
-/// Same with the kind's solver, and below with its filter or finisher, in place of the shape type.
+/// Same with the kind's solver, and below with its filter or certified solver, in place of the
+/// shape type.
 template <class Arch, bool textbook = false, class Visit>
 void with_solver(core::Kind kind, const Visit& visit) {
     with_shape(kind, [&]<class Shape>() {
@@ -35,9 +36,9 @@ void with_filter(core::Kind kind, const Visit& visit) {
     });
 }
 template <class D, class Visit>
-void with_finisher(core::Kind kind, const Visit& visit) {
+void with_certified_solver(core::Kind kind, const Visit& visit) {
     with_shape(kind, [&]<class Shape>() {
-        visit.template operator()<typename ShapeKernels<Shape>::template Finisher<D>>();
+        visit.template operator()<typename ShapeKernels<Shape>::template CertifiedSolver<D>>();
     });
 }
 

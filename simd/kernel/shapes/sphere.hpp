@@ -1,8 +1,8 @@
 #pragma once
 
 #include "simd/kernel/shapes/ball.hpp"
+#include "simd/kernel/shapes/certified_solver.hpp"
 #include "simd/kernel/shapes/filter.hpp"
-#include "simd/kernel/shapes/finisher.hpp"
 
 namespace raylane::simd {
 
@@ -176,15 +176,15 @@ struct SphereSolver : SphereNumbers<Arch> {
 /// Each component of the offset from the centre errs by 4 u |f| and 8 u |t| |direction|, and by the
 /// error of t.
 template <class Arch>
-struct SphereFinisher {
+struct SphereCertifiedSolver {
     SphereNumbers<Arch> sphere;
 
     template <class Reader>
-    explicit SphereFinisher(Reader reader) : sphere(reader) {}
+    explicit SphereCertifiedSolver(Reader reader) : sphere(reader) {}
 
     template <Wanted wanted>
-    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
-                                                 const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] CertifiedCrossing<Arch> solve(const Rays<Arch>& rays,
+                                                         const Starts<Arch>& starts) const {
         const F radius = sphere.radius;
         const Vectors<Arch> from_center = rays.origin - sphere.center;
         const F shift = negated(dot(from_center, rays.direction));
@@ -206,7 +206,7 @@ struct SphereFinisher {
                                  (~starts.on_surface & (discriminant > discriminant_error) &
                                   (abs(entry) > crossing_error));
         const F inverse_radius = inverse * root;
-        Finished<Arch> result = {
+        CertifiedCrossing<Arch> result = {
             ahead & is_result<Arch>(t, error) & (error < F(0x1p-14) * radius),
             t,
             error,
@@ -246,6 +246,6 @@ struct SphereFinisher {
 
 template <>
 struct ShapeKernels<core::Sphere>
-    : ShapeKernelsOf<SphereNumbers, SphereFilter, SphereSolver, SphereFinisher> {};
+    : ShapeKernelsOf<SphereNumbers, SphereFilter, SphereSolver, SphereCertifiedSolver> {};
 
 } // namespace raylane::simd

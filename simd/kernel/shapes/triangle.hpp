@@ -156,23 +156,23 @@ struct SmoothTriangleSolver : TriangleSolver<Arch, false> {
     }
 };
 
-/// Finisher of a triangle, with u as in finisher.hpp. The barycentric coordinates, multiplied by
-/// the determinant normal . direction, follow from one cross product of start and direction
-/// (Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997). Let U and V be
-/// bounds on |b - a| and |c - a|. The normal is off by 5 * u * U * V, and its product with a vector
-/// by 10 * u * U * V times the length of that vector. The coordinates of c and b are off by U and V
-/// times the sum of the error of the start and 10 * u * |start|. The code doubles that sum as a
-/// margin.
+/// CertifiedSolver of a triangle, with u as in certified solver.hpp. The barycentric coordinates,
+/// multiplied by the determinant normal . direction, follow from one cross product of start and
+/// direction (Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997). Let U
+/// and V be bounds on |b - a| and |c - a|. The normal is off by 5 * u * U * V, and its product with
+/// a vector by 10 * u * U * V times the length of that vector. The coordinates of c and b are off
+/// by U and V times the sum of the error of the start and 10 * u * |start|. The code doubles that
+/// sum as a margin.
 template <class Arch>
-struct TriangleFinisher {
+struct TriangleCertifiedSolver {
     TriangleNumbers<Arch> triangle;
 
     template <class Reader>
-    explicit TriangleFinisher(Reader reader) : triangle(reader) {}
+    explicit TriangleCertifiedSolver(Reader reader) : triangle(reader) {}
 
     template <Wanted wanted>
-    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
-                                                 const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] CertifiedCrossing<Arch> solve(const Rays<Arch>& rays,
+                                                         const Starts<Arch>& starts) const {
         const LocalRays<Arch> local(rays, triangle.a);
         const Vectors<Arch> to_b = triangle.b - triangle.a, to_c = triangle.c - triangle.a;
         const F U = sum_of_sizes(to_b), V = sum_of_sizes(to_c);
@@ -199,9 +199,9 @@ struct TriangleFinisher {
             (positive[0] | positive[1] | positive[2]) & (negative[0] | negative[1] | negative[2]);
         const Mask<Arch> clear = abs(determinant) > F(0x1p-44) * (U * V);
         const F t = local.shift + s;
-        Finished<Arch> result =
-            finish_flat<wanted, Arch>(clear, inside, outside, t, local.error_of_t(t, s, error_s),
-                                      determinant, unit<Arch>(normal), starts);
+        CertifiedCrossing<Arch> result =
+            solve_flat<wanted, Arch>(clear, inside, outside, t, local.error_of_t(t, s, error_s),
+                                     determinant, unit<Arch>(normal), starts);
         if constexpr (wanted == Wanted::all) {
             result.misses = result.misses | is_parallel(local.direction, to_b, to_c);
             result.normal_error =
@@ -256,12 +256,12 @@ struct TriangleFinisher {
 };
 
 template <class Arch>
-struct SmoothTriangleFinisher : TriangleFinisher<Arch> {
+struct SmoothTriangleCertifiedSolver : TriangleCertifiedSolver<Arch> {
     CornerNormals<Arch> normals;
 
     template <class Reader>
-    explicit SmoothTriangleFinisher(Reader reader)
-        : TriangleFinisher<Arch>(PassOn<Arch, Reader>{reader}), normals(reader) {}
+    explicit SmoothTriangleCertifiedSolver(Reader reader)
+        : TriangleCertifiedSolver<Arch>(PassOn<Arch, Reader>{reader}), normals(reader) {}
 
     Vectors<Arch> shading_normal(const Vectors<Arch>& point, const Vectors<Arch>& unit_flat) const {
         return normals.interpolated(this->triangle, point, unit_flat);
@@ -270,11 +270,11 @@ struct SmoothTriangleFinisher : TriangleFinisher<Arch> {
 
 template <>
 struct ShapeKernels<core::Triangle>
-    : ShapeKernelsOf<TriangleNumbers, TriangleFilter, TriangleSolver, TriangleFinisher> {};
+    : ShapeKernelsOf<TriangleNumbers, TriangleFilter, TriangleSolver, TriangleCertifiedSolver> {};
 
 template <>
 struct ShapeKernels<core::SmoothTriangle>
     : ShapeKernelsOf<TriangleNumbers, TriangleFilter, SmoothTriangleSolver,
-                     SmoothTriangleFinisher> {};
+                     SmoothTriangleCertifiedSolver> {};
 
 } // namespace raylane::simd

@@ -35,8 +35,7 @@ struct OneWay {
     }
 
     static constexpr MethodKernels kernels() {
-        return {
-            {nearest, occluded}, Method::finish, Method::finish_all, {}, Method::nearest_of_few};
+        return {{nearest, occluded}, Method::solve, Method::solve_all, {}, Method::nearest_of_few};
     }
 
   private:

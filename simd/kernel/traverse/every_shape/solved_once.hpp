@@ -27,7 +27,7 @@ class SolvedOnce : Streams<Arch> {
                 });
             });
             nearest.store(candidates, found, i);
-            finish(scene, derived, packet, nearest, found, i);
+            solve(scene, derived, packet, nearest, found, i);
         }
         counters.shapes += shapes;
         counters.one_by_one += found.count;
@@ -156,8 +156,8 @@ class SolvedOnce : Streams<Arch> {
     };
 
     /// Stores t and normals, one kind after the other.
-    static void finish(const SceneView& scene, const Numbers& derived, const Packet& packet,
-                       const Nearest& nearest, const Found& found, std::size_t i) {
+    static void solve(const SceneView& scene, const Numbers& derived, const Packet& packet,
+                      const Nearest& nearest, const Found& found, std::size_t i) {
         const std::size_t rest = found.count - i;
         std::uint32_t left = ~in_range(nearest.slot, no_slot, no_slot) &
                              (rest < F::size ? (1U << rest) - 1 : all_lanes);

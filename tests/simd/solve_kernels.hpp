@@ -7,14 +7,14 @@
 namespace raylane::simd {
 
 /// The kernels that solve crossings for `exact`. The search kernels take a minute to compile.
-struct FinishKernels {
-    decltype(MethodKernels::finish) finish;
+struct SolveKernels {
+    decltype(MethodKernels::solve) solve;
     RefineKernels refine;
 };
 
-inline FinishKernels finish_kernels_of(Isa isa) {
+inline SolveKernels solve_kernels_of(Isa isa) {
     return of_isa(isa, []<Isa which>() {
-        return FinishKernels{KernelParts<which>::finish(), KernelParts<which>::refine()};
+        return SolveKernels{KernelParts<which>::solve(), KernelParts<which>::refine()};
     });
 }
 

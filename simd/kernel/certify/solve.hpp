@@ -47,11 +47,11 @@ class GatherReader {
     int row_ = 0;
 };
 
-/// Implements MethodKernels::finish and finish_all.
+/// Implements MethodKernels::solve and solve_all.
 template <class Arch, Wanted wanted>
-class Finish {
+class SolveCandidates {
   public:
-    Finish(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
+    SolveCandidates(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
 
     void all_rays() const {
         for (std::size_t i = 0; i < found_.count;) {
@@ -61,8 +61,9 @@ class Finish {
                 const core::Kind kind = S::kind_of(scene_, found_.slot[i + first_of(left)]);
                 const TableView& table = S::table_of(scene_, kind);
                 const std::uint32_t alike = left & in_table(table, i);
-                with_finisher<Double<Arch>>(
-                    kind, [&]<class Finisher>() { next = finish_run<Finisher>(table, i, alike); });
+                with_certified_solver<Double<Arch>>(kind, [&]<class CertifiedSolver>() {
+                    next = solve_run<CertifiedSolver>(table, i, alike);
+                });
                 left &= ~alike;
             }
             i = next;
@@ -96,12 +97,12 @@ class Finish {
                         table.first_slot + 16 * table.block_count - 1);
     }
 
-    /// Finishes the lanes `active` of packet i, all of which found shapes of one table. If these
-    /// are all lanes, also finishes the packets that follow, as long as this holds for them.
+    /// Solves the lanes `active` of packet i, all of which found shapes of one table. If these
+    /// are all lanes, also solves the packets that follow, as long as this holds for them.
     /// Returns the ray at which the rest starts.
-    template <class Finisher>
-    [[gnu::noinline, gnu::flatten]] std::size_t finish_run(const TableView& table, std::size_t i,
-                                                           std::uint32_t active) const {
+    template <class CertifiedSolver>
+    [[gnu::noinline, gnu::flatten]] std::size_t solve_run(const TableView& table, std::size_t i,
+                                                          std::uint32_t active) const {
         Spots<Arch> spots;
         float unpacked[PackedSpheres<Arch>::rows][16];
         spots.base = table.is_packed() ? unpacked[0] : table.blocks;
@@ -120,9 +121,9 @@ class Finish {
                 const long long only = place(slot, 0);
                 for (long long& offset : spots.offsets)
                     offset = only;
-                const Finisher finisher{OneShapeReader<Arch>(spots)};
+                const CertifiedSolver solver{OneShapeReader<Arch>(spots)};
                 do {
-                    finish_packet(finisher, table, spots, i, active);
+                    solve_packet(solver, table, spots, i, active);
                     i += width;
                 } while (active == all_lanes && i + width <= found_.count &&
                          is_in(active, i, slot));
@@ -130,8 +131,8 @@ class Finish {
                 for (unsigned lane = 0; lane < width; ++lane)
                     spots.offsets[lane] =
                         place((active >> lane & 1) != 0 ? found_.slot[i + lane] : slot, lane);
-                const Finisher finisher{GatherReader<Arch>(spots)};
-                finish_packet(finisher, table, spots, i, active);
+                const CertifiedSolver solver{GatherReader<Arch>(spots)};
+                solve_packet(solver, table, spots, i, active);
                 i += width;
             }
             if (active != all_lanes || i + width > found_.count || in_table(table, i) != all_lanes)
@@ -144,48 +145,48 @@ class Finish {
         return (active & ~in_range(found_.slot + i, slot, slot)) == 0;
     }
 
-    /// Finishes one packet of finish_run.
-    template <class Finisher>
-    [[gnu::always_inline]] void finish_packet(const Finisher& finisher, const TableView& table,
-                                              const Spots<Arch>& spots, std::size_t i,
-                                              std::uint32_t active) const {
+    /// Solves one packet of solve_run.
+    template <class CertifiedSolver>
+    [[gnu::always_inline]] void solve_packet(const CertifiedSolver& solver, const TableView& table,
+                                             const Spots<Arch>& spots, std::size_t i,
+                                             std::uint32_t active) const {
         const Rays<D> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
         const bool leaves = leaves_any(i, active);
         const Starts<D> from = leaves ? starts(table, spots, i) : starts_nowhere<D>();
-        Finished<D> finished = finisher.template finish<wanted>(rays, from);
+        CertifiedCrossing<D> crossing = solver.template solve<wanted>(rays, from);
         if constexpr (wanted == Wanted::all)
-            if (leaves && !found_.holds_points) make_unit(finished, from.on_surface);
+            if (leaves && !found_.holds_points) make_unit(crossing, from.on_surface);
         if (found_.holds_points)
-            finished.certain = finished.certain & holds_point(rays, finished.t, finished.error);
+            crossing.certain = crossing.certain & holds_point(rays, crossing.t, crossing.error);
         if (found_.start != nullptr) {
             const F start = load(found_.start + i); // its error is less than the factor below
-            finished.certain =
-                finished.certain & (finished.t - finished.error > start * F(1 + 0x1p-50));
+            crossing.certain =
+                crossing.certain & (crossing.t - crossing.error > start * F(1 + 0x1p-50));
         }
-        store(finished, i, active);
-        if constexpr (requires { finisher.shading_normal(rays.origin, rays.origin); }) {
+        store(crossing, i, active);
+        if constexpr (requires { solver.shading_normal(rays.origin, rays.origin); }) {
             if (found_.shading_normal[0] != nullptr)
-                store(finisher.shading_normal(mul_add<D>(finished.t, rays.direction, rays.origin),
-                                              finished.normal),
+                store(solver.shading_normal(mul_add<D>(crossing.t, rays.direction, rays.origin),
+                                            crossing.normal),
                       found_.shading_normal, i, active);
         } else if (found_.shading_normal[0] != nullptr) {
-            store(finished.normal, found_.shading_normal, i, active);
+            store(crossing.normal, found_.shading_normal, i, active);
         }
     }
 
-    /// Brings normals to unit length. Finishers take the origin of a ray that starts on the surface
-    /// for a point of the surface, so that the normal there has the expected length. The origin of
-    /// a caller's ray need not be such a point.
-    static void make_unit(Finished<D>& finished, const M& lanes) {
-        const F inverse = select(lanes, F(1.0) / sqrt(squared_length(finished.normal)), F(1.0));
-        const Vectors<D>& error = finished.normal_error;
+    /// Brings normals to unit length. Certified solvers take the origin of a ray that starts on the
+    /// surface for a point of the surface, so that the normal there has the expected length. The
+    /// origin of a caller's ray need not be such a point.
+    static void make_unit(CertifiedCrossing<D>& crossing, const M& lanes) {
+        const F inverse = select(lanes, F(1.0) / sqrt(squared_length(crossing.normal)), F(1.0));
+        const Vectors<D>& error = crossing.normal_error;
         const F of_length = error.x + error.y + error.z;
         const auto with_length = [&](const F& of_component) {
             return select(lanes, (of_component + of_length) * inverse * F(1 + 0x1p-40) + F(0x1p-50),
                           of_component);
         };
-        finished.normal_error = {with_length(error.x), with_length(error.y), with_length(error.z)};
-        finished.normal = scaled<D>(inverse, finished.normal);
+        crossing.normal_error = {with_length(error.x), with_length(error.y), with_length(error.z)};
+        crossing.normal = scaled<D>(inverse, crossing.normal);
     }
 
     bool leaves_any(std::size_t i, std::uint32_t active) const {
@@ -212,19 +213,19 @@ class Finish {
         return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
     }
 
-    [[gnu::always_inline]] void store(const Finished<D>& finished, std::size_t i,
+    [[gnu::always_inline]] void store(const CertifiedCrossing<D>& crossing, std::size_t i,
                                       std::uint32_t active) const {
-        store(finished.t, found_.t + i, active);
-        store(finished.error, found_.error + i, active);
-        store(finished.normal, found_.normal, i, active);
+        store(crossing.t, found_.t + i, active);
+        store(crossing.error, found_.error + i, active);
+        store(crossing.normal, found_.normal, i, active);
         F of_certain =
-            finished.face + select(finished.entering, F(double{hit_entering}), zero<D>());
+            crossing.face + select(crossing.entering, F(double{hit_entering}), zero<D>());
         if constexpr (wanted == Wanted::all)
             of_certain = of_certain +
-                         select(is_rounded(finished), zero<D>(), F(double{hit_normal_doubtful}));
+                         select(is_rounded(crossing), zero<D>(), F(double{hit_normal_doubtful}));
         const F bits =
-            select(finished.certain, of_certain,
-                   select(finished.misses, F(double{hit_none}), F(double{hit_doubtful})));
+            select(crossing.certain, of_certain,
+                   select(crossing.misses, F(double{hit_none}), F(double{hit_doubtful})));
         if (active == all_lanes) {
             Lanes<D>::to_numbers(found_.hit + i, bits);
             return;
@@ -254,8 +255,8 @@ class Finish {
 };
 
 template <class Arch, Wanted wanted>
-void finish(const SceneView& scene, const Found& found) {
-    Finish<Arch, wanted>(scene, found).all_rays();
+void solve(const SceneView& scene, const Found& found) {
+    SolveCandidates<Arch, wanted>(scene, found).all_rays();
 }
 
 } // namespace raylane::simd

@@ -4,9 +4,9 @@
 #include "core/shapes/types.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
-#include "tests/simd/finish_kernels.hpp"
 #include "tests/simd/mutations.hpp"
 #include "tests/simd/rounds.hpp"
+#include "tests/simd/solve_kernels.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -18,7 +18,7 @@ using namespace raylane::core;
 using namespace raylane::simd;
 using namespace raylane::mutations;
 
-/// Searches for rays whose t has a larger error after `finish` than its bound. The search climbs to
+/// Searches for rays whose t has a larger error after `solve` than its bound. The search climbs to
 /// where the error is the largest part of its bound.
 
 namespace {
@@ -32,7 +32,7 @@ int rounds() {
 /// Kind of rays.
 enum class Aim {
     any,     ///< directions of doubles, of length 1 +- 2^-48
-    again,   ///< the same, and `finish_again` refines doubtful rays
+    again,   ///< the same, and `refine` refines doubtful rays
     rounded, ///< along floats of any length, which the library normalises
     onward,  ///< from the surface
 };
@@ -52,15 +52,15 @@ std::optional<core::Crossing<Wide>> first_crossing(const Shape& shape, const Ray
     return std::nullopt;
 }
 
-struct Finish {
+struct Solved {
     double t, error;
     std::uint32_t hit;
 };
 
-/// Solves one ray and one shape by a unit's `finish`, and with `again` by `finish_again` as well.
+/// Solves one ray and one shape by a unit's `solve`, and with `again` by `refine` as well.
 template <class Shape>
-Finish finish(const FinishKernels& kernels, const Shape& shape, const Ray<double>& ray,
-              const Start& start, bool again) {
+Solved solved_by(const SolveKernels& kernels, const Shape& shape, const Ray<double>& ray,
+                 const Start& start, bool again) {
     constexpr ShapeId id = 7;
     Block<Shape> block;
     block.set(0, shape, id);
@@ -93,8 +93,8 @@ Finish finish(const FinishKernels& kernels, const Shape& shape, const Ray<double
                          {normal[0], normal[1], normal[2]},
                          {nullptr, nullptr, nullptr},
                          hit};
-    kernels.finish(view, found);
-    if (again) kernels.refine.finish_again(view, found);
+    kernels.solve(view, found);
+    if (again) kernels.refine.refine(view, found);
     return {t[0], error[0], hit[0]};
 }
 
@@ -114,8 +114,8 @@ double part_needed(const Started<Shape>& attempt, Aim aim) {
         unit = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
         ray.direction = normalized(ray.direction);
     }
-    const Finish result =
-        finish(finish_kernels_of(best_isa()), attempt.shape, ray, attempt.start, aim == Aim::again);
+    const Solved result = solved_by(solve_kernels_of(best_isa()), attempt.shape, ray, attempt.start,
+                                    aim == Aim::again);
     if ((result.hit & hit_doubtful) != 0) return 0.0;
     const auto truth = first_crossing(attempt.shape, attempt.ray, attempt.start);
     if (result.hit == hit_none) return truth ? 1.0 : 0.0;
@@ -129,10 +129,10 @@ double part_needed(const Started<Shape>& attempt, Aim aim) {
     const auto off = static_cast<double>(truth->t.value * unit - DoubleDouble(result.t));
     if (aim != Aim::again) return std::abs(off) / result.error;
     // The last rounding, to double, would hide all other errors, so it is left out. Only rays that
-    // need `finish_again` count.
+    // need `refine` count.
     const double rounding = 0x1p-52 * std::abs(result.t), error = result.error - rounding;
     const bool needs_it =
-        (finish(finish_kernels_of(best_isa()), attempt.shape, ray, attempt.start, false).hit &
+        (solved_by(solve_kernels_of(best_isa()), attempt.shape, ray, attempt.start, false).hit &
          hit_doubtful) != 0;
     if (!needs_it || !(error > rounding)) return 0.0;
     return std::max(std::abs(off) - 0.5 * rounding, 0.0) / error;
@@ -241,7 +241,7 @@ std::string description(const Summit<Shape>& summit) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("no search finds a ray whose t is off by more than finish says", "",
+TEMPLATE_TEST_CASE("no search finds a ray whose t is off by more than solve says", "",
                    RAYLANE_ALL_SHAPES) {
     const int climbs = std::max(1, rounds());
     const auto any = highest<TestType>(Aim::any, climbs, 37),
@@ -265,5 +265,5 @@ TEMPLATE_TEST_CASE("no search finds a ray whose t is off by more than finish say
         WARN(name_of(kind_of<TestType>)
              << ": the largest part of its bound that an error is: " << any.part
              << "; directions brought to unit length " << rounded.part << ", from the surface "
-             << onward.part << ", finished again " << again.part);
+             << onward.part << ", solved again " << again.part);
 }

@@ -3,8 +3,8 @@
 #include "core/shapes/solve.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
-#include "tests/simd/finish_kernels.hpp"
 #include "tests/simd/rounds.hpp"
+#include "tests/simd/solve_kernels.hpp"
 
 #include <bit>
 #include <cmath>
@@ -19,7 +19,7 @@ using namespace raylane::simd;
 using ray_sets::Random;
 using ray_sets::Set;
 
-/// Compares hits that `finish` is certain of with the certified scalar solver in double.
+/// Compares hits that `solve` is certain of with the certified scalar solver in double.
 
 namespace {
 
@@ -92,7 +92,7 @@ struct Rays {
         slot.push_back(to);
     }
 
-    /// Returns a view of the rays for `finish`. Values after the last ray must not matter.
+    /// Returns a view of the rays for `solve`. Values after the last ray must not matter.
     Found view(Random& random) {
         const std::size_t room = (rays.size() + 15) / 16 * 16;
         for (std::vector<double>* array : {&ox, &oy, &oz, &dx, &dy, &dz})
@@ -190,10 +190,10 @@ struct Share {
     long elsewhere = 0, doubtful_elsewhere = 0;
 };
 
-/// Kernels that solve the rays: `finish` alone, or `finish_again` as well.
+/// Kernels that solve the rays: `solve` alone, or `refine` as well.
 enum class Way { once, again };
 
-/// Checks one ray of `rays` after `finish`.
+/// Checks one ray of `rays` after `solve`.
 void check(const Rays& rays, std::size_t i, bool adverse, Share& share) {
     const Expected& truth = rays.truth[i];
     const std::uint32_t hit = rays.hit[i];
@@ -243,10 +243,10 @@ void check_all(Rays& rays, const Tables& tables, bool adverse, Random& random, S
     std::optional<Rays> before;
     for (const Isa isa : available_isas()) {
         CAPTURE(std::string(name_of(isa)));
-        const FinishKernels kernels = finish_kernels_of(isa);
+        const SolveKernels kernels = solve_kernels_of(isa);
         const Found found = rays.view(random);
-        kernels.finish(scene, found);
-        if (way == Way::again) kernels.refine.finish_again(scene, found);
+        kernels.solve(scene, found);
+        if (way == Way::again) kernels.refine.refine(scene, found);
         for (std::size_t i = 0; i < rays.hit.size(); ++i) {
             if (i >= rays.rays.size() || rays.slot[i] == no_slot) {
                 if (!rays.untouched(i)) FAIL("wrote to a lane without a shape");
@@ -270,7 +270,7 @@ void check_all(Rays& rays, const Tables& tables, bool adverse, Random& random, S
 
 } // namespace
 
-TEMPLATE_TEST_CASE("certain answers of finish are right", "", RAYLANE_ALL_SHAPES) {
+TEMPLATE_TEST_CASE("certain answers of solve are right", "", RAYLANE_ALL_SHAPES) {
     Random random(21);
     Share share;
     for (int round = 0; round < rounds(); ++round) {
@@ -288,8 +288,7 @@ TEMPLATE_TEST_CASE("certain answers of finish are right", "", RAYLANE_ALL_SHAPES
     CHECK(share.doubtful * 2 < share.hits);
 }
 
-TEMPLATE_TEST_CASE("answers of finish_again are right and hardly ever doubtful", "",
-                   RAYLANE_ALL_SHAPES) {
+TEMPLATE_TEST_CASE("answers of refine are right and hardly ever doubtful", "", RAYLANE_ALL_SHAPES) {
     Random random(24);
     Share hard, lattice;
     for (int round = 0; round < rounds(); ++round) {
@@ -309,7 +308,7 @@ TEMPLATE_TEST_CASE("answers of finish_again are right and hardly ever doubtful",
     CHECK(part < 0.04);
 }
 
-TEMPLATE_TEST_CASE("finish is certain of ordinary rays", "", RAYLANE_ALL_SHAPES) {
+TEMPLATE_TEST_CASE("solve is certain of ordinary rays", "", RAYLANE_ALL_SHAPES) {
     Random random(22);
     Share share;
     for (int round = 0; round < rounds(); ++round) {
@@ -327,7 +326,7 @@ TEMPLATE_TEST_CASE("finish is certain of ordinary rays", "", RAYLANE_ALL_SHAPES)
           tests::max_by_chance(2e-4 * static_cast<double>(share.hits)));
 }
 
-TEST_CASE("finish sorts out packets of many kinds and leaves lanes without a shape alone") {
+TEST_CASE("solve sorts out packets of many kinds and leaves lanes without a shape alone") {
     Random random(23);
     Share share;
     for (int round = 0; round < rounds() / 5 + 4; ++round) { // a single round may have no hit

@@ -2,7 +2,7 @@
 
 #include "simd/kernel/certify/slot_reader.hpp"
 #include "simd/kernel/certify/slots.hpp"
-#include "simd/kernel/shapes/finisher.hpp"
+#include "simd/kernel/shapes/certified_solver.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
 #include "simd/kernels.hpp"
 
@@ -10,24 +10,24 @@
 
 namespace raylane::simd {
 
-/// Solves rays again that the finishers left in doubt. Most of these just miss a shape, start
-/// beside its surface or touch it. The solvers' own formulas run in numbers with bounds, which
-/// takes several times as long: first in double, then with twice as many digits.
+/// Solves rays again that the certified solvers left in doubt. Most of these just miss a shape,
+/// start beside its surface or touch it. The solvers' own formulas run in numbers with bounds,
+/// which takes several times as long: first in double, then with twice as many digits.
 ///
-/// Rays are exactly their doubles, or the exact rays that these stand for. (The finishers' bounds
-/// cover the error of bringing directions to unit length.)
+/// Rays are exactly their doubles, or the exact rays that these stand for. (The certified solvers'
+/// bounds cover the error of bringing directions to unit length.)
 template <class Arch>
-class FinishAgain {
+class Refine {
   public:
-    FinishAgain(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
+    Refine(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
 
     void doubtful_rays() {
         for (std::size_t i = 0; i < found_.count; ++i)
             if (is_doubtful(i)) add<D>(in_double_[index_of(i)], i);
         for (Packet& packet : in_double_)
-            finish<D>(packet);
+            solve<D>(packet);
         for (Packet& packet : wide_)
-            finish<Wide<D>>(packet);
+            solve<Wide<D>>(packet);
     }
 
     /// Implements RefineKernels::widen.
@@ -78,7 +78,7 @@ class FinishAgain {
     template <class Number>
     void add(Packet& packet, std::size_t ray) {
         packet.rays[packet.count++] = ray;
-        if (packet.count == width) finish<Number>(packet);
+        if (packet.count == width) solve<Number>(packet);
     }
 
     using Reader = SlotReader<D>;
@@ -126,17 +126,17 @@ class FinishAgain {
     }
 
     template <class Number>
-    void finish(Packet& packet) {
+    void solve(Packet& packet) {
         if (packet.count == 0) return;
         const core::Kind kind = kind_of(packet);
         const Loaded loaded = load(packet, kind);
         std::uint32_t certain = 0, misses = 0;
         with_solver<Certified<Number>>(kind, [&]<class Solver>() {
-            const Finished<D> finished =
+            const CertifiedCrossing<D> crossing =
                 first_crossing<Solver, Number>(loaded, found_.holds_points);
-            certain = Lanes<D>::bits(finished.certain);
-            misses = Lanes<D>::bits(finished.misses);
-            if (certain != 0) store(finished, packet, certain);
+            certain = Lanes<D>::bits(crossing.certain);
+            misses = Lanes<D>::bits(crossing.misses);
+            if (certain != 0) store(crossing, packet, certain);
         });
         for (std::size_t lane = 0; lane < packet.count; ++lane) {
             if ((misses >> lane & 1) != 0)
@@ -218,24 +218,24 @@ class FinishAgain {
 
     /// Stores a normal in double, with its error.
     template <class Number>
-    static void store(const Vectors<Certified<Number>>& normal, Finished<D>& finished) {
+    static void store(const Vectors<Certified<Number>>& normal, CertifiedCrossing<D>& crossing) {
         const auto error = [](const Floats<Certified<Number>>& component) {
             const F off = component.error + Digits<Number>::lost_in_double(component.value);
             // This sum is rounded, and so are the sums of the component and it.
             return select(off == zero<D>(), off, off + F(0x1p-50) * (off + component.magnitude()));
         };
-        finished.normal = {normal.x.in_double(), normal.y.in_double(), normal.z.in_double()};
-        finished.normal_error = {error(normal.x), error(normal.y), error(normal.z)};
+        crossing.normal = {normal.x.in_double(), normal.y.in_double(), normal.z.in_double()};
+        crossing.normal_error = {error(normal.x), error(normal.y), error(normal.z)};
     }
 
     /// Stores the normals of `lanes` of the packet.
     static void store_normals(const Vectors<Certified<Wide<D>>>& normal, const Packet& packet,
                               std::uint32_t lanes, const WideCrossings& wide) {
-        Finished<D> finished;
-        store(normal, finished);
-        const F* const values[] = {&finished.normal.x, &finished.normal.y, &finished.normal.z};
-        const F* const errors[] = {&finished.normal_error.x, &finished.normal_error.y,
-                                   &finished.normal_error.z};
+        CertifiedCrossing<D> crossing;
+        store(normal, crossing);
+        const F* const values[] = {&crossing.normal.x, &crossing.normal.y, &crossing.normal.z};
+        const F* const errors[] = {&crossing.normal_error.x, &crossing.normal_error.y,
+                                   &crossing.normal_error.z};
         for (int axis = 0; axis < 3; ++axis) {
             const std::uint32_t rounded =
                 lanes & Lanes<D>::bits(round_alike<D>(*values[axis], *errors[axis]));
@@ -253,7 +253,8 @@ class FinishAgain {
     /// Returns the first crossing of rays that do not start on the shape. Unless `holds_points`,
     /// also returns its normal.
     template <class Solver, class Number>
-    [[gnu::noinline]] static Finished<D> first_crossing(const Loaded& loaded, bool holds_points) {
+    [[gnu::noinline]] static CertifiedCrossing<D> first_crossing(const Loaded& loaded,
+                                                                 bool holds_points) {
         const F& length = loaded.length;
         const Solver solver(ExactReader<Number>{loaded.reader});
         const Crossing<Certified<Number>> first = crossing_of<Number>(solver, loaded);
@@ -265,31 +266,32 @@ class FinishAgain {
         if (holds_points) certain = certain & holds_point(loaded.rays, t, error);
         // If rays stand for others, their length is off by a few ulps, and so is the product.
         const F unit_t = t * length, rounding = select(length == F(1.0), zero<D>(), F(0x1p-50));
-        Finished<D> finished = {certain,
-                                unit_t,
-                                error * length + rounding * unit_t,
-                                first.face.in_double(),
-                                first.entering.answer,
-                                {},
-                                first.exists.surely_not()};
+        CertifiedCrossing<D> crossing = {certain,
+                                         unit_t,
+                                         error * length + rounding * unit_t,
+                                         first.face.in_double(),
+                                         first.entering.answer,
+                                         {},
+                                         first.exists.surely_not()};
         if (!holds_points && any<D>(certain))
-            store(normal_of<Number>(solver, loaded, first), finished);
-        return finished;
+            store(normal_of<Number>(solver, loaded, first), crossing);
+        return crossing;
     }
 
-    void store(const Finished<D>& finished, const Packet& packet, std::uint32_t certain) const {
+    void store(const CertifiedCrossing<D>& crossing, const Packet& packet,
+               std::uint32_t certain) const {
         double t[width], error[width], face[width];
-        finished.t.store_unaligned(t);
-        finished.error.store_unaligned(error);
-        finished.face.store_unaligned(face);
-        const std::uint32_t entering = Lanes<D>::bits(finished.entering);
+        crossing.t.store_unaligned(t);
+        crossing.error.store_unaligned(error);
+        crossing.face.store_unaligned(face);
+        const std::uint32_t entering = Lanes<D>::bits(crossing.entering);
         std::uint32_t with_normal = 0;
         double normal[3][width];
         if (!found_.holds_points) {
-            with_normal = Lanes<D>::bits(is_rounded(finished));
-            finished.normal.x.store_unaligned(normal[0]);
-            finished.normal.y.store_unaligned(normal[1]);
-            finished.normal.z.store_unaligned(normal[2]);
+            with_normal = Lanes<D>::bits(is_rounded(crossing));
+            crossing.normal.x.store_unaligned(normal[0]);
+            crossing.normal.y.store_unaligned(normal[1]);
+            crossing.normal.z.store_unaligned(normal[2]);
         }
         for (std::size_t lane = 0; lane < packet.count; ++lane) {
             if ((certain >> lane & 1) == 0) continue;
@@ -311,14 +313,14 @@ class FinishAgain {
 };
 
 template <class Arch>
-void finish_again(const SceneView& scene, const Found& found) {
-    FinishAgain<Arch>(scene, found).doubtful_rays();
+void refine(const SceneView& scene, const Found& found) {
+    Refine<Arch>(scene, found).doubtful_rays();
 }
 
 template <class Arch>
 void widen(const SceneView& scene, const Found& found, const std::size_t* places, std::size_t count,
            const WideCrossings& wide) {
-    FinishAgain<Arch>(scene, found).widen(places, count, wide);
+    Refine<Arch>(scene, found).widen(places, count, wide);
 }
 
 } // namespace raylane::simd

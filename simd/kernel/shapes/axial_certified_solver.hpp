@@ -3,7 +3,7 @@
 #include "simd/kernel/shapes/axial.hpp"
 #include "simd/kernel/shapes/root.hpp"
 
-/// Finishers of cylinders and cones.
+/// Certified solvers of cylinders and cones.
 namespace raylane::simd {
 
 /// A ray split into parts along and across the axis, as in axial.hpp. F(s) = |across|^2 - width^2
@@ -193,19 +193,19 @@ struct AxialLine {
     }
 };
 
-/// Finisher without caps. The ray may have entered or left through an open end.
+/// CertifiedSolver without caps. The ray may have entered or left through an open end.
 template <class Arch, bool tapers>
-struct OpenFinisher {
+struct OpenCertifiedSolver {
     AxialNumbers<Arch, tapers> shape;
 
     template <class Reader>
-    explicit OpenFinisher(Reader reader) : shape(reader) {}
+    explicit OpenCertifiedSolver(Reader reader) : shape(reader) {}
 
     template <Wanted wanted>
-    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
-                                                 const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] CertifiedCrossing<Arch> solve(const Rays<Arch>& rays,
+                                                         const Starts<Arch>& starts) const {
         const AxialLine<Arch, tapers, wanted> line(shape, rays);
-        Finished<Arch> result = first_passage<wanted, Arch>(line, starts);
+        CertifiedCrossing<Arch> result = first_passage<wanted, Arch>(line, starts);
         if constexpr (wanted == Wanted::all && !tapers)
             result.misses = result.misses | (~result.certain & is_along_axis(rays.direction));
         make_unit<wanted>(result);
@@ -228,21 +228,21 @@ struct OpenFinisher {
     }
 };
 
-/// Finisher with caps. The body and its caps bound a convex solid. So where a ray crosses the body
-/// in one direction, certainly between the ends, or a cap, certainly inside its rim, it enters or
-/// leaves the solid.
+/// CertifiedSolver with caps. The body and its caps bound a convex solid. So where a ray crosses
+/// the body in one direction, certainly between the ends, or a cap, certainly inside its rim, it
+/// enters or leaves the solid.
 template <class Arch, bool tapers>
-struct CappedFinisher {
+struct CappedCertifiedSolver {
     AxialNumbers<Arch, tapers> shape;
 
     template <class Reader>
-    explicit CappedFinisher(Reader reader) : shape(reader) {}
+    explicit CappedCertifiedSolver(Reader reader) : shape(reader) {}
 
     template <Wanted wanted>
-    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
-                                                 const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] CertifiedCrossing<Arch> solve(const Rays<Arch>& rays,
+                                                         const Starts<Arch>& starts) const {
         const Line<wanted> line(shape, rays);
-        Finished<Arch> result = pass(line, starts.on_surface, starts);
+        CertifiedCrossing<Arch> result = pass(line, starts.on_surface, starts);
         const M behind = result.certain & ~starts.on_surface & (result.t < negated(result.error));
         if (any<Arch>(behind)) leave(result, behind, line, starts);
         result.certain = result.certain & (~starts.on_surface | starts.inward) &
@@ -279,7 +279,7 @@ struct CappedFinisher {
 
     /// Not inlined, as it is seldom needed.
     template <Wanted wanted>
-    [[gnu::noinline]] static void leave(Finished<Arch>& result, const M& lanes,
+    [[gnu::noinline]] static void leave(CertifiedCrossing<Arch>& result, const M& lanes,
                                         const Line<wanted>& line, const Starts<Arch>& starts) {
         result = select<Arch>(lanes, pass(line, starts.on_surface | lanes, starts), result);
     }
@@ -287,8 +287,8 @@ struct CappedFinisher {
     /// Returns the crossing where the ray leaves the solid, in lanes of `leaves`, and where it
     /// enters it, in the others.
     template <Wanted wanted>
-    [[gnu::always_inline]] static Finished<Arch> pass(const Line<wanted>& line, const M& leaves,
-                                                      const Starts<Arch>& starts) {
+    [[gnu::always_inline]] static CertifiedCrossing<Arch>
+    pass(const Line<wanted>& line, const M& leaves, const Starts<Arch>& starts) {
         const LocalRays<Arch>& local = line.local;
         const M rises = line.height_slope > zero<Arch>();
         const M at_top = (rises & leaves) | (~rises & ~leaves);
@@ -329,9 +329,10 @@ struct CappedFinisher {
 
         const F t = local.shift + s;
         // The cap's normal is the axis, which is exact.
-        const Finished<Arch> cap = {by_cap, t,       local.error_of_t(t, s, error_s),
-                                    face,   ~leaves, negated_where<Arch>(~at_top, line.axis)};
-        Finished<Arch> result = select<Arch>(by_cap, cap, side.finished(by_side, ~leaves));
+        const CertifiedCrossing<Arch> cap = {
+            by_cap, t,       local.error_of_t(t, s, error_s),
+            face,   ~leaves, negated_where<Arch>(~at_top, line.axis)};
+        CertifiedCrossing<Arch> result = select<Arch>(by_cap, cap, side.crossing(by_side, ~leaves));
         // A ray does not leave by the cap that it starts on.
         result.certain = result.certain & ~(starts.on_surface & (starts.face == face));
         return result;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// Measures each kernel's time per hit that it finishes in double: the rays of a packet hit the
+/// Measures each kernel's time per hit that it solves in double: the rays of a packet hit the
 /// same shape, or each another shape of one kind. `doubtful` is the share left to a scalar solver.
 
 namespace {
@@ -93,12 +93,12 @@ struct Setup {
 };
 
 template <class Shape>
-void finish(benchmark::State& state, const simd::Kernels& kernels, bool one_shape) {
+void solve(benchmark::State& state, const simd::Kernels& kernels, bool one_shape) {
     Setup<Shape> setup(one_shape);
     const simd::SceneView scene = setup.scene();
     const simd::Found found = setup.found();
     for (auto _ : state) {
-        kernels.methods[static_cast<std::size_t>(Precision::exact)].finish(scene, found);
+        kernels.methods[static_cast<std::size_t>(Precision::exact)].solve(scene, found);
         benchmark::ClobberMemory();
     }
     std::size_t doubtful = 0;
@@ -118,10 +118,10 @@ void add_kind() {
         const simd::Kernels& kernels = simd::kernels_of(isa);
         for (const bool one_shape : {true, false})
             benchmark::RegisterBenchmark(
-                (name + (one_shape ? "/finish_one_shape/" : "/finish_shapes/") + kernels.name)
+                (name + (one_shape ? "/solve_one_shape/" : "/solve_shapes/") + kernels.name)
                     .c_str(),
                 [&kernels, one_shape](benchmark::State& state) {
-                    finish<Shape>(state, kernels, one_shape);
+                    solve<Shape>(state, kernels, one_shape);
                 });
     }
 }

@@ -17,12 +17,12 @@ Crossing<Number> at_finite_t(Crossing<Number> crossing) {
     return crossing;
 }
 
-/// MethodKernels::finish by the solvers' formulas alone, in lanes of `Number`, which is an
+/// MethodKernels::solve by the solvers' formulas alone, in lanes of `Number`, which is an
 /// instruction set or a Double<> of one. No result is doubtful.
 template <class Number, bool textbook>
-class PlainFinish {
+class PlainSolve {
   public:
-    PlainFinish(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
+    PlainSolve(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
 
     void all_rays() const {
         for (std::size_t i = 0; i < found_.count; i += lanes) {
@@ -38,7 +38,7 @@ class PlainFinish {
                     alike |= std::uint32_t{S::holds(table, found_.slot[i + lane])} << lane;
                 alike &= left;
                 with_solver<Number, textbook>(
-                    kind, [&]<class Solver>() { finish_packet<Solver>(table, i, alike); });
+                    kind, [&]<class Solver>() { solve_packet<Solver>(table, i, alike); });
                 left &= ~alike;
             }
         }
@@ -58,9 +58,9 @@ class PlainFinish {
         F next() { return one_shape ? slots.next_of(0) : slots.next(); }
     };
 
-    /// Finishes the lanes `active` from ray i on, all of which found shapes of one table.
+    /// Solves the lanes `active` from ray i on, all of which found shapes of one table.
     template <class Solver>
-    void finish_packet(const TableView& table, std::size_t i, std::uint32_t active) const {
+    void solve_packet(const TableView& table, std::size_t i, std::uint32_t active) const {
         const auto first_lane = static_cast<std::size_t>(__builtin_ctz(active));
         Reader reader{SlotReader<Number>(table)};
         std::uint32_t ids[lanes];

@@ -4,13 +4,14 @@
 #include "simd/kernel/shapes/crossings.hpp"
 #include "simd/kernel/shapes/shape.hpp"
 
-/// Finishers compute the first crossing of a ray with a shape in double, with a bound on the error
-/// of t, and whether the crossing is certain. Uncertain crossings are rare. A scalar solver decides
-/// them, which can repeat the computation in a wider type. So finishers do not resolve hard cases;
-/// they only prove that a case is not hard. A lane is certain if some sufficient condition holds.
+/// Certified solvers compute the first crossing of a ray with a shape in double, with a bound on
+/// the error of t, and whether the crossing is certain. Uncertain crossings are rare. A scalar
+/// solver decides them, which can repeat the computation in a wider type. So certified solvers do
+/// not resolve hard cases; they only prove that a case is not hard. A lane is certain if some
+/// sufficient condition holds.
 ///
-/// Each finisher serves one kind of shape, is constructed from a reader of doubles, and has
-///   Finished<Arch> finish<wanted>(const Rays<Arch>&, const Starts<Arch>&) const
+/// Each certified solver serves one kind of shape, is constructed from a reader of doubles, and has
+///   CertifiedCrossing<Arch> solve<wanted>(const Rays<Arch>&, const Starts<Arch>&) const
 /// Arch is a Double<...> throughout.
 ///
 /// In the comments u = 2^-53 is the relative error of one operation. Rays and shapes are exact, and
@@ -19,7 +20,7 @@
 /// certain. Underflow is excluded, as in core/numbers/bounded.hpp.
 namespace raylane::simd {
 
-/// Results that the caller of a finisher needs.
+/// Results that the caller of a certified solver needs.
 enum class Wanted {
     crossings, ///< certain crossings
     all,       ///< also certain misses, and the error of normals
@@ -27,7 +28,7 @@ enum class Wanted {
 
 /// The first crossing per lane, counted in the same way as by core::Searcher.
 template <class Arch>
-struct Finished {
+struct CertifiedCrossing {
     Mask<Arch> certain; ///< if false, only `misses` is meaningful
     Floats<Arch> t;
     Floats<Arch> error; ///< |t - true t|
@@ -47,10 +48,10 @@ Mask<Arch> round_alike(const Floats<Arch>& value, const Floats<Arch>& error) {
 /// True where, for each component of the normal, all numbers within the error of that component
 /// round to the same float.
 template <class Arch>
-Mask<Arch> is_rounded(const Finished<Arch>& finished) {
-    return round_alike<Arch>(finished.normal.x, finished.normal_error.x) &
-           round_alike<Arch>(finished.normal.y, finished.normal_error.y) &
-           round_alike<Arch>(finished.normal.z, finished.normal_error.z);
+Mask<Arch> is_rounded(const CertifiedCrossing<Arch>& crossing) {
+    return round_alike<Arch>(crossing.normal.x, crossing.normal_error.x) &
+           round_alike<Arch>(crossing.normal.y, crossing.normal_error.y) &
+           round_alike<Arch>(crossing.normal.z, crossing.normal_error.z);
 }
 
 /// The relative accuracy that t must have, same as core::needed_accuracy.
@@ -58,8 +59,8 @@ inline constexpr double needed_accuracy = 0x1p-27;
 
 /// Returns a where `mask` is true, otherwise b.
 template <class Arch>
-[[gnu::always_inline]] inline Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a,
-                                                    const Finished<Arch>& b) {
+[[gnu::always_inline]] inline CertifiedCrossing<Arch>
+select(const Mask<Arch>& mask, const CertifiedCrossing<Arch>& a, const CertifiedCrossing<Arch>& b) {
     return {(mask & a.certain) | (~mask & b.certain),
             select(mask, a.t, b.t),
             select(mask, a.error, b.error),
