@@ -1,7 +1,7 @@
 #include "bench/elementary_unit.hpp"
 #include "core/numbers/elementary.hpp"
-#include "simd/by_isa.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/by_isa.hpp"
+#include "simd/isa/isa.hpp"
 
 #include <benchmark/benchmark.h>
 

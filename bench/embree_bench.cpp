@@ -1,6 +1,6 @@
 #include "bench/embree_scene.hpp"
 #include "bench/method_rays.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 
 #include "bench/embree.hpp"
 #include "core/scene/scene.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 
 #include <memory>
 #include <pmmintrin.h>

@@ -1,6 +1,6 @@
 #include "bench/method_rays.hpp"
 #include "core/shapes/precision.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 
 /// Measures each precision's speed and error with the same rays and shapes: rays per second that
 /// find the nearest of a few shapes, normals included.

@@ -1,6 +1,6 @@
 #include "core/shapes/precision.hpp"
 #include "scenes/scene_file.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <functional>
 #include <memory>

@@ -1,7 +1,7 @@
 #include "bench/random_shapes.hpp"
 #include "core/shapes/shape_table.hpp"
 #include "core/shapes/solve.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,4 +1,4 @@
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "simd/query/query.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 #include "raylane/raylane.hpp"
 #include "scenes/library/internals.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 
 #ifdef RAYLANE_EMBREE
 #include "bench/embree_scene.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/isa_name.hpp"
+#include "simd/isa/isa_name.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "bench/ceiling/prepare.hpp"
 #include "bench/method_rays.hpp"
-#include "simd/by_isa.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/by_isa.hpp"
+#include "simd/isa/isa.hpp"
 
 /// Measures, for each kind of shape, the simplest fast float loop (ceiling.hpp). Its speed is an
 /// upper bound for raylane's float methods. The rays and shapes are those of the other benchmarks

@@ -122,14 +122,14 @@ def ray_life():
     wave = thousands(constant(wavefront, r"chunk_samples = (\d+);"))
     source(wavefront, r"wave_rays = chunk_samples;")
     waiting = constant(wavefront, r"deferred_waves = (\d+);")
-    tile = constant("simd/render.cpp", r"has_quality\s+\? Wavefront::max_region\s+: (\d+);")
+    tile = constant("simd/wavefront/render.cpp", r"has_quality\s+\? Wavefront::max_region\s+: (\d+);")
     quality_tile = constant(wavefront, r"max_region = (\d+);")
-    steps = constant("simd/tracing.hpp", r"longest_walk = (\d+);")
+    steps = constant("simd/query/tracing.hpp", r"longest_walk = (\d+);")
     source("simd/query/paths.hpp", "struct Paths {")
     source("simd/query/hits.hpp", "struct Hits {")
-    source("simd/trace_kernels.hpp", "struct Candidates {")
+    source("simd/units/trace_kernels.hpp", "struct Candidates {")
     drawing = Drawing(720, 600, "The life of a ray, with its queues", [
-        f"Numbers: {wavefront}, simd/tracing.hpp, simd/render.cpp.",
+        f"Numbers: {wavefront}, simd/query/tracing.hpp, simd/wavefront/render.cpp.",
         "Drawn by bench/drawings/make.py. Steps are numbered as in ARCHITECTURE.md.",
     ])
     left, middle, right = 16, 238, 486
@@ -631,7 +631,7 @@ def packet():
     F = np.float32
     size = constant("simd/kernel/traverse/frustum/packets.hpp", r"size = (\d+);")
     slack = F(2.0 ** -constant("simd/kernel/shapes/filter.hpp", r"slack_floor = 0x1p-(\d+)F;"))
-    culling = F(1 + 2.0 ** -constant("simd/trace_kernels.hpp", r"culling_slack = 1\.0F \+ 0x1p-(\d+)F;"))
+    culling = F(1 + 2.0 ** -constant("simd/units/trace_kernels.hpp", r"culling_slack = 1\.0F \+ 0x1p-(\d+)F;"))
     morton = r"even_bits\(code\)\),\s+static_cast<std::uint8_t>\(even_bits\(code >> 1\)\)"
     source("simd/wavefront/wavefront.cpp", morton)
     # 4 x 4 pixels in Morton order, rays along -z. A sphere of radius 5: 3^2 + 4^2 = 5^2 makes two of them tangents.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/peers/workload.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 
 #include <memory>
 

@@ -2,7 +2,7 @@
 
 #include "bench/peers/workload.hpp"
 #include "simd/stream/row_worker.hpp"
-#include "simd/stream_tracer.hpp"
+#include "simd/stream/stream_tracer.hpp"
 
 #include <algorithm>
 

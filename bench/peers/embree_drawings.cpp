@@ -1,7 +1,7 @@
 #include "bench/by_id.hpp"
 #include "bench/embree_scene.hpp"
 #include "bench/peers/measure.hpp"
-#include "simd/tracing.hpp"
+#include "simd/query/tracing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "bench/peers/contender.hpp"
-#include "simd/stream_tracer.hpp"
+#include "simd/stream/stream_tracer.hpp"
 
 namespace raylane::bench {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "simd/isa.hpp"
-#include "simd/render.hpp"
-#include "simd/scene_data.hpp"
+#include "simd/isa/isa.hpp"
+#include "simd/query/scene_data.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,5 +1,5 @@
 #include "bench/peers/measure.hpp"
-#include "simd/tracing.hpp"
+#include "simd/query/tracing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "core/optics/soft_light.hpp"
 #include "core/scene/camera_rays.hpp"
 #include "scenes/scene_file.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "simd/query/query.hpp"
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include "scenes/library/convert.hpp"
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"
-#include "simd/render.hpp"
-#include "simd/threads.hpp"
+#include "simd/threads/threads.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <algorithm>
 #include <mutex>

@@ -9,7 +9,7 @@
 #include "scenes/library/translate.hpp"
 #include "scenes/number.hpp"
 #include "scenes/scene_file.hpp"
-#include "simd/threads.hpp"
+#include "simd/threads/threads.hpp"
 
 #include <limits>
 #include <string>

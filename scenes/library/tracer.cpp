@@ -3,8 +3,8 @@
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"
 #include "simd/stream/row_worker.hpp"
-#include "simd/stream_tracer.hpp"
-#include "simd/threads.hpp"
+#include "simd/stream/stream_tracer.hpp"
+#include "simd/threads/threads.hpp"
 
 #include <string>
 #include <utility>

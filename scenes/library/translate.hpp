@@ -5,7 +5,7 @@
 #include "raylane/errors.hpp"
 #include "raylane/precision.hpp"
 #include "scenes/errors.hpp"
-#include "simd/default_rounding.hpp"
+#include "simd/threads/default_rounding.hpp"
 
 #include <utility>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <string_view>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simd/engine_counters.hpp"
-#include "simd/render.hpp"
+#include "simd/query/engine_counters.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <cstddef>
 #include <cstdint>

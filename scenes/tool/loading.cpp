@@ -4,7 +4,7 @@
 #include "scenes/errors.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/system.hpp"
-#include "simd/threads.hpp"
+#include "simd/threads/threads.hpp"
 
 #include <atomic>
 #include <cstdio>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenes/tool/options/scene_options.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <chrono>
 #include <condition_variable>

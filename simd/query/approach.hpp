@@ -2,7 +2,7 @@
 
 #include "core/shapes/ray.hpp"
 #include "simd/query/paths.hpp"
-#include "simd/scene_data.hpp"
+#include "simd/query/scene_data.hpp"
 
 namespace raylane::simd {
 

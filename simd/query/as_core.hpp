@@ -2,7 +2,7 @@
 
 #include "core/reference/origin_surfaces.hpp"
 #include "simd/query/hits.hpp"
-#include "simd/scene_data.hpp"
+#include "simd/query/scene_data.hpp"
 
 namespace raylane::simd {
 

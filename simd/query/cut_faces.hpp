@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/reference/solid_surfaces.hpp"
-#include "simd/cuts.hpp"
+#include "simd/query/clip_planes.hpp"
 
 #include <array>
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/optics/media.hpp"
-#include "simd/arena.hpp"
-#include "simd/kernels.hpp"
-#include "simd/scene_data.hpp"
+#include "simd/query/scene_data.hpp"
+#include "simd/threads/arena.hpp"
+#include "simd/units/kernels.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "simd/engine_counters.hpp"
 #include "simd/query/approach.hpp"
-#include "simd/tracing.hpp"
+#include "simd/query/engine_counters.hpp"
+#include "simd/query/tracing.hpp"
 
 namespace raylane::simd {
 

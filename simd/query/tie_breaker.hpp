@@ -2,7 +2,7 @@
 
 #include "core/reference/search.hpp"
 #include "simd/query/paths.hpp"
-#include "simd/tracing.hpp"
+#include "simd/query/tracing.hpp"
 
 #include <optional>
 

@@ -2,9 +2,9 @@
 
 #include "core/reference/rounding.hpp"
 #include "simd/query/paths.hpp"
+#include "simd/query/tracing.hpp"
 #include "simd/stream/shapes_by_name.hpp"
 #include "simd/stream/streams.hpp"
-#include "simd/tracing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 #include "core/reference/containing.hpp"
 #include "core/reference/path_lengths.hpp"
 #include "core/reference/solid_surfaces.hpp"
-#include "simd/arena.hpp"
 #include "simd/query/search.hpp"
 #include "simd/stream/intake.hpp"
 #include "simd/stream/rows.hpp"
+#include "simd/threads/arena.hpp"
 
 #include <span>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/scene_data.hpp"
+#include "simd/query/scene_data.hpp"
 
 #include <cstdint>
 #include <mutex>

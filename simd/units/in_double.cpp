@@ -1,7 +1,7 @@
 #include "simd/kernel/certify/in_double.hpp"
 
 #include "simd/kernel/traverse/one_way.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

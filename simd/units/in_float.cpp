@@ -1,6 +1,6 @@
 #include "simd/kernel/certify/plain.hpp"
 #include "simd/kernel/traverse/one_way.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

@@ -1,6 +1,6 @@
 #include "simd/kernel/certify/exact.hpp"
 #include "simd/kernel/traverse/traverse.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

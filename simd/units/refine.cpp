@@ -4,7 +4,7 @@
 #include "simd/kernel/certify/exact.hpp"
 #include "simd/kernel/certify/list_candidates.hpp"
 #include "simd/kernel/traverse/in_flight/all.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

@@ -1,6 +1,6 @@
 #include "simd/kernel/shade/shade.hpp"
 
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

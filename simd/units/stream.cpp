@@ -1,7 +1,7 @@
 #include "simd/kernel/stream/stream.hpp"
 
 #include "simd/kernel/traverse/prepare.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

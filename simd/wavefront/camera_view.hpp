@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/camera_rays.hpp"
-#include "simd/trace_kernels.hpp"
+#include "simd/units/trace_kernels.hpp"
 
 namespace raylane::simd {
 

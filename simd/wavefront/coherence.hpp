@@ -1,8 +1,8 @@
 #pragma once
 
-#include "simd/scene_data.hpp"
-#include "simd/shade_kernels.hpp"
-#include "simd/trace_kernels.hpp"
+#include "simd/query/scene_data.hpp"
+#include "simd/units/shade_kernels.hpp"
+#include "simd/units/trace_kernels.hpp"
 
 namespace raylane::simd {
 

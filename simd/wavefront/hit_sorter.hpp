@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simd/arena.hpp"
-#include "simd/scene_data.hpp"
+#include "simd/query/scene_data.hpp"
+#include "simd/threads/arena.hpp"
 
 #include <cstdint>
 #include <span>

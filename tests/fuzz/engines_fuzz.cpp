@@ -1,4 +1,4 @@
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/fuzz/shapes.hpp"
 
 #include <string>

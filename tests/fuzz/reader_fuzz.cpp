@@ -3,7 +3,7 @@
 #include "scenes/format.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/structure/structure_file.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <cstdint>
 #include <string>

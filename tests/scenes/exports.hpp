@@ -2,7 +2,7 @@
 
 #include "scenes/errors.hpp"
 #include "scenes/export/export.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <algorithm>
 #include <filesystem>

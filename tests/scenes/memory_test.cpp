@@ -2,7 +2,7 @@
 #include "scenes/generators.hpp"
 #include "scenes/json/reader.hpp"
 #include "scenes/scene_file.hpp"
-#include "simd/scene_data.hpp"
+#include "simd/query/scene_data.hpp"
 #include "tests/catch.hpp"
 #include "tests/replaced_heap.hpp"
 #include "tests/scenes/temporary_directory.hpp"

@@ -1,6 +1,6 @@
 #include "core/scene/transfer.hpp"
 #include "scenes/scene_file.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/places.hpp"
 #include "tests/scenes/shared_scene.hpp"

@@ -1,5 +1,5 @@
 #include "scenes/scene_file.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/places.hpp"
 #include "tests/scaled_scene.hpp"

@@ -1,5 +1,5 @@
 #include "core/scene/transfer.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/json_scenes.hpp"
 

@@ -1,5 +1,5 @@
-#include "simd/isa.hpp"
-#include "simd/stream_tracer.hpp"
+#include "simd/isa/isa.hpp"
+#include "simd/stream/stream_tracer.hpp"
 #include "simd/wavefront/wavefront.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"

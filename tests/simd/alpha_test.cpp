@@ -1,5 +1,5 @@
-#include "simd/isa.hpp"
-#include "simd/render.hpp"
+#include "simd/isa/isa.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/sanitized.hpp"

@@ -1,5 +1,5 @@
 #include "core/reference/tracer.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "simd/query/as_core.hpp"
 #include "simd/query/transparency_walk.hpp"
 #include "tests/catch.hpp"

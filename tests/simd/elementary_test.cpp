@@ -1,6 +1,6 @@
 #include "core/numbers/elementary.hpp"
-#include "simd/by_isa.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/by_isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "tests/catch.hpp"
 #include "tests/simd/elementary_check.hpp"
 

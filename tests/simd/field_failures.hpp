@@ -4,7 +4,7 @@
 #include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "core/shapes/types.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/oracle.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 #include <cstddef>
 

@@ -2,8 +2,8 @@
 
 #include "core/shapes/shape_table.hpp"
 #include "core/shapes/solve.hpp"
-#include "simd/by_isa.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/by_isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "tests/random.hpp"
 #include "tests/simd/filter_check.hpp"
 

@@ -1,4 +1,4 @@
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "tests/simd/traced.hpp"
 
 using namespace raylane;

@@ -1,5 +1,5 @@
 #include "core/hierarchy/hierarchy.hpp"
-#include "simd/threads.hpp"
+#include "simd/threads/threads.hpp"
 #include "tests/catch.hpp"
 #include "tests/shapes/shapes.hpp"
 

@@ -1,5 +1,5 @@
-#include "simd/by_isa.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/by_isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "tests/bounded_truth.hpp"
 #include "tests/catch.hpp"
 #include "tests/simd/bounded_lanes.hpp"

@@ -1,6 +1,6 @@
 #include "core/scene/camera_rays.hpp"
 #include "core/shapes/invalid_value.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 

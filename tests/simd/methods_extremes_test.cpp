@@ -1,5 +1,5 @@
 #include "core/shapes/invalid_value.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "tests/placing.hpp"
 #include "tests/shapes/shapes.hpp"
 #include "tests/simd/method_round.hpp"

@@ -1,4 +1,4 @@
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/simd/method_round.hpp"
 #include "tests/simd/rounds.hpp"

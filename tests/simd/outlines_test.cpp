@@ -1,5 +1,5 @@
 #include "core/shapes/invalid_value.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 

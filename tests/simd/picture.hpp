@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simd/isa.hpp"
-#include "simd/render.hpp"
+#include "simd/isa/isa.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/random.hpp"

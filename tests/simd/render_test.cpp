@@ -1,6 +1,6 @@
 #include "core/shapes/invalid_value.hpp"
-#include "simd/render.hpp"
-#include "simd/tiles.hpp"
+#include "simd/wavefront/render.hpp"
+#include "simd/wavefront/tiles.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "simd/kernel/lanes/doubles.hpp"
 #include "simd/kernel/shapes/crossings.hpp"
-#include "simd/scene_view.hpp"
+#include "simd/units/scene_view.hpp"
 #include "tests/simd/scaled_filters.hpp"
 
 // Includes the filters' headers in another namespace.

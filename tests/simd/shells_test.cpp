@@ -1,6 +1,6 @@
 #include "core/scene/camera_rays.hpp"
-#include "simd/isa.hpp"
-#include "simd/render.hpp"
+#include "simd/isa/isa.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/oracle.hpp"

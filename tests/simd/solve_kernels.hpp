@@ -1,8 +1,8 @@
 #pragma once
 
-#include "simd/by_isa.hpp"
-#include "simd/isa.hpp"
-#include "simd/kernels.hpp"
+#include "simd/isa/by_isa.hpp"
+#include "simd/isa/isa.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

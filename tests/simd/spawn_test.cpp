@@ -1,5 +1,5 @@
 #include "core/optics/optics.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "simd/query/as_core.hpp"
 #include "simd/wavefront/shadow_tracer.hpp"
 #include "tests/catch.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/stream_tracer.hpp"
+#include "simd/stream/stream_tracer.hpp"
 #include "tests/catch.hpp"
 
 #include <bit>

@@ -1,4 +1,4 @@
-#include "simd/threads.hpp"
+#include "simd/threads/threads.hpp"
 #include "tests/catch.hpp"
 #include "tests/comes_true.hpp"
 #include "tests/sanitized.hpp"

@@ -1,5 +1,5 @@
-#include "simd/isa.hpp"
-#include "simd/stream_tracer.hpp"
+#include "simd/isa/isa.hpp"
+#include "simd/stream/stream_tracer.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/simd/traced.hpp"
 

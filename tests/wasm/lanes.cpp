@@ -1,8 +1,8 @@
 #include "core/numbers/vector.hpp"
 #include "scenes/number.hpp"
 #include "scenes/scene_file.hpp"
-#include "simd/render.hpp"
-#include "simd/stream_tracer.hpp"
+#include "simd/stream/stream_tracer.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "scenes/tool/image_texts.hpp"
 #include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/ranks/job.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <exception>
 #include <memory>

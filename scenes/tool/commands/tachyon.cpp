@@ -4,8 +4,8 @@
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/options/option.hpp"
 #include "scenes/tool/progress_bar.hpp"
-#include "simd/render.hpp"
-#include "simd/threads.hpp"
+#include "simd/threads/threads.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -7,9 +7,9 @@
 #include "scenes/tool/ranks/job.hpp"
 #include "scenes/tool/ranks/shared_work.hpp"
 #include "scenes/tool/trace/ray_file.hpp"
-#include "simd/render.hpp"
-#include "simd/stream_tracer.hpp"
-#include "simd/threads.hpp"
+#include "simd/stream/stream_tracer.hpp"
+#include "simd/threads/threads.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -3,7 +3,7 @@
 #include "scenes/format.hpp"
 #include "scenes/number.hpp"
 #include "scenes/structure/drawing.hpp"
-#include "simd/threads.hpp"
+#include "simd/threads/threads.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "core/scene/surroundings.hpp"
 #include "scenes/errors.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <filesystem>
 #include <functional>

@@ -3,7 +3,7 @@
 #include "scenes/image/writer.hpp"
 #include "scenes/tool/image_texts.hpp"
 #include "scenes/tool/options/scene_options.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <memory>
 #include <string>

@@ -4,7 +4,7 @@
 #include "scenes/number.hpp"
 #include "scenes/tool/options/option.hpp"
 #include "scenes/tool/progress_bar.hpp"
-#include "simd/threads.hpp"
+#include "simd/threads/threads.hpp"
 
 #include <algorithm>
 #include <atomic>

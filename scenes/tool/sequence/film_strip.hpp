@@ -3,7 +3,7 @@
 #include "scenes/tool/options/render_options.hpp"
 #include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/sequence/scene_source.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include <functional>
 #include <memory>

@@ -3,7 +3,7 @@
 #include "core/scene/camera_rays.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
-#include "simd/stream_tracer.hpp"
+#include "simd/stream/stream_tracer.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 #include "simd/kernel/certify/slots.hpp"
 #include "simd/kernel/certify/solve.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

@@ -4,7 +4,7 @@
 #include "simd/kernel/certify/slots.hpp"
 #include "simd/kernel/shapes/certified_solver.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 #include <type_traits>
 

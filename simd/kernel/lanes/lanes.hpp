@@ -4,7 +4,7 @@
 #if defined(__AVX512F__) && !defined(_mm512_rsqrt23_ps)
 #define _mm512_rsqrt23_ps _mm512_rsqrt14_ps
 #endif
-#include "simd/isa_name.hpp"
+#include "simd/isa/isa_name.hpp"
 #include "simd/kernel/lanes/portable.hpp"
 
 #include <xsimd/xsimd.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/kernel/lanes/vectors.hpp"
-#include "simd/shade_kernels.hpp"
+#include "simd/units/shade_kernels.hpp"
 
 namespace raylane::simd {
 

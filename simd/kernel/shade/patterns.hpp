@@ -2,7 +2,7 @@
 
 #include "simd/kernel/lanes/elementary.hpp"
 #include "simd/kernel/lanes/vectors.hpp"
-#include "simd/shade_kernels.hpp"
+#include "simd/units/shade_kernels.hpp"
 
 /// Same patterns as core/scene/pattern.hpp, per lane.
 namespace raylane::simd {

@@ -3,7 +3,7 @@
 #include "core/numbers/sample_sequence.hpp"
 #include "simd/kernel/shade/optics.hpp"
 #include "simd/kernel/shade/patterns.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/kernel/lanes/vectors.hpp"
-#include "simd/scene_view.hpp"
+#include "simd/units/scene_view.hpp"
 
 namespace raylane::simd {
 

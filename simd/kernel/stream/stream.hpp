@@ -4,7 +4,7 @@
 #include "simd/kernel/lanes/doubles.hpp"
 #include "simd/kernel/lanes/vectors.hpp"
 #include "simd/kernel/traverse/rays.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

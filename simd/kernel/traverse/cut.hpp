@@ -3,9 +3,9 @@
 #include "simd/kernel/shapes/shapes.hpp"
 #include "simd/kernel/traverse/rays.hpp"
 
-/// Clipping of the parts of solids. The half-spaces of a cut (CutView) remove the crossings of the
-/// parts that they cut on their outer side. If float arithmetic is certain of this, no ray stops
-/// there.
+/// Clipping of the parts of solids. The half-spaces of a cut (ClipPlanesView) remove the crossings
+/// of the parts that they cut on their outer side. If float arithmetic is certain of this, no ray
+/// stops there.
 namespace raylane::simd {
 
 /// True if a method's filters evaluate cuts. Otherwise rays stop at surfaces that are cut away, and
@@ -61,7 +61,7 @@ class Removed {
     /// Calls crossed(slot, rays as bits) for each face with a deferred test that `possible` rays
     /// may cross between the first crossing and the last.
     template <class Crossed = NoCrossedFaces>
-    [[gnu::always_inline]] Removed(const CutView& cut, const CutRays<Arch>& of,
+    [[gnu::always_inline]] Removed(const ClipPlanesView& cut, const CutRays<Arch>& of,
                                    const Chord<Arch>& where, const M& possible = all<Arch>(),
                                    const Crossed& crossed = {})
         : entry(none<Arch>()), chord(none<Arch>()) {
@@ -95,18 +95,19 @@ class Removed {
         Vectors<Arch> point;
         F error;
 
-        [[gnu::always_inline]] Place(const CutView& cut, const FilterRays<Arch>& rays, const F& t)
+        [[gnu::always_inline]] Place(const ClipPlanesView& cut, const FilterRays<Arch>& rays,
+                                     const F& t)
             : point(fast_mul_add<Arch>(t, rays.direction, rays.origin)) {
             const Vectors<Arch>& o = rays.origin;
             const F size = abs(o.x) + abs(o.y) + abs(o.z) + t + F(cut.size);
             error = fast_mul_add<Arch>(F(24 * half_ulp), size, rays.slack + rays.slack);
         }
-        [[gnu::always_inline]] F outside(const CutView& cut, int k) const {
+        [[gnu::always_inline]] F outside(const ClipPlanesView& cut, int k) const {
             const Vectors<Arch> normal = {F(cut.normal[0][k]), F(cut.normal[1][k]),
                                           F(cut.normal[2][k])};
             return fast_dot(normal, point, F(-cut.offset[k]));
         }
-        [[gnu::always_inline]] M is_outside(const CutView& cut, int k) const {
+        [[gnu::always_inline]] M is_outside(const ClipPlanesView& cut, int k) const {
             return outside(cut, k) > error;
         }
     };
@@ -140,7 +141,7 @@ template <class Arch, class Filter>
 /// for faces with deferred tests that may be crossed within the part.
 template <class Arch, class Filter, class Crossed = NoCrossedFaces>
 [[gnu::always_inline]] inline Bounds<Arch>
-bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const CutView& cut,
+bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const ClipPlanesView& cut,
               const Crossed& crossed = {}) {
     using F = Floats<Arch>;
     Bounds<Arch> bounds = filter.bounds(rays.rays);
@@ -172,9 +173,9 @@ bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const CutView& cu
 
 /// True where rays may cross a part that is cut, or a cut inside of it, before t.
 template <class Arch, class Filter>
-[[gnu::always_inline]] inline Mask<Arch> may_cross_cut(const Filter& filter,
-                                                       const CutRays<Arch>& rays,
-                                                       const CutView& cut, const Floats<Arch>& t) {
+[[gnu::always_inline]] inline Mask<Arch>
+may_cross_cut(const Filter& filter, const CutRays<Arch>& rays, const ClipPlanesView& cut,
+              const Floats<Arch>& t) {
     Mask<Arch> possible = filter.bounds(rays.rays).possible;
     if constexpr (has_chord<Filter, FilterRays<Arch>>) {
         if (Lanes<Arch>::bits(possible) == 0) return possible;
@@ -187,7 +188,8 @@ template <class Arch, class Filter>
 
 /// Returns the cut of a slot's block, or null if the block is not cut.
 template <class Method>
-[[gnu::always_inline]] inline const CutView* cut_of(const SceneView& scene, std::uint32_t slot) {
+[[gnu::always_inline]] inline const ClipPlanesView* cut_of(const SceneView& scene,
+                                                           std::uint32_t slot) {
     if constexpr (!knows_cuts<Method>) return nullptr;
     if (scene.cut_of_block == nullptr || scene.cut_of_block[slot / 16] == 0) [[likely]]
         return nullptr;

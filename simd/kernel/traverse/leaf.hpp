@@ -65,7 +65,7 @@ struct Leaf : Streams<Arch> {
 
     /// Finds the shapes that may be crossed before `second`, where `cut` does not remove them.
     template <class Filter, class Lanes16>
-    [[gnu::always_inline]] static void find(const Lanes16& block, const CutView* cut,
+    [[gnu::always_inline]] static void find(const Lanes16& block, const ClipPlanesView* cut,
                                             const RoundedRays& rays, std::size_t i, float second,
                                             LeafHits& hits) {
         const typename Method::Rays ray = Method::broadcast(rays, i);
@@ -88,7 +88,7 @@ struct Leaf : Streams<Arch> {
     template <class Filter>
     [[gnu::always_inline]] static Bounds<Arch>
     bounds_of(const Filter& filter, const typename Method::Rays& ray, const RoundedRays& rays,
-              std::size_t i, const CutView* cut) {
+              std::size_t i, const ClipPlanesView* cut) {
         if constexpr (knows_cuts<Method>)
             if (cut != nullptr) return bounds_of_cut<Arch>(filter, to_cut(ray, rays, i), *cut);
         return filter.bounds(ray);
@@ -120,7 +120,7 @@ struct Leaf : Streams<Arch> {
         const std::uint32_t slot = table.first_slot + 16 * number;
         const std::uint32_t plain = S::plain_lanes(scene, slot);
         const std::uint32_t counts = knows_cuts<Method> ? ~S::only_cut_lanes(scene, slot) : ~0U;
-        const CutView* cut = cut_of<Method>(scene, slot);
+        const ClipPlanesView* cut = cut_of<Method>(scene, slot);
         std::uint8_t state = unblocked;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             const Filter filter(block.reader(from));

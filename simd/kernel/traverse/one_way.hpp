@@ -3,7 +3,7 @@
 #include "simd/kernel/traverse/every_shape/every_shape.hpp"
 #include "simd/kernel/traverse/in_flight/nearest.hpp"
 #include "simd/kernel/traverse/in_flight/occluded.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

@@ -3,7 +3,7 @@
 #include "simd/kernel/lanes/short_lanes.hpp"
 #include "simd/kernel/shapes/filter.hpp"
 #include "simd/kernel/traverse/rays.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 namespace raylane::simd {
 

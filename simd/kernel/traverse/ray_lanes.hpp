@@ -48,7 +48,7 @@ struct LaneCandidates {
     /// Updates the candidates with one shape. `crossed` is as in bounds_of_cut().
     template <class Filter, class Method, class Crossed = NoCrossedFaces>
     [[gnu::always_inline]] void
-    test(const Filter& filter, std::uint32_t id, std::uint32_t this_slot, const CutView* cut,
+    test(const Filter& filter, std::uint32_t id, std::uint32_t this_slot, const ClipPlanesView* cut,
          const RayLanes<Arch, Method>& packet, const Crossed& crossed = {}) {
         if constexpr (sifts_packets<Filter, typename Method::Rays>)
             if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
@@ -92,9 +92,9 @@ struct LaneOcclusions {
 
     /// Updates the occlusions with one shape, for the rays in `asked`.
     template <class Filter, class Method>
-    [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, bool plain,
-                                     const CutView* cut, const RayLanes<Arch, Method>& packet,
-                                     std::uint32_t asked = ~0U) {
+    [[gnu::always_inline]] void
+    test(const Filter& filter, std::uint32_t id, bool plain, const ClipPlanesView* cut,
+         const RayLanes<Arch, Method>& packet, std::uint32_t asked = ~0U) {
         asked &= Lanes<Arch>::bits(packet.elsewhere(id));
         if (asked == 0) return;
         if constexpr (sifts_packets<Filter, typename Method::Rays>)

@@ -2,7 +2,7 @@
 
 #include "simd/kernel/shapes/packed_spheres.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
-#include "simd/trace_kernels.hpp"
+#include "simd/units/trace_kernels.hpp"
 
 namespace raylane::simd {
 

@@ -3,9 +3,9 @@
 #include "core/scene/validate.hpp"
 #include "core/shapes/shapes.hpp"
 #include "scenes/library/internals.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "simd/stream/row_worker.hpp"
-#include "simd/stream_tracer.hpp"
+#include "simd/stream/stream_tracer.hpp"
 
 #include <algorithm>
 #include <array>

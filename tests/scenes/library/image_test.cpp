@@ -1,7 +1,7 @@
 #include "raylane/raylane.hpp"
 #include "scenes/image/reader.hpp"
 #include "scenes/library/internals.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"

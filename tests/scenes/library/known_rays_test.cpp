@@ -1,5 +1,5 @@
 #include "scenes/library/internals.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/library/exam.hpp"
 

@@ -1,7 +1,7 @@
 #include "scenes/export/export.hpp"
 #include "scenes/export/writers.hpp"
 #include "scenes/scene_file.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/places.hpp"
 #include "tests/scenes/json_scenes.hpp"

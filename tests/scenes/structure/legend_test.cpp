@@ -1,6 +1,6 @@
 #include "scenes/errors.hpp"
 #include "scenes/scene_file.hpp"
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 
 #include <string>

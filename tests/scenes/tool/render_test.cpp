@@ -1,5 +1,5 @@
 #include "scenes/image/reader.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
 

@@ -77,7 +77,7 @@ class InFlightNearest : InFlight<Arch, Method> {
     template <class Filter>
     [[gnu::always_inline]] void all(Flight& flight, const TableView& table) const {
         const std::uint32_t number = flight.child & child_index;
-        const CutView* cut = cut_of<Method>(scene_, table.first_slot + 16 * number);
+        const ClipPlanesView* cut = cut_of<Method>(scene_, table.first_slot + 16 * number);
         S::template with_lanes<Filter>(table, number, [&](const auto& block) {
             Leaf<Arch, Method>::template find<Filter>(block, cut, rays_, flight.i,
                                                       flight.best.second, flight.hits);

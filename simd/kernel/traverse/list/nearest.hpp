@@ -197,7 +197,7 @@ class ListNearest : Streams<Arch> {
                                      const float* block, std::size_t i) const {
         Best& best = records_[i].best;
         LeafHits hits;
-        const CutView* cut = cut_of<Method>(scene_, table.first_slot + 16 * number);
+        const ClipPlanesView* cut = cut_of<Method>(scene_, table.first_slot + 16 * number);
         Leaf<Arch, Method>::template find<Filter>(PlainLanes<Arch>(table, block), cut, rays_, i,
                                                   best.second, hits);
         if (hits.lanes != 0) Leaf<Arch, Method>::take(hits, table.first_slot + 16 * number, best);

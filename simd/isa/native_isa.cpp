@@ -1,4 +1,4 @@
-#include "simd/processor.hpp"
+#include "simd/isa/processor.hpp"
 
 #include <cstdio>
 

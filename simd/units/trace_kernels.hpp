@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/scene_view.hpp"
+#include "simd/units/scene_view.hpp"
 
 #include <cstddef>
 #include <cstdint>

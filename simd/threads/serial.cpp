@@ -1,5 +1,5 @@
-#include "simd/default_rounding.hpp"
-#include "simd/threads.hpp"
+#include "simd/threads/default_rounding.hpp"
+#include "simd/threads/threads.hpp"
 
 /// Implements threads.hpp without oneTBB, on the caller's thread alone.
 namespace raylane::simd {

@@ -1,7 +1,7 @@
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
-#include "simd/by_isa.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/by_isa.hpp"
+#include "simd/isa/isa.hpp"
 
 namespace raylane::simd {
 

@@ -53,7 +53,7 @@ struct NodeView {
 
 /// Half-spaces that cut a union (its clip planes), in groups. Nothing of the union is left at
 /// points that are outside of all half-spaces of one group.
-struct CutView {
+struct ClipPlanesView {
     static constexpr int most = 16;
     float normal[3][most]; ///< outward, of length 1 except for rounding
     float offset[most];    ///< outside, normal . point is larger
@@ -87,7 +87,7 @@ struct SceneView {
     /// not cut. Null: no shape is cut. Cut shapes are never plain lanes. Cut quadrics have no
     /// quadratic part.
     const std::uint16_t* cut_of_block;
-    const CutView* cuts;
+    const ClipPlanesView* cuts;
     /// Element slot / 16: lanes of shapes that only cut. Rays that start outside of their solid may
     /// be blocked by others wherever these block them. Null: no such lanes.
     const std::uint16_t* only_cut_lanes;

@@ -1,13 +1,13 @@
-#include "simd/render.hpp"
+#include "simd/wavefront/render.hpp"
 
 #include "core/optics/spectrum.hpp"
 #include "core/reference/tracer.hpp"
 #include "core/scene/validate.hpp"
-#include "simd/default_rounding.hpp"
 #include "simd/layers/first_hits.hpp"
 #include "simd/layers/outlines.hpp"
-#include "simd/per_thread.hpp"
-#include "simd/threads.hpp"
+#include "simd/threads/default_rounding.hpp"
+#include "simd/threads/per_thread.hpp"
+#include "simd/threads/threads.hpp"
 #include "simd/wavefront/wavefront.hpp"
 
 #include <algorithm>

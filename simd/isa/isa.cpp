@@ -1,7 +1,7 @@
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
 
-#include "simd/built_isas.hpp"
-#include "simd/processor.hpp"
+#include "simd/isa/built_isas.hpp"
+#include "simd/isa/processor.hpp"
 
 #include <algorithm>
 #include <iterator>

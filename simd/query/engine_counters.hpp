@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/reference/counters.hpp"
-#include "simd/trace_kernels.hpp"
+#include "simd/units/trace_kernels.hpp"
 
 #include <array>
 #include <bit>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/shapes/precision.hpp"
-#include "simd/kernels.hpp"
+#include "simd/units/kernels.hpp"
 
 #include <iterator>
 

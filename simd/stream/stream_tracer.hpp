@@ -1,12 +1,12 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "simd/isa.hpp"
+#include "simd/isa/isa.hpp"
+#include "simd/query/tracing.hpp"
 #include "simd/stream/pool.hpp"
 #include "simd/stream/rows.hpp"
 #include "simd/stream/shapes_by_name.hpp"
 #include "simd/stream/streams.hpp"
-#include "simd/tracing.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "simd/cuts.hpp"
+#include "simd/query/clip_planes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -135,7 +135,7 @@ class Collector {
     }
 
     void add_group(std::vector<HalfSpace> group) {
-        if (group.empty() || cut_.by.size() + group.size() > CutView::most) {
+        if (group.empty() || cut_.by.size() + group.size() > ClipPlanesView::most) {
             cut_.is_all = false;
             return;
         }
@@ -148,8 +148,8 @@ class Collector {
     CutUnion cut_{};
 };
 
-CutView view_of(const CutUnion& cut) {
-    CutView view{};
+ClipPlanesView view_of(const CutUnion& cut) {
+    ClipPlanesView view{};
     for (const HalfSpace& half : cut.by) {
         const int k = view.count++;
         for (int axis = 0; axis < 3; ++axis)
@@ -167,7 +167,7 @@ CutView view_of(const CutUnion& cut) {
 
 } // namespace
 
-void Cuts::find(const core::Scene& scene, SceneView& view, std::uint32_t slots) {
+void ClipPlanes::find(const core::Scene& scene, SceneView& view, std::uint32_t slots) {
     constexpr std::uint16_t cuts_nothing = 1;
     const Solids& solids = scene.solids();
     number_.resize(solids.nodes().size());
@@ -247,7 +247,7 @@ void Cuts::find(const core::Scene& scene, SceneView& view, std::uint32_t slots) 
 /// Marks the faces whose clip tests are deferred (SceneView::deferred_lanes). The test of a face is
 /// not deferred if a part of the union that it cuts shares a block with shapes outside of the
 /// union, because the cut is not known there.
-void Cuts::let_faces_wait(const core::Scene& scene) {
+void ClipPlanes::let_faces_wait(const core::Scene& scene) {
     const Solids& solids = scene.solids();
     const auto for_each_lane = [&](const auto& visit) {
         std::uint32_t slot = 0;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "simd/scene_view.hpp"
+#include "simd/units/scene_view.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -16,7 +16,7 @@ struct HalfSpace {
     core::ShapeId shape; ///< that has it as a face; no_shape - 1 if rays cross no such shape
     bool stays; ///< a ray that starts on the shape and is outside later has been outside since its
                 ///< start
-    bool ends_group; ///< as in CutView
+    bool ends_group; ///< as in ClipPlanesView
 };
 
 /// Union of many parts that is cut, and its clip planes: the half-spaces that cut it.
@@ -29,7 +29,7 @@ struct CutUnion {
 /// Finds the clip planes of unions of many parts, and owns them in the kernels' format. A union is
 /// cut by planes and boxes beside it in an intersection, or beside an intersection that contains
 /// it.
-class Cuts {
+class ClipPlanes {
   public:
     /// Completes `view`, whose tables must be set. The view then refers to this object.
     void find(const core::Scene& scene, SceneView& view, std::uint32_t slots);
@@ -47,7 +47,7 @@ class Cuts {
     void let_faces_wait(const core::Scene& scene);
 
     std::vector<CutUnion> unions_;
-    std::vector<CutView> views_;
+    std::vector<ClipPlanesView> views_;
     std::vector<std::uint16_t> number_; // index in unions_ by node of the solids; 0: not cut
     std::vector<std::uint16_t> cut_by_; // the same of the union that a part cuts, if it only cuts
     std::vector<std::uint16_t> of_block_;

@@ -2,10 +2,10 @@
 
 #include "core/optics/media.hpp"
 #include "core/scene/scene.hpp"
-#include "simd/cuts.hpp"
-#include "simd/kernels.hpp"
-#include "simd/shade_kernels.hpp"
-#include "simd/trace_kernels.hpp"
+#include "simd/query/clip_planes.hpp"
+#include "simd/units/kernels.hpp"
+#include "simd/units/shade_kernels.hpp"
+#include "simd/units/trace_kernels.hpp"
 
 #include <limits>
 #include <vector>
@@ -50,11 +50,11 @@ class SceneData {
     /// Returns true if some crossings are not on a visible surface: those with surfaces that are
     /// visible from one side only, and with parts within solids.
     bool looks_through() const { return one_sided_ || scene_.solids().any(); }
-    /// See Cuts::cuts.
-    bool is_cut(core::Solids::Index of_many) const { return cuts_.cuts(of_many); }
-    /// See Cuts::cut_by.
+    /// See ClipPlanes::cuts.
+    bool is_cut(core::Solids::Index of_many) const { return clip_planes_.cuts(of_many); }
+    /// See ClipPlanes::cut_by.
     const CutUnion* cut_by(core::ShapeId id) const {
-        return cuts_.cut_by(scene_.solids().part_of(id));
+        return clip_planes_.cut_by(scene_.solids().part_of(id));
     }
     /// See SceneView::only_cut_lanes.
     bool only_cuts(std::uint32_t slot) const {
@@ -145,7 +145,7 @@ class SceneData {
     SceneView view_{};
     std::vector<ShapeRecord> records_; // by slot; empty in large scenes
     std::vector<std::uint16_t> plain_lanes_;
-    Cuts cuts_;
+    ClipPlanes clip_planes_;
     std::vector<std::uint64_t> orders_;
     std::vector<MaterialView> materials_;
     std::vector<Medium> media_; // empty space, then the inside of each material

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/built_isas.hpp" // made by CMake: Isa built_isas[]
+#include "simd/isa/built_isas.hpp" // made by CMake: Isa built_isas[]
 
 #include <cstddef>
 #include <iterator>

@@ -1,7 +1,7 @@
-#include "simd/threads.hpp"
+#include "simd/threads/threads.hpp"
 
 #include "core/shapes/invalid_value.hpp"
-#include "simd/default_rounding.hpp"
+#include "simd/threads/default_rounding.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "simd/isa_name.hpp"
-#include "simd/scene_view.hpp"
-#include "simd/shade_kernels.hpp"
-#include "simd/stream_kernels.hpp"
-#include "simd/trace_kernels.hpp"
+#include "simd/isa/isa_name.hpp"
+#include "simd/units/scene_view.hpp"
+#include "simd/units/shade_kernels.hpp"
+#include "simd/units/stream_kernels.hpp"
+#include "simd/units/trace_kernels.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "simd/scene_data.hpp"
+#include "simd/query/scene_data.hpp"
 
 #include "core/reference/containing.hpp"
 #include "core/shapes/rounded_to_floats.hpp"
@@ -163,7 +163,7 @@ SceneData::SceneData(const core::Scene& scene, Transmissive transmissive)
     fill_records();
     view_hierarchy();
     find_plain_lanes(transmissive);
-    cuts_.find(scene_, view_, slots_);
+    clip_planes_.find(scene_, view_, slots_);
 }
 
 void SceneData::view_surroundings() {

@@ -4,9 +4,9 @@
 #include "core/scene/layers.hpp"
 #include "core/scene/scene.hpp"
 #include "core/shapes/precision.hpp"
-#include "simd/engine_counters.hpp"
-#include "simd/isa.hpp"
-#include "simd/tiles.hpp"
+#include "simd/isa/isa.hpp"
+#include "simd/query/engine_counters.hpp"
+#include "simd/wavefront/tiles.hpp"
 
 #include <atomic>
 #include <chrono>

@@ -1,6 +1,6 @@
-#include "simd/tiles.hpp"
+#include "simd/wavefront/tiles.hpp"
 
-#include "simd/threads.hpp"
+#include "simd/threads/threads.hpp"
 
 #include <cmath>
 #include <numeric>

@@ -1,9 +1,9 @@
-#include "simd/stream_tracer.hpp"
+#include "simd/stream/stream_tracer.hpp"
 
-#include "simd/default_rounding.hpp"
 #include "simd/stream/row_worker.hpp"
 #include "simd/stream/worker.hpp"
-#include "simd/threads.hpp"
+#include "simd/threads/default_rounding.hpp"
+#include "simd/threads/threads.hpp"
 
 #include <algorithm>
 #include <mutex>
