@@ -6,14 +6,14 @@
 /// Implements png.hpp and inflater.hpp without libpng and zlib.
 namespace raylane::scenes {
 
-void write_png(AtomicFile& file, const core::Film& film, const PictureOptions& options) {
+void write_png(AtomicFile& file, const core::Film& film, const ImageOptions& options) {
     static_cast<void>(film), static_cast<void>(options);
     throw BadInput(file.name(), "", "must not be PNG: raylane was built without libpng");
 }
 
 void read_png(ByteSource& source, Image& image) {
     static_cast<void>(source), static_cast<void>(image);
-    throw MalformedPicture("must not be PNG: raylane was built without libpng");
+    throw MalformedImage("must not be PNG: raylane was built without libpng");
 }
 
 struct Inflater::State {};

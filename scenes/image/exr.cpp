@@ -6,7 +6,7 @@
 
 namespace raylane::scenes {
 
-ExrPicture read_own_exr(const std::filesystem::path& path) {
+ExrImage read_own_exr(const std::filesystem::path& path) {
     InputFile file(path);
     return read_own_exr(file);
 }
@@ -21,16 +21,16 @@ bool has_exr() {
     return false;
 }
 
-std::string exr_of(const core::Film&, const core::Layers*, const PictureOptions&) {
+std::string exr_of(const core::Film&, const core::Layers*, const ImageOptions&) {
     throw BadInput("OpenEXR", "", "is not supported: raylane was built without libopenexr-dev");
 }
 
-ExrPicture read_own_exr(InputFile& file) {
+ExrImage read_own_exr(InputFile& file) {
     throw BadInput(file.name(), "", "cannot be read: raylane was built without libopenexr-dev");
 }
 
 void read_exr(ByteSource&, Image&) {
-    throw MalformedPicture(
+    throw MalformedImage(
         "must be a PNG, HDR or PFM image, got an EXR: raylane was built without libopenexr-dev");
 }
 
@@ -76,7 +76,7 @@ class MemoryOut : public Imf::OStream {
     std::size_t at_ = 0;
 };
 
-/// Throws MalformedPicture if an attribute claims to be larger than the rest of the file. OpenEXR
+/// Throws MalformedImage if an attribute claims to be larger than the rest of the file. OpenEXR
 /// allocates the claimed size before it reads.
 void check_attributes(std::string_view bytes) {
     constexpr std::size_t head = 8; // magic number and version
@@ -106,7 +106,7 @@ class MemoryIn : public Imf::IStream {
 
     bool read(char* bytes, int count) override {
         if (count < 0 || at_ > bytes_.size() || bytes_.size() - at_ < std::size_t(count))
-            throw MalformedPicture("");
+            throw MalformedImage("");
         std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), count, bytes);
         at_ += static_cast<std::size_t>(count);
         return at_ < bytes_.size();
@@ -180,7 +180,7 @@ void add_layers(const core::Layers& layers, Channels& channels) {
     channels.add("samples", Imf::UINT, layers.samples.data());
 }
 
-void add_attributes(const PictureOptions& options, Imf::Header& header) {
+void add_attributes(const ImageOptions& options, Imf::Header& header) {
     if (options.dpi) Imf::addXDensity(header, *options.dpi);
     for (const auto& [name, content] : options.texts) {
         // OpenEXR's standard name
@@ -213,17 +213,17 @@ std::vector<std::pair<std::string, std::string>> texts_of(const Imf::Header& hea
     return texts;
 }
 
-/// Throws MalformedPicture if a channel is missing or subsampled. Call it before memory for pixels
+/// Throws MalformedImage if a channel is missing or subsampled. Call it before memory for pixels
 /// is allocated. OpenEXR fills a missing channel with black, and a small file with a subsampled
 /// channel may claim a large window.
 void require_channels(const Imf::Header& header, const std::vector<const char*>& names) {
     for (const char* name : names)
         if (header.channels().findChannel(name) == nullptr)
-            throw MalformedPicture("must be an EXR with channels R, G and B, or Y, got none \"" +
-                                   std::string(name) + "\"");
+            throw MalformedImage("must be an EXR with channels R, G and B, or Y, got none \"" +
+                                 std::string(name) + "\"");
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
         if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
-            throw MalformedPicture("must be an EXR whose channels have a sample for each pixel");
+            throw MalformedImage("must be an EXR whose channels have a sample for each pixel");
 }
 
 /// Reads the pixels of the display window. The file's data window may be larger or smaller.
@@ -302,7 +302,7 @@ bool is_text(const Imf::Attribute& attribute, std::string_view name) {
            std::all_of(name.begin(), name.end(), [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-/// Throws MalformedPicture with an empty text for a file that exr_of() cannot have written.
+/// Throws MalformedImage with an empty text for a file that exr_of() cannot have written.
 void require_own_header(const Imf::InputFile& file) {
     constexpr std::string_view written[] = {
         "channels",         "compression",        "dataWindow",        "displayWindow", "lineOrder",
@@ -319,10 +319,10 @@ void require_own_header(const Imf::InputFile& file) {
                             is_text(attribute.attribute(), attribute.name()));
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
         is_own = is_own && has(written_channels, channel.name());
-    if (!is_own) throw MalformedPicture("");
+    if (!is_own) throw MalformedImage("");
 }
 
-ExrPicture read_own(Imf::InputFile& file) {
+ExrImage read_own(Imf::InputFile& file) {
     require_own_header(file);
     const Imath::Box2i shown = file.header().displayWindow();
     if (file.header().dataWindow() != shown || shown.min != Imath::V2i(0, 0) || !file.isComplete())
@@ -331,7 +331,7 @@ ExrPicture read_own(Imf::InputFile& file) {
     check_size(width, height);
     require_channels(file.header(), {"R", "G", "B"});
     ChannelReader reader(file, width);
-    ExrPicture picture;
+    ExrImage picture;
     picture.film = core::Film(width, height, reader.has("A"));
     const char* const colors[] = {"R", "G", "B"};
     for (int channel = 0; channel < 3; ++channel)
@@ -360,7 +360,7 @@ bool has_exr() {
     return true;
 }
 
-ExrPicture read_own_exr(InputFile& input) {
+ExrImage read_own_exr(InputFile& input) {
     try {
         ByteSource source(input);
         MemoryIn in(all_of(source));
@@ -380,7 +380,7 @@ ExrPicture read_own_exr(InputFile& input) {
 }
 
 std::string exr_of(const core::Film& film, const core::Layers* layers,
-                   const PictureOptions& options) {
+                   const ImageOptions& options) {
     Imf::Header header(film.width(), film.height());
     header.compression() = Imf::ZIP_COMPRESSION;
     add_attributes(options, header);
@@ -416,7 +416,7 @@ void read_exr(ByteSource& source, Image& image) {
         image.height = static_cast<int>(height);
         read_pixels(file, image);
         image.texts = texts_of(file.header());
-    } catch (const MalformedPicture& malformed) {
+    } catch (const MalformedImage& malformed) {
         if (*malformed.what() != '\0') throw;
         throw damaged("EXR");
     } catch (const std::bad_alloc&) {

@@ -21,11 +21,10 @@ bool has_exr();
 /// halves, or as floats if `options` requests 32 bits. If `layers` is not null, it also has Z, N.X,
 /// N.Y and N.Z as floats, and id.shape, id.material and samples as integers. In pixels without a
 /// hit, Z is infinite, N is 0 and ids are 4294967295. Throws std::bad_alloc.
-std::string exr_of(const core::Film& film, const core::Layers* layers,
-                   const PictureOptions& options);
+std::string exr_of(const core::Film& film, const core::Layers* layers, const ImageOptions& options);
 
 /// The contents of a file of exr_of(); of the options, only the texts.
-struct ExrPicture {
+struct ExrImage {
     core::Film film{1, 1};
     std::optional<core::Layers> layers;
     std::vector<std::pair<std::string, std::string>> texts;
@@ -33,11 +32,11 @@ struct ExrPicture {
 
 /// Throws BadInput for a file that has more or less than exr_of() writes, since other attributes,
 /// channels and parts may change how a viewer shows it. Throws SystemRefused.
-ExrPicture read_own_exr(const std::filesystem::path& path);
-ExrPicture read_own_exr(InputFile& file);
+ExrImage read_own_exr(const std::filesystem::path& path);
+ExrImage read_own_exr(InputFile& file);
 
 /// Reads the display window: R, G and B, or Y alone, and A. Pixels outside of the data window are
-/// 0. Throws MalformedPicture and std::bad_alloc.
+/// 0. Throws MalformedImage and std::bad_alloc.
 void read_exr(ByteSource& source, Image& image);
 
 } // namespace raylane::scenes

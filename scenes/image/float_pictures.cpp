@@ -98,8 +98,8 @@ std::string pfm_word(ByteSource& source) {
 
 } // namespace
 
-MalformedPicture damaged(const std::string& format) {
-    return MalformedPicture("must be a PNG, EXR, HDR or PFM image, got a damaged " + format);
+MalformedImage damaged(const std::string& format) {
+    return MalformedImage("must be a PNG, EXR, HDR or PFM image, got a damaged " + format);
 }
 
 void check_size(std::int64_t width, std::int64_t height) {
@@ -107,10 +107,10 @@ void check_size(std::int64_t width, std::int64_t height) {
     const bool good = width >= 1 && height >= 1 && width <= Settings::max_size &&
                       height <= Settings::max_size && width * height <= Settings::max_pixels;
     if (!good)
-        throw MalformedPicture("must be an image of 1 to " + std::to_string(Settings::max_size) +
-                               " pixels a side and at most " +
-                               std::to_string(Settings::max_pixels) + " in total, got " +
-                               std::to_string(width) + " x " + std::to_string(height));
+        throw MalformedImage("must be an image of 1 to " + std::to_string(Settings::max_size) +
+                             " pixels a side and at most " + std::to_string(Settings::max_pixels) +
+                             " in total, got " + std::to_string(width) + " x " +
+                             std::to_string(height));
 }
 
 void read_hdr(ByteSource& source, Image& image) {

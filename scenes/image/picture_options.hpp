@@ -10,7 +10,7 @@
 namespace raylane::scenes {
 
 /// Encoding of a picture's file, and its metadata.
-struct PictureOptions {
+struct ImageOptions {
     core::Transfer transfer = core::Transfer::srgb; ///< for .png only
     /// Bits per component: 8 or 16 in .png, 16 or 32 in .exr; 0: the smaller one.
     int bits = 0;

@@ -245,7 +245,7 @@ class PngWriting : PngSteps {
 };
 
 /// Returns texts that point into the options. ASCII texts are marked as Latin-1, others as UTF-8.
-std::vector<png_text> png_texts(const PictureOptions& options) {
+std::vector<png_text> png_texts(const ImageOptions& options) {
     std::vector<png_text> texts;
     for (const auto& [name, content] : options.texts) {
         const bool is_plain = std::all_of(content.begin(), content.end(),
@@ -263,7 +263,7 @@ std::vector<png_text> png_texts(const PictureOptions& options) {
 /// Encodes the components of a row for the file, the high byte first.
 class RowEncoder {
   public:
-    explicit RowEncoder(const PictureOptions& options)
+    explicit RowEncoder(const ImageOptions& options)
         : options_(options), encode_(options.transfer) {}
 
     int bits() const { return options_.bits == 16 ? 16 : 8; }
@@ -298,7 +298,7 @@ class RowEncoder {
         codes_.push_back(static_cast<std::uint8_t>(code & 0xFF));
     }
 
-    const PictureOptions& options_;
+    const ImageOptions& options_;
     core::Encoder encode_;
     std::vector<std::uint8_t> codes_;
 };
@@ -349,7 +349,7 @@ std::string foreign_chunk(std::string_view bytes) {
     return {};
 }
 
-void write_png(AtomicFile& file, const core::Film& film, const PictureOptions& options) {
+void write_png(AtomicFile& file, const core::Film& film, const ImageOptions& options) {
     constexpr double inch = 0.0254; // metres
     try {
         RowEncoder encoder(options);

@@ -11,7 +11,7 @@
 namespace raylane::scenes {
 
 /// Reads PNG by libpng: all variants of the format, with all checksums verified. Grey becomes RGB;
-/// colour profiles are ignored. Throws MalformedPicture, also for data after the end of the
+/// colour profiles are ignored. Throws MalformedImage, also for data after the end of the
 /// picture, and std::bad_alloc.
 void read_png(ByteSource& source, Image& image);
 
@@ -23,6 +23,6 @@ std::string foreign_chunk(std::string_view bytes);
 
 /// Writes PNG by libpng as RGB, or as RGBA if the film has an alpha; PNG's colours are not
 /// multiplied by alpha. The same picture and options give the same bytes. Throws SystemRefused.
-void write_png(AtomicFile& file, const core::Film& film, const PictureOptions& options);
+void write_png(AtomicFile& file, const core::Film& film, const ImageOptions& options);
 
 } // namespace raylane::scenes

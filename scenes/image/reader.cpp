@@ -44,7 +44,7 @@ Image read_image(const std::filesystem::path& path) {
 Image read_image(InputFile& file) {
     try {
         return decoded(file);
-    } catch (const MalformedPicture& malformed) {
+    } catch (const MalformedImage& malformed) {
         throw BadInput(file.name(), "", malformed.what());
     } catch (const std::bad_alloc&) {
         throw SystemRefused(file.name(), "read", ENOMEM);

@@ -69,7 +69,7 @@ struct Image {
     Components rgb;   ///< width * height * 3, rows from the top down
     Components alpha; ///< width * height; empty: 1 everywhere
     std::string name; ///< of the file, for messages
-    /// Texts of a PNG or EXR beside the pixels, same as PictureOptions::texts.
+    /// Texts of a PNG or EXR beside the pixels, same as ImageOptions::texts.
     std::vector<std::pair<std::string, std::string>> texts{};
     int bits = 0; ///< per component in the file: 8 or 16 (PNG), 16 or 32 (EXR), 0 (others)
 };

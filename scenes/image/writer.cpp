@@ -58,16 +58,16 @@ float radiance_component(float value) {
 
 } // namespace
 
-PictureFormat picture_format_of(const std::filesystem::path& path, bool with_exr) {
-    if (path == "-") return PictureFormat::png;
+ImageFormat picture_format_of(const std::filesystem::path& path, bool with_exr) {
+    if (path == "-") return ImageFormat::png;
     const std::string ending = ending_of(path);
-    static constexpr std::pair<std::string_view, PictureFormat> endings[] = {
-        {".png", PictureFormat::png}, {".exr", PictureFormat::exr}, {".hdr", PictureFormat::hdr},
-        {".pfm", PictureFormat::pfm}, {".tga", PictureFormat::tga}, {".bmp", PictureFormat::bmp},
-        {".ppm", PictureFormat::ppm}};
+    static constexpr std::pair<std::string_view, ImageFormat> endings[] = {
+        {".png", ImageFormat::png}, {".exr", ImageFormat::exr}, {".hdr", ImageFormat::hdr},
+        {".pfm", ImageFormat::pfm}, {".tga", ImageFormat::tga}, {".bmp", ImageFormat::bmp},
+        {".ppm", ImageFormat::ppm}};
     std::vector<std::string> known;
     for (const auto& [name, format] : endings) {
-        if (format == PictureFormat::exr && !with_exr) continue;
+        if (format == ImageFormat::exr && !with_exr) continue;
         if (ending == name) return format;
         known.emplace_back(name);
     }
@@ -79,23 +79,22 @@ PictureFormat picture_format_of(const std::filesystem::path& path, bool with_exr
 OutputFile::OutputFile(const std::filesystem::path& path, EncodeExr encode_exr)
     : OutputFile(path, picture_format_of(path, encode_exr != nullptr), encode_exr) {}
 
-OutputFile::OutputFile(const std::filesystem::path& path, PictureFormat format,
-                       EncodeExr encode_exr)
+OutputFile::OutputFile(const std::filesystem::path& path, ImageFormat format, EncodeExr encode_exr)
     : encode_exr_(encode_exr), format_(format), file_(path) {}
 
 void OutputFile::reserve(int width, int height) {
     // The size of compressed formats is unknown; reserving one byte detects a full disk.
     const std::int64_t components = std::int64_t{3} * width * height;
     switch (format_) {
-    case PictureFormat::png:
-    case PictureFormat::hdr:
-    case PictureFormat::exr:
+    case ImageFormat::png:
+    case ImageFormat::hdr:
+    case ImageFormat::exr:
         return file_.reserve(1);
-    case PictureFormat::pfm:
+    case ImageFormat::pfm:
         return file_.reserve(components * static_cast<int>(sizeof(float)));
-    case PictureFormat::tga:
-    case PictureFormat::bmp:
-    case PictureFormat::ppm:
+    case ImageFormat::tga:
+    case ImageFormat::bmp:
+    case ImageFormat::ppm:
         return file_.reserve(components);
     }
 }
@@ -104,26 +103,26 @@ void OutputFile::commit(const core::Film& film, core::Transfer transfer) {
     commit(film, {.transfer = transfer});
 }
 
-void OutputFile::commit(const core::Film& film, const PictureOptions& options,
+void OutputFile::commit(const core::Film& film, const ImageOptions& options,
                         const core::Layers* layers) {
     if (std::exchange(has_failed_, true) && !file_.restart())
         throw SystemRefused(file_.name(), "write", ESPIPE);
     switch (format_) {
-    case PictureFormat::png:
+    case ImageFormat::png:
         write_png(file_, film, options);
         break;
-    case PictureFormat::tga:
-    case PictureFormat::bmp:
-    case PictureFormat::ppm:
+    case ImageFormat::tga:
+    case ImageFormat::bmp:
+    case ImageFormat::ppm:
         write_codes(film, options.transfer);
         break;
-    case PictureFormat::hdr:
+    case ImageFormat::hdr:
         write_hdr(film);
         break;
-    case PictureFormat::pfm:
+    case ImageFormat::pfm:
         write_pfm(film);
         break;
-    case PictureFormat::exr:
+    case ImageFormat::exr:
         write_exr(film, layers, options);
         break;
     }
@@ -138,7 +137,7 @@ void OutputFile::write_codes(const core::Film& film, core::Transfer transfer) {
         for (int channel = 0; channel < 3; ++channel)
             codes.push_back(encode(pixel[channel]));
     const int width = film.width(), height = film.height();
-    if (format_ == PictureFormat::ppm) {
+    if (format_ == ImageFormat::ppm) {
         file_.write("P6\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n");
         file_.write({reinterpret_cast<const char*>(codes.data()), codes.size()});
         return;
@@ -147,13 +146,13 @@ void OutputFile::write_codes(const core::Film& film, core::Transfer transfer) {
     static const int uncompressed = stbi_write_tga_with_rle = 0; // set once
     static_cast<void>(uncompressed);
     Sink sink{file_, nullptr};
-    sink.finish(format_ == PictureFormat::tga
+    sink.finish(format_ == ImageFormat::tga
                     ? stbi_write_tga_to_func(&Sink::write, &sink, width, height, 3, codes.data())
                     : stbi_write_bmp_to_func(&Sink::write, &sink, width, height, 3, codes.data()));
 }
 
 void OutputFile::write_exr(const core::Film& film, const core::Layers* layers,
-                           const PictureOptions& options) {
+                           const ImageOptions& options) {
     try {
         file_.write(encode_exr_(film, layers, options));
     } catch (const std::bad_alloc&) {

@@ -87,8 +87,8 @@ TEST_CASE("an EXR has the layers and the resolution and texts of the options") {
     layers.shape[4] = 16'777'217; // not a float
     layers.material[4] = 7;
     layers.samples[4] = 16;
-    const scenes::PictureOptions options{
-        .dpi = 300.0F, .texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}}};
+    const scenes::ImageOptions options{.dpi = 300.0F,
+                                       .texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}}};
     scenes::OutputFile(path, scenes::exr_of).commit(little_film(), options, &layers);
 
     Imf::InputFile file(path.c_str());
@@ -129,8 +129,8 @@ TEST_CASE("An EXR with attributes or channels that raylane does not write is ref
     const TemporaryDirectory directory;
     const auto own = directory.path() / "own.exr", path = directory.path() / "a.exr";
     const core::Layers layers(3, 2);
-    const scenes::PictureOptions options{
-        .dpi = 300.0F, .texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}}};
+    const scenes::ImageOptions options{.dpi = 300.0F,
+                                       .texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}}};
     scenes::OutputFile(own, scenes::exr_of).commit(little_film(), options, &layers);
     const auto complaint = [&](const auto& change) {
         Imf::InputFile from(own.c_str());
@@ -207,7 +207,7 @@ TEST_CASE("an EXR without colors or with fewer samples than pixels is refused be
 TEST_CASE("a damaged EXR is bad input") {
     const TemporaryDirectory directory;
     const core::Layers layers(3, 2);
-    const scenes::PictureOptions named{.texts = {{"Title", "a scene"}}};
+    const scenes::ImageOptions named{.texts = {{"Title", "a scene"}}};
     const std::string whole = scenes::exr_of(core::Film(3, 2, /*with_alpha=*/true), &layers, named);
     const auto read = [&](const std::string& content) {
         const auto path = directory.write("a.exr", content);

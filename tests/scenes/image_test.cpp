@@ -153,7 +153,7 @@ TEST_CASE("a PNG has a film's alpha and colors not multiplied by it") {
 TEST_CASE("a PNG has the resolution and texts of the options and no time stamp") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "out.png";
-    const auto written = [&](const scenes::PictureOptions& options) {
+    const auto written = [&](const scenes::ImageOptions& options) {
         scenes::OutputFile(path).commit(film_of(5, 3), options);
         CHECK(scenes::read_image(path).width == 5);
         return content_of(path);
@@ -164,7 +164,7 @@ TEST_CASE("a PNG has the resolution and texts of the options and no time stamp")
     const std::string plain = written({});
     for (const char* type : {"pHYs", "tEXt", "iTXt", "tIME"})
         CHECK(!holds(plain, type));
-    const scenes::PictureOptions options{
+    const scenes::ImageOptions options{
         .dpi = 300.0F, .texts = {{"Software", "raylane"}, {"Title", "caf\xC3\xA9"}}};
     const std::string told = written(options);
     CHECK(holds(told, png_chunk("pHYs", big_endian(11811) + big_endian(11811) + "\1")));

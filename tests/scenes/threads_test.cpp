@@ -1,7 +1,7 @@
 #include "scenes/errors.hpp"
 #include "scenes/scene_file.hpp"
+#include "scenes/tool/checkpoint/checkpoint.hpp"
 #include "scenes/tool/checkpoint/fingerprint.hpp"
-#include "scenes/tool/checkpoint/journal.hpp"
 #include "tests/catch.hpp"
 #include "tests/places.hpp"
 #include "tests/scenes/temporary_directory.hpp"
@@ -92,19 +92,20 @@ TEST_CASE("several threads can read scenes at a time") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a journal records tiles of several threads until another stops them and restores them") {
+TEST_CASE(
+    "a checkpoint records tiles of several threads until another stops them and restores them") {
     const tests::TemporaryDirectory directory;
     Drawing drawing;
     const simd::Rendering whole = simd::render(drawing.scene, drawing.settings, drawing.options);
     const auto draw = [&](bool stops) {
-        scenes::Journal journal(directory.path() / "picture",
-                                {scenes::fingerprint_of(drawing.scene), "options"},
-                                {drawing.settings, drawing.options});
+        scenes::Checkpoint checkpoint(directory.path() / "picture",
+                                      {scenes::fingerprint_of(drawing.scene), "options"},
+                                      {drawing.settings, drawing.options});
         simd::RenderOptions with = drawing.options;
         simd::Progress progress;
         with.progress = &progress;
-        with.recall = [&](const simd::TileToFill& tile) { return journal.recall(tile); };
-        with.after_tile = [&](const simd::FinishedTile& tile) { journal.note(tile); };
+        with.recall = [&](const simd::TileToFill& tile) { return checkpoint.recall(tile); };
+        with.after_tile = [&](const simd::FinishedTile& tile) { checkpoint.note(tile); };
         std::thread other([&] {
             while (stops && progress.pixels < 64 * 48 / 3)
                 std::this_thread::yield();
@@ -112,7 +113,7 @@ TEST_CASE("a journal records tiles of several threads until another stops them a
         });
         simd::Rendering rendering = simd::render(drawing.scene, drawing.settings, with);
         other.join();
-        CHECK(journal.keep());
+        CHECK(checkpoint.keep());
         return rendering;
     };
     static_cast<void>(draw(true));

@@ -37,7 +37,7 @@ bool leads_to_stream(const std::string& output) {
     return false;
 }
 
-bool may_have_journal(const std::string& output) {
+bool may_have_checkpoint(const std::string& output) {
     if (output == "-") return false;
     std::error_code unknown;
     return !std::filesystem::exists(output, unknown) ||
@@ -52,14 +52,14 @@ ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
                                        const std::optional<ImagePart>& part, Verbosity verbosity)
     : output_(output), scene_(scene), settings_(settings), options_(std::move(options)),
       grid_(simd::grid_of(settings, options_)), part_(part), verbosity_(verbosity) {
-    if (!wanted || !may_have_journal(output)) return;
+    if (!wanted || !may_have_checkpoint(output)) return;
     std::string text = options_line(settings, options_);
     text += " --tile " + std::to_string(simd::tile_of(settings, options_));
     if (options_.layers) text += " --layers";
     if (part_) text += " --part " + part_->text();
-    journal_ = std::make_unique<Journal>(output, JournalSubject{fingerprint, std::move(text)},
-                                         TileRecords(settings, options_),
-                                         [this](const std::string& problem) { say(problem); });
+    checkpoint_ = std::make_unique<Checkpoint>(
+        output, CheckpointSubject{fingerprint, std::move(text)}, TileRecords(settings, options_),
+        [this](const std::string& problem) { say(problem); });
 }
 
 /// Prints a line in place of the progress line, which is redrawn below it.
@@ -71,25 +71,26 @@ void ResumableRendering::say(const std::string& what) const {
 void ResumableRendering::say_found() const {
     const auto say_of_it = [&](const std::string& what) {
         if (verbosity_ != Verbosity::quiet)
-            say(printable(journal_->found_at().string(), 4096) + ": " + what);
+            say(printable(checkpoint_->found_at().string(), 4096) + ": " + what);
     };
     const std::string is_kept = "; not resumed, kept until this image is complete";
-    switch (journal_->found()) {
-    case Journal::Found::nothing:
+    switch (checkpoint_->found()) {
+    case Checkpoint::Found::nothing:
         return;
-    case Journal::Found::same:
-        return say_of_it("resumes at " + std::to_string(percent(journal_->found_pixels())) + " %");
-    case Journal::Found::other_scene:
+    case Checkpoint::Found::same:
+        return say_of_it("resumes at " + std::to_string(percent(checkpoint_->found_pixels())) +
+                         " %");
+    case Checkpoint::Found::other_scene:
         return say_of_it("belongs to another scene" + is_kept);
-    case Journal::Found::other_options:
+    case Checkpoint::Found::other_options:
         return say_of_it("belongs to other options or another version" + is_kept);
-    case Journal::Found::cut_off:
+    case Checkpoint::Found::cut_off:
         return say_of_it("has a truncated header; not resumed");
-    case Journal::Found::none_of_ours:
+    case Checkpoint::Found::none_of_ours:
         return say_of_it("is not a checkpoint of this user; rendering without a checkpoint");
-    case Journal::Found::in_use:
+    case Checkpoint::Found::in_use:
         return say_of_it("is in use; rendering without a checkpoint");
-    case Journal::Found::named_too_long:
+    case Checkpoint::Found::named_too_long:
         return say_of_it("has too long a name; rendering without a checkpoint");
     }
 }
@@ -117,11 +118,11 @@ int ResumableRendering::percent(std::int64_t pixels) const {
 simd::Rendering ResumableRendering::draw(simd::Progress& progress, Job* job) {
     options_.progress = &progress;
     const bool is_shared = job != nullptr && job->ranks() != nullptr;
-    if (journal_ || is_shared) stop_on_signal_.emplace(progress);
-    if (journal_) say_found();
+    if (checkpoint_ || is_shared) stop_on_signal_.emplace(progress);
+    if (checkpoint_) say_found();
     simd::Rendering rendering = is_shared ? draw_among(*job, progress) : draw_alone(progress);
     if (!rendering.complete) stopped();
-    if (!journal_) stop_on_signal_.reset();
+    if (!checkpoint_) stop_on_signal_.reset();
     return rendering;
 }
 
@@ -132,10 +133,10 @@ simd::Rendering ResumableRendering::draw_alone(simd::Progress& progress) {
             left_out += tile.region.pixels();
             return true; // the tile stays black
         }
-        return journal_ && journal_->recall(tile);
+        return checkpoint_ && checkpoint_->recall(tile);
     };
-    if (!journal_) return simd::render(scene_, settings_, options_);
-    options_.after_tile = [this](const simd::FinishedTile& tile) { journal_->note(tile); };
+    if (!checkpoint_) return simd::render(scene_, settings_, options_);
+    options_.after_tile = [this](const simd::FinishedTile& tile) { checkpoint_->note(tile); };
     simd::Rendering rendering = simd::render(scene_, settings_, options_);
     drawn_ = progress.pixels - left_out;
     return rendering;
@@ -145,7 +146,7 @@ simd::Rendering ResumableRendering::draw_among(Job& job, simd::Progress& progres
     RankedTiles::Tiles tiles;
     for (std::size_t number = 0; job.is_first() && number < grid_.count(); ++number)
         if (!is_others(number))
-            (journal_ && journal_->has(number) ? tiles.to_visit : tiles.to_draw)
+            (checkpoint_ && checkpoint_->has(number) ? tiles.to_visit : tiles.to_draw)
                 .push_back(static_cast<std::uint32_t>(number));
     progress.pixels = pixels_of_others();
     const TileRecords records(settings_, options_);
@@ -153,19 +154,19 @@ simd::Rendering ResumableRendering::draw_among(Job& job, simd::Progress& progres
     options_.tiles = &ranked;
     options_.recall = [&](const simd::TileToFill& tile) {
         const std::optional<std::string> bytes = ranked.recall(tile);
-        if (!bytes) return journal_ && journal_->recall(tile);
+        if (!bytes) return checkpoint_ && checkpoint_->recall(tile);
         progress.rays += tile.counters.rays();
         progress.recalled -= tile.region.pixels(); // another rank has drawn it
-        if (journal_) journal_->note(grid_.number_of(tile.region), *bytes);
+        if (checkpoint_) checkpoint_->note(grid_.number_of(tile.region), *bytes);
         return true;
     };
     options_.after_tile = [&](const simd::FinishedTile& tile) {
         ranked.note(tile);
-        if (journal_) journal_->note(tile);
+        if (checkpoint_) checkpoint_->note(tile);
     };
     simd::Rendering rendering = simd::render(scene_, settings_, options_);
     for (const auto& [number, bytes] : ranked.finish()) {
-        if (journal_) journal_->note(number, bytes);
+        if (checkpoint_) checkpoint_->note(number, bytes);
         progress.pixels += grid_.tile(number).pixels();
         rendering.complete = false;
     }
@@ -181,35 +182,35 @@ simd::Rendering ResumableRendering::draw_among(Job& job, simd::Progress& progres
 void ResumableRendering::stopped() const {
     const std::string done = "stopped at " + std::to_string(percent(drawn_)) + " %";
     const int signal = StopOnSignal::signal() != 0 ? StopOnSignal::signal() : SIGTERM;
-    if (!journal_) throw Stopped(signal, done);
-    throw Stopped(signal, journal_->keep() ? done + "; the same command resumes from " +
-                                                 printable(journal_->path().string(), 4096)
-                          : journal_->problem().empty() ? done + ", without a checkpoint"
-                                                        : done + "; " + journal_->problem());
+    if (!checkpoint_) throw Stopped(signal, done);
+    throw Stopped(signal, checkpoint_->keep() ? done + "; the same command resumes from " +
+                                                    printable(checkpoint_->path().string(), 4096)
+                          : checkpoint_->problem().empty() ? done + ", without a checkpoint"
+                                                           : done + "; " + checkpoint_->problem());
 }
 
 void ResumableRendering::write(OutputFile& output, const core::Film& film,
-                               const PictureOptions& options, const core::Layers* layers) {
+                               const ImageOptions& options, const core::Layers* layers) {
     try {
         return output.commit(film, options, layers);
     } catch (const SystemRefused& refused) {
         const bool is_full = refused.error_number == ENOSPC || refused.error_number == EDQUOT;
-        if (!is_full || !journal_) throw;
+        if (!is_full || !checkpoint_) throw;
         // Measures the picture in memory first, to give the checkpoint up only if that helps.
         const MemoryFile memory("raylane picture");
         OutputFile(memory.path(), output.format(), exr_of).commit(film, options, layers);
-        if (!journal_->give_room(memory.bytes())) throw;
+        if (!checkpoint_->give_room(memory.bytes())) throw;
     }
     output.commit(film, options, layers);
 }
 
 void ResumableRendering::finished() {
-    if (journal_) journal_->remove();
+    if (checkpoint_) checkpoint_->remove();
 }
 
 void ResumableRendering::end_if_signalled() {
     stop_on_signal_.reset();
-    if (journal_ && StopOnSignal::signal() != 0)
+    if (checkpoint_ && StopOnSignal::signal() != 0)
         throw Stopped(StopOnSignal::signal(),
                       "stopped; " + printable(output_, 4096) + " is complete");
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenes/image/writer.hpp"
-#include "scenes/tool/checkpoint/journal.hpp"
+#include "scenes/tool/checkpoint/checkpoint.hpp"
 #include "scenes/tool/exit.hpp"
 #include "scenes/tool/image_texts.hpp"
 #include "scenes/tool/options/scene_options.hpp"
@@ -42,7 +42,7 @@ class ResumableRendering {
     simd::Rendering draw(simd::Progress& progress, Job* job = nullptr);
     /// Writes the picture. If the disk is full, it takes the space of the checkpoint. Throws
     /// SystemRefused.
-    void write(OutputFile& output, const core::Film& film, const PictureOptions& options,
+    void write(OutputFile& output, const core::Film& film, const ImageOptions& options,
                const core::Layers* layers);
     /// Removes the checkpoint. Call it when the picture is written.
     void finished();
@@ -70,8 +70,8 @@ class ResumableRendering {
     std::optional<ImagePart> part_;
     Verbosity verbosity_;
     std::optional<StopOnSignal> stop_on_signal_;
-    std::unique_ptr<Journal> journal_; // null: no checkpoint
-    std::int64_t drawn_ = 0;           // pixels, including those of the checkpoint
+    std::unique_ptr<Checkpoint> checkpoint_; // null: no checkpoint
+    std::int64_t drawn_ = 0;                 // pixels, including those of the checkpoint
 };
 
 } // namespace raylane::scenes

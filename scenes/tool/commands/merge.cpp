@@ -27,15 +27,15 @@ struct MergeArguments : OptionTable {
 /// Combines the parts of one picture, one after the other.
 class Merger {
   public:
-    explicit Merger(PictureFormat output) : output_(output) {}
+    explicit Merger(ImageFormat output) : output_(output) {}
 
     void add(const std::string& name) {
-        ExrPicture picture = read_own_exr(name);
+        ExrImage picture = read_own_exr(name);
         const ImagePart part = part_of(name, picture.texts);
         if (text_in(name, picture.texts, "Pixels") != fingerprint_of(picture.film))
             throw BadInput(name, "", "has pixels that differ from its Pixels attribute");
         if (!first_) begin(name, picture);
-        const ExrPicture& first = *first_;
+        const ExrImage& first = *first_;
         for (const char* key : {"Scene", "Comment", "Software"})
             if (text_in(name, picture.texts, key) != text_in(first_name_, first.texts, key))
                 throw BadInput(name, "",
@@ -68,7 +68,7 @@ class Merger {
     }
 
     /// Returns the complete picture. Throws BadInput if parts are missing.
-    ExrPicture take() {
+    ExrImage take() {
         std::string missing;
         for (std::size_t i = 0; i < has_.size(); ++i)
             if (!has_[i]) missing += (missing.empty() ? "" : ", ") + std::to_string(i + 1);
@@ -110,17 +110,17 @@ class Merger {
 
     /// Throws BadInput if the output's format cannot store the layers or the alpha that the parts
     /// were drawn with.
-    void require_fit(const std::string& name, const ExrPicture& picture, bool alpha) const {
-        const bool is_exr = output_ == PictureFormat::exr;
+    void require_fit(const std::string& name, const ExrImage& picture, bool alpha) const {
+        const bool is_exr = output_ == ImageFormat::exr;
         if (picture.layers && !is_exr)
             throw BadInput(
                 name, "",
                 "was rendered with --layers, which goes with an output that ends in .exr");
-        if (alpha && !is_exr && output_ != PictureFormat::png)
+        if (alpha && !is_exr && output_ != ImageFormat::png)
             throw BadInput(name, "", "was rendered with --alpha, which goes with PNG or EXR");
     }
 
-    void begin(const std::string& name, const ExrPicture& picture) {
+    void begin(const std::string& name, const ExrImage& picture) {
         const auto arguments = recorded_arguments(name, picture.texts, name);
         settings_ = arguments->settings_of({});
         require_fit(name, picture, arguments->picture.alpha.is_given());
@@ -139,7 +139,7 @@ class Merger {
         first_name_ = name;
     }
 
-    void copy(const ExrPicture& from, const core::Region& tile) {
+    void copy(const ExrImage& from, const core::Region& tile) {
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x) {
                 const int column = x - crop_.x0, row = y - crop_.y0;
@@ -157,8 +157,8 @@ class Merger {
             }
     }
 
-    PictureFormat output_;
-    std::optional<ExrPicture> first_; // the first part; the others are copied into it
+    ImageFormat output_;
+    std::optional<ExrImage> first_; // the first part; the others are copied into it
     std::string first_name_;
     ImageTexts texts_; // of part 1
     core::Settings settings_;
@@ -174,13 +174,13 @@ int merge(const MergeArguments& arguments) {
     OutputFile output(*arguments.output, exr_of);
     require_writable("--output", output.format());
     arguments.encoding.require_fit(output.format());
-    const int floats = output.format() == PictureFormat::exr ? 32 : 0; // same as the parts
+    const int floats = output.format() == ImageFormat::exr ? 32 : 0; // same as the parts
     const int bits = arguments.encoding.bits.value_or(floats);
     Merger merger(output.format());
     for (const std::string& part : *arguments.parts)
         merger.add(part);
     const core::Transfer transfer = merger.transfer();
-    const ExrPicture picture = merger.take();
+    const ExrImage picture = merger.take();
     output.commit(picture.film, {transfer, bits, arguments.encoding.dpi.value(), picture.texts},
                   picture.layers ? &*picture.layers : nullptr);
     return 0;

@@ -13,7 +13,7 @@
 #include "scenes/tool/options/render_options.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/job.hpp"
-#include "scenes/tool/sequence/film_strip.hpp"
+#include "scenes/tool/sequence/frame_sequence.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -49,9 +49,9 @@ struct Plan {
     Job job; // joins after the checks above
     Verbosity verbosity;
     int threads_to_load;
-    std::optional<FilmStrip> strip; ///< a sequence, whose images the ranks take in turn
-    std::optional<ImagePart> tiles; ///< the part of a single image
-    int bits;                       ///< per component; 0: the format's default
+    std::optional<FrameSequence> sequence; ///< a sequence, whose images the ranks take in turn
+    std::optional<ImagePart> tiles;        ///< the part of a single image
+    int bits;                              ///< per component; 0: the format's default
 };
 
 /// An image to render.
@@ -96,20 +96,21 @@ Plan::Plan(const RenderArguments& all)
     if (!all.threads) options.threads = job.share_of_threads(options.threads);
     if (*all.scene == "-") job.share_standard_input();
     job.together([&] {
-        if (!is_frame()) strip = film_strip_of(all, options.threads, verbosity);
-        if (!strip) return;
+        if (!is_frame()) sequence = requested_sequence(all, options.threads, verbosity);
+        if (!sequence) return;
         if (all.stats)
             throw BadInput(
                 "--stats", "",
                 "goes with a single image, without --turn, ranges of --frames and sweeps of --set");
-        const OutputFile writable(strip->name(0), exr_of); // throws at once if it cannot be written
+        const OutputFile writable(sequence->name(0),
+                                  exr_of); // throws at once if it cannot be written
         all.picture.require_fit(writable.format());
     });
-    if (strip) {
+    if (sequence) {
         // The ranks of a part take turns, as the parts do.
         const ImagePart part = all.part.value_or({1, 1});
-        strip->share = {part.number - 1 + part.count * static_cast<std::size_t>(job.rank()),
-                        part.count * static_cast<std::size_t>(job.size())};
+        sequence->share = {part.number - 1 + part.count * static_cast<std::size_t>(job.rank()),
+                           part.count * static_cast<std::size_t>(job.size())};
     } else if (all.part) {
         tiles = *all.part;
         if (bits == 0) bits = 32;
@@ -127,16 +128,16 @@ Target target_of(Plan& plan, const core::Scene& scene, const std::string& name,
 /// Returns the options that render the image again.
 std::string comment_of(const Plan& plan, const Target& image) {
     // The images of a sequence may have different sizes.
-    const bool names_size = !plan.strip || plan.arguments.size;
+    const bool names_size = !plan.sequence || plan.arguments.size;
     return text_of_options(plan.arguments.recorded(
         {image.settings, image.scene.settings(), plan.options, names_size}));
 }
 
 /// Returns the encoding and the texts of the image.
-PictureOptions picture_options(const Plan& plan, const Target& image,
-                               const simd::Rendering& rendering, const std::string& pixels) {
+ImageOptions picture_options(const Plan& plan, const Target& image,
+                             const simd::Rendering& rendering, const std::string& pixels) {
     const std::filesystem::path scene = *plan.arguments.scene;
-    PictureOptions options{
+    ImageOptions options{
         image.settings.transfer, plan.bits, plan.arguments.picture.encoding.dpi.value(), {}};
     const auto add = [&](const char* key, const std::string& text) {
         options.texts.emplace_back(key, text);
@@ -157,7 +158,7 @@ PictureOptions picture_options(const Plan& plan, const Target& image,
 
 /// Returns the rendering of the image, which may have a checkpoint.
 ResumableRendering resumable(const Plan& plan, const Target& image) {
-    const bool has_checkpoint = !plan.arguments.no_resume && (plan.strip || plan.job.is_first());
+    const bool has_checkpoint = !plan.arguments.no_resume && (plan.sequence || plan.job.is_first());
     return {image.name,     has_checkpoint, image.scene, image.fingerprint,
             image.settings, plan.options,   plan.tiles,  plan.verbosity};
 }
@@ -173,8 +174,8 @@ std::string write(const Plan& plan, const Target& image, ResumableRendering& dra
 }
 
 void render_sequence(Plan& plan) {
-    plan.strip->draw = [&](const core::Scene& scene, std::size_t place, const std::string& name,
-                           simd::Progress& progress) {
+    plan.sequence->draw = [&](const core::Scene& scene, std::size_t place, const std::string& name,
+                              simd::Progress& progress) {
         OutputFile output(name, exr_of);
         output.be_durable(); // a resumed sequence takes existing files as complete
         const Target image = target_of(plan, scene, name, place);
@@ -184,7 +185,7 @@ void render_sequence(Plan& plan) {
     };
     if (!plan.arguments.no_resume && plan.job.is_first())
         say_when_ended("raylane: stopped between images; existing images are complete\n");
-    plan.job.together([&] { draw(*plan.strip); });
+    plan.job.together([&] { draw(*plan.sequence); });
     say_when_ended(nullptr);
 }
 
@@ -198,8 +199,8 @@ struct Outputs {
 void open_outputs(Outputs& outputs, Plan& plan) {
     plan.job.together([&] {
         if (!plan.job.is_first()) return;
-        const PictureFormat format = outputs.image.emplace(plan.output, exr_of).format();
-        if (plan.tiles && format != PictureFormat::exr)
+        const ImageFormat format = outputs.image.emplace(plan.output, exr_of).format();
+        if (plan.tiles && format != ImageFormat::exr)
             throw BadInput("--part", "", "goes with an output that ends in .exr");
         // A part must keep the floats of the whole image.
         if (plan.tiles && plan.bits != 32) throw BadInput("--part", "", "goes with --bits 32");
@@ -217,9 +218,10 @@ core::Scene load(Plan& plan, Outputs& outputs) {
             if (!plan.is_frame())
                 return load_with_progress(*arguments.scene, plan.load_options, plan.verbosity,
                                           threads);
-            Shot shot = first_shot(*film_strip_of(arguments, threads, plan.verbosity));
-            name = std::move(shot.name);
-            return std::move(shot.scene);
+            SequenceFrame frame =
+                first_frame(*requested_sequence(arguments, threads, plan.verbosity));
+            name = std::move(frame.name);
+            return std::move(frame.scene);
         });
     plan.job.together([&] {
         const core::Settings settings = arguments.settings_of(scene->settings());
@@ -339,7 +341,7 @@ void render_single(Plan& plan) {
 
 int render(const RenderArguments& arguments) {
     Plan plan(arguments);
-    if (plan.strip)
+    if (plan.sequence)
         render_sequence(plan);
     else
         render_single(plan);

@@ -58,7 +58,7 @@ Example: raylane tachyon vmdscene.dat -aasamples 12 -format TARGA -o vmdscene.tg
 struct TachyonArguments {
     std::optional<std::string> scene;
     std::string output = "outfile.tga";
-    std::optional<PictureFormat> format;
+    std::optional<ImageFormat> format;
     std::optional<std::pair<int, int>> size;
     std::optional<int> samples, threads;
     TachyonShading shading;
@@ -137,11 +137,11 @@ void TachyonOptions::add_shading_options() {
 void TachyonOptions::add_output_options() {
     options_["-o"] = [this] { arguments_.output = file_name().parse("-o", value()); };
     options_["-format"] = [this] {
-        arguments_.format = choice_named<PictureFormat>(option_, value(),
-                                                        {{"TARGA", PictureFormat::tga},
-                                                         {"PNG", PictureFormat::png},
-                                                         {"BMP", PictureFormat::bmp},
-                                                         {"PPM", PictureFormat::ppm}});
+        arguments_.format = choice_named<ImageFormat>(option_, value(),
+                                                      {{"TARGA", ImageFormat::tga},
+                                                       {"PNG", ImageFormat::png},
+                                                       {"BMP", ImageFormat::bmp},
+                                                       {"PPM", ImageFormat::ppm}});
     };
     options_["-res"] = [this] {
         const Values<int> side = scenes::whole(1, core::Settings::max_size);
@@ -196,12 +196,12 @@ TachyonArguments TachyonOptions::read() {
     return arguments_;
 }
 
-PictureFormat format_of(const TachyonArguments& arguments) {
+ImageFormat format_of(const TachyonArguments& arguments) {
     if (arguments.format) return *arguments.format;
     try {
         return picture_format_of(arguments.output, /*with_exr=*/false);
     } catch (const BadInput&) {
-        return PictureFormat::tga;
+        return ImageFormat::tga;
     }
 }
 

@@ -9,7 +9,7 @@
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/options/render_options.hpp"
 #include "scenes/tool/progress_bar.hpp"
-#include "scenes/tool/sequence/film_strip.hpp"
+#include "scenes/tool/sequence/frame_sequence.hpp"
 #include "scenes/tool/system.hpp"
 
 #include <algorithm>
@@ -203,8 +203,8 @@ class Verifier {
     /// Returns a film as render would write it and compare would read it.
     Image as_written(const core::Film& film) const {
         const MemoryFile memory("raylane picture");
-        OutputFile output(memory.path(),
-                          image_.linear_float ? PictureFormat::exr : PictureFormat::png, exr_of);
+        OutputFile output(memory.path(), image_.linear_float ? ImageFormat::exr : ImageFormat::png,
+                          exr_of);
         output.commit(
             film, {.transfer = settings_.transfer, .bits = image_.bits, .dpi = {}, .texts = {}});
         return read_image(memory.path());
@@ -249,18 +249,19 @@ class Verifier {
     /// Returns the scene of one picture of a film.
     core::Scene seen_scene_of_film() {
         const std::optional<int> place = to_int(text_in(image_.name, image_.texts, "Film"));
-        std::optional<FilmStrip> strip = film_strip_of(*render_, threads_, Verbosity::quiet);
-        if (!strip || !place || *place < 0)
+        std::optional<FrameSequence> sequence =
+            requested_sequence(*render_, threads_, Verbosity::quiet);
+        if (!sequence || !place || *place < 0)
             throw BadInput(
                 image_.name, "",
                 "must have the number of an image as Film and options of a sequence as Comment");
-        strip->only = static_cast<std::size_t>(*place);
-        strip->overwrites = true;
-        strip->name = [](std::size_t) { return std::string(); }; // nothing is written
+        sequence->only = static_cast<std::size_t>(*place);
+        sequence->overwrites = true;
+        sequence->name = [](std::size_t) { return std::string(); }; // nothing is written
         std::optional<core::Scene> result;
-        strip->draw = [&](const core::Scene& scene, std::size_t, const std::string&,
-                          simd::Progress&) { result = scene; };
-        scenes::draw(*strip);
+        sequence->draw = [&](const core::Scene& scene, std::size_t, const std::string&,
+                             simd::Progress&) { result = scene; };
+        scenes::draw(*sequence);
         if (!result)
             throw BadInput(image_.name, "",
                            "is image " + std::to_string(std::size_t{1} + *place) +

@@ -7,9 +7,9 @@
 #include "scenes/tool/options/option.hpp"
 #include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/system.hpp"
+#include "scenes/tool/window/image_maker.hpp"
 #include "scenes/tool/window/orbit.hpp"
 #include "scenes/tool/window/pick.hpp"
-#include "scenes/tool/window/picture_maker.hpp"
 #include "scenes/tool/window/window.hpp"
 
 #include <cmath>
@@ -75,7 +75,7 @@ class Viewer {
         simd::RenderOptions options;
         options.threads = threads_;
         maker_ =
-            std::make_unique<PictureMaker>(std::move(scene), options, [this] { window_->wake(); });
+            std::make_unique<ImageMaker>(std::move(scene), options, [this] { window_->wake(); });
         begin();
     }
 
@@ -83,7 +83,7 @@ class Viewer {
         while (!is_closed_) {
             act(window_->wait(longest_wait));
             maker_->rethrow();
-            if (std::optional<PictureMaker::Picture> picture = maker_->take()) show(picture->film);
+            if (std::optional<ImageMaker::Picture> picture = maker_->take()) show(picture->film);
             reload_if_written();
             if (is_moved_) begin();
         }
@@ -215,7 +215,7 @@ class Viewer {
     core::View first_;
     std::optional<Orbit> orbit_;
     std::unique_ptr<Window> window_;
-    std::unique_ptr<PictureMaker> maker_; // last, because its thread wakes the window
+    std::unique_ptr<ImageMaker> maker_; // last, because its thread wakes the window
     bool is_moved_ = false, is_closed_ = false;
 };
 

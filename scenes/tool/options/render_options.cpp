@@ -92,14 +92,14 @@ Values<simd::Isa> instruction_sets() {
     return choice(choices);
 }
 
-void require_writable(const std::string& option, PictureFormat format) {
-    if (format == PictureFormat::exr && !has_exr())
+void require_writable(const std::string& option, ImageFormat format) {
+    if (format == ImageFormat::exr && !has_exr())
         throw BadInput(option, "",
                        "must be .png, .hdr or .pfm: raylane was built without libopenexr-dev");
 }
 
-void EncodingArguments::require_fit(PictureFormat format) const {
-    const bool is_png = format == PictureFormat::png, is_exr = format == PictureFormat::exr;
+void EncodingArguments::require_fit(ImageFormat format) const {
+    const bool is_png = format == ImageFormat::png, is_exr = format == ImageFormat::exr;
     for (const AnyOption* option : options())
         if (option->is_given() && !is_png && !is_exr)
             throw BadInput(option->name(), "", "goes with PNG or EXR");
@@ -107,16 +107,15 @@ void EncodingArguments::require_fit(PictureFormat format) const {
     if (bits && *bits == 8 && is_exr) refuse("--bits", "16 or 32 in EXR", "8");
 }
 
-void PictureArguments::require_fit(PictureFormat format) const {
-    const bool is_png = format == PictureFormat::png, is_exr = format == PictureFormat::exr;
+void ImageArguments::require_fit(ImageFormat format) const {
+    const bool is_png = format == ImageFormat::png, is_exr = format == ImageFormat::exr;
     require_writable("--output", format);
     if (layers && !is_exr) throw BadInput("--layers", "", "goes with an output that ends in .exr");
     if (alpha && !is_png && !is_exr) throw BadInput("--alpha", "", "goes with PNG or EXR");
     encoding.require_fit(format);
 }
 
-void PictureArguments::apply_to(simd::RenderOptions& options,
-                                const core::Settings& settings) const {
+void ImageArguments::apply_to(simd::RenderOptions& options, const core::Settings& settings) const {
     if (crop && (crop->x1 > settings.width || crop->y1 > settings.height))
         throw BadInput("--crop", "",
                        "must lie in the image of " + std::to_string(settings.width) + " x " +

@@ -23,7 +23,7 @@ inline bool is_inexact(const Rendered& rendered) {
 }
 
 /// Throws BadInput with the option's name for OpenEXR if raylane was built without it.
-void require_writable(const std::string& option, PictureFormat format);
+void require_writable(const std::string& option, ImageFormat format);
 
 /// Options for the encoding of an image's file.
 struct EncodingArguments : OptionTable {
@@ -34,7 +34,7 @@ struct EncodingArguments : OptionTable {
                "Bits per channel: 8 or 16 (PNG), 16 (half) or 32 (float) (EXR).") {}
 
     /// Throws BadInput for options that the format does not support.
-    void require_fit(PictureFormat format) const;
+    void require_fit(ImageFormat format) const;
 
     Option<int> bits;
     Option<float> dpi = {*this, "--dpi",
@@ -43,11 +43,11 @@ struct EncodingArguments : OptionTable {
 };
 
 /// Options for the region of an image, its channels, and the lines over it.
-struct PictureArguments : OptionTable {
-    explicit PictureArguments(OptionTable& whole) : OptionTable(whole, "Images") {}
+struct ImageArguments : OptionTable {
+    explicit ImageArguments(OptionTable& whole) : OptionTable(whole, "Images") {}
 
     /// Throws BadInput for options that the output's format does not support.
-    void require_fit(PictureFormat format) const;
+    void require_fit(ImageFormat format) const;
     /// Sets crop and layers. Throws BadInput if the crop is not within the image.
     void apply_to(simd::RenderOptions& options, const core::Settings& settings) const;
 
@@ -215,7 +215,7 @@ struct RenderArguments : OptionTable {
         *this, "--part", image_parts(),
         "Render part K of N, for N processes or machines: some tiles of an image, in an "
         "EXR for merge; of a sequence, every N-th image from the K-th on."};
-    PictureArguments picture{*this};
+    ImageArguments picture{*this};
     FrameArguments frames{*this};
     SceneArguments scene_arguments{*this, true};
 };

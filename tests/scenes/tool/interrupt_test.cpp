@@ -90,7 +90,7 @@ TEST_CASE("reading a scene can be interrupted") {
     }
     {
         // A scene that takes seconds and hundreds of megabytes to build. If it is built before the
-        // first progress line, the rendering without a journal ends in the same way.
+        // first progress line, the rendering without a checkpoint ends in the same way.
         fixture.write("scene.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
             "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
             "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
@@ -125,7 +125,7 @@ TEST_CASE("waiting for a reader of the image can be interrupted") {
     check_end(fixture, process, SIGINT);
 }
 
-TEST_CASE("a signal at any moment leaves the whole image or at most a journal") {
+TEST_CASE("a signal at any moment leaves the whole image or at most a checkpoint") {
     const ToolFixture fixture;
     const std::vector<std::string> arguments = {"render", "scene.json", "-o", "out/picture.png"};
     const auto start = Clock::now();
@@ -154,7 +154,7 @@ TEST_CASE("signals that the caller ignores stay ignored") {
         prepare();
         ::signal(SIGINT, SIG_IGN);
     };
-    // A rendering with a journal goes on for a while after the first signal. This one has none.
+    // A rendering with a checkpoint goes on for a while after the first signal. This one has none.
     Process process = fixture.start(joined(render_for_hours, {"--no-resume"}), ignoring);
     REQUIRE(process.wait_for_err("rays/s"));
     process.send(SIGINT);

@@ -116,7 +116,7 @@ TEST_CASE("parts that do not make a whole give an error of one line") {
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
           "raylane: part-2.exr: must be written by render --part\n");
     {
-        scenes::ExrPicture picture = scenes::read_own_exr(fixture.path() / "part-1.exr");
+        scenes::ExrImage picture = scenes::read_own_exr(fixture.path() / "part-1.exr");
         picture.film.at(3, 4) += core::Color(1.0F);
         scenes::OutputFile(fixture.path() / "part-2.exr", scenes::exr_of)
             .commit(picture.film, {.bits = 32, .texts = picture.texts});
@@ -177,8 +177,8 @@ TEST_CASE("parts without an Options attribute can be merged") {
     const ToolFixture fixture;
     draw_parts(fixture, 2);
     for (const char* name : {"part-1.exr", "part-2.exr"}) {
-        const scenes::ExrPicture picture = scenes::read_own_exr(fixture.path() / name);
-        scenes::PictureOptions options{.bits = 32, .texts = picture.texts};
+        const scenes::ExrImage picture = scenes::read_own_exr(fixture.path() / name);
+        scenes::ImageOptions options{.bits = 32, .texts = picture.texts};
         CHECK(std::erase_if(options.texts,
                             [](const auto& text) { return text.first == "Options"; }) == 1);
         scenes::OutputFile(fixture.path() / name, scenes::exr_of).commit(picture.film, options);
@@ -296,9 +296,9 @@ TEST_CASE("a part with a missing or malformed Rays attribute is refused") {
     if (!scenes::has_exr()) return;
     const ToolFixture fixture;
     draw_parts(fixture, 2);
-    const scenes::ExrPicture picture = scenes::read_own_exr(fixture.path() / "part-2.exr");
+    const scenes::ExrImage picture = scenes::read_own_exr(fixture.path() / "part-2.exr");
     const auto refusal = [&](const std::string& rays) {
-        scenes::PictureOptions options;
+        scenes::ImageOptions options;
         options.bits = 32;
         for (const auto& [name, text] : picture.texts)
             if (name != "Rays") options.texts.emplace_back(name, text);
@@ -391,8 +391,8 @@ TEST_CASE("parts can be merged and verified without their instruction set") {
     std::string absent;
     draw_parts(fixture, 2, {"--precision", "robust"});
     for (const char* name : {"part-1.exr", "part-2.exr"}) {
-        const scenes::ExrPicture picture = scenes::read_own_exr(fixture.path() / name);
-        scenes::PictureOptions options{.bits = 32, .texts = picture.texts};
+        const scenes::ExrImage picture = scenes::read_own_exr(fixture.path() / name);
+        scenes::ImageOptions options{.bits = 32, .texts = picture.texts};
         // The hash includes the instruction set that drew the part.
         std::erase_if(options.texts, [](const auto& text) { return text.first == "Options"; });
         for (auto& [key, text] : options.texts)
@@ -420,7 +420,7 @@ TEST_CASE("parts can be merged and verified without their instruction set") {
 TEST_CASE("an interrupted part resumes") {
     if (!scenes::has_exr()) return;
     const ToolFixture fixture;
-    const std::filesystem::path journal = fixture.path() / "part-2.exr.part";
+    const std::filesystem::path checkpoint = fixture.path() / "part-2.exr.part";
     // A fast machine needs more samples, or the rendering ends before the signal.
     for (const char* samples : {"16", "16", "16", "64", "256", "1024", "4096"}) {
         const Options options = {"--size", "1200x1200", "--spp", samples};
@@ -428,7 +428,7 @@ TEST_CASE("an interrupted part resumes") {
         static_cast<void>(process.wait_for_err(" left")); // a tile is done
         process.send(SIGTERM);
         const Outcome stopped = process.wait();
-        if (!std::filesystem::exists(journal)) continue;
+        if (!std::filesystem::exists(checkpoint)) continue;
         CHECK(stopped.code == 128 + SIGTERM);
         const Outcome resumed = fixture.run(part(2, 2, options));
         CHECK(resumed.code == 0);

@@ -56,13 +56,13 @@ std::string whole(const ToolFixture& fixture, const Options& command = drawing()
 
 constexpr const char* kept_until_complete = "; not resumed, kept until this image is complete\n";
 
-bool has_journal(const ToolFixture& fixture) {
+bool has_checkpoint(const ToolFixture& fixture) {
     return std::filesystem::exists(fixture.output() / "picture.png.part");
 }
 
-/// Writes an empty journal. An existing journal gets each tile as soon as it is drawn. The first
-/// write to it is the head.
-void begin_journal(const ToolFixture& fixture) {
+/// Writes an empty checkpoint. An existing checkpoint gets each tile as soon as it is drawn. The
+/// first write to it is the head.
+void begin_checkpoint(const ToolFixture& fixture) {
     fixture.write("out/picture.png.part", "");
 }
 
@@ -75,20 +75,20 @@ Outcome end_held(Process& process, Hold& hold, int signal) {
     return process.wait();
 }
 
-/// Interrupts the rendering between two tiles, which leaves a journal. Returns the outcome, with a
-/// terminal as standard error.
+/// Interrupts the rendering between two tiles, which leaves a checkpoint. Returns the outcome, with
+/// a terminal as standard error.
 Outcome interrupt(const ToolFixture& fixture, int signal = SIGINT) {
-    if (!has_journal(fixture)) begin_journal(fixture);
+    if (!has_checkpoint(fixture)) begin_checkpoint(fixture);
     Hold hold("pwrite", 4);
     Process process = fixture.start(drawing(), hold.in(on_terminal()));
     Outcome outcome = end_held(process, hold, signal);
-    REQUIRE(has_journal(fixture));
+    REQUIRE(has_checkpoint(fixture));
     return outcome;
 }
 
-/// Leaves a journal of the complete image, whose file could not get its name.
-void leave_whole_journal(const ToolFixture& fixture) {
-    begin_journal(fixture);
+/// Leaves a checkpoint of the complete image, whose file could not get its name.
+void leave_whole_checkpoint(const ToolFixture& fixture) {
+    begin_checkpoint(fixture);
     Hold hold("pwrite", 1);
     Process process = fixture.start(drawing(), hold.in({}));
     REQUIRE(hold.wait());
@@ -96,7 +96,7 @@ void leave_whole_journal(const ToolFixture& fixture) {
     hold.release();
     CHECK(process.wait().code == 3);
     std::filesystem::remove(fixture.output() / "picture.png");
-    REQUIRE(has_journal(fixture));
+    REQUIRE(has_checkpoint(fixture));
 }
 
 } // namespace
@@ -133,7 +133,7 @@ TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image 
         CHECK(resumed.code == 0);
         CHECK(resumed.err.starts_with("raylane: out/picture.png.part: resumes at "));
         CHECK(picture_of(fixture) == expected);
-        CHECK(!has_journal(fixture));
+        CHECK(!has_checkpoint(fixture));
         std::filesystem::remove(fixture.output() / "picture.png");
     }
 }
@@ -145,7 +145,7 @@ TEST_CASE("the second signal ends a rendering at once and keeps the finished til
         process.send(SIGINT);
         return process.wait();
     };
-    SECTION("without a journal") {
+    SECTION("without a checkpoint") {
         const ToolFixture fixture;
         Process process = fixture.start(
             joined({"render", "scene.json", "-o", "out/picture.png"}, hours), on_terminal());
@@ -160,7 +160,7 @@ TEST_CASE("the second signal ends a rendering at once and keeps the finished til
     SECTION("while a tile is written") {
         const ToolFixture fixture(two_tiles);
         for (const int kept : {0, 1}) {
-            begin_journal(fixture);
+            begin_checkpoint(fixture);
             Hold hold("pwrite", 2 + kept);
             Process process = fixture.start(drawing_two("16"), hold.in(on_terminal()));
             REQUIRE(hold.wait());
@@ -188,7 +188,7 @@ TEST_CASE("a rendering that is killed fifty times at any moment has the same bit
         CHECK(!process.wait().exited);
     }
     for (int killed = 0; killed < 25; ++killed) { // at any moment, perhaps after its end
-        if (!has_journal(fixture)) static_cast<void>(interrupt(fixture));
+        if (!has_checkpoint(fixture)) static_cast<void>(interrupt(fixture));
         Process process = fixture.start(drawing());
         std::this_thread::sleep_for(std::chrono::milliseconds(random() % 120));
         process.send(SIGKILL);
@@ -200,18 +200,18 @@ TEST_CASE("a rendering that is killed fifty times at any moment has the same bit
     CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 1);
 }
 
-TEST_CASE("a journal of another scene or other options is reported and not resumed") {
+TEST_CASE("a checkpoint of another scene or other options is reported and not resumed") {
     const ToolFixture fixture;
     const std::string expected = whole(fixture);
     static_cast<void>(interrupt(fixture));
     const auto told = [&](const Options& options, const std::string& what) {
-        const std::string journal = content_of(fixture.output() / "picture.png.part");
+        const std::string checkpoint = content_of(fixture.output() / "picture.png.part");
         const Outcome outcome = fixture.run(drawing(options));
         CHECK(outcome.code == 0);
         CHECK(messages_in(outcome.err) ==
               "raylane: out/picture.png.part: belongs to " + what + kept_until_complete);
-        CHECK(!has_journal(fixture));
-        fixture.write("out/picture.png.part", journal);
+        CHECK(!has_checkpoint(fixture));
+        fixture.write("out/picture.png.part", checkpoint);
     };
     told({"--max-depth", "1"}, "other options or another version");
     told({"--alpha"}, "other options or another version");
@@ -248,7 +248,7 @@ TEST_CASE("the rays per second of a resumed image are those of the last run alon
     CHECK(rays_now(resumed) < total - 0.5);
 }
 
-TEST_CASE("a foreign file and a journal in use are left alone") {
+TEST_CASE("a foreign file and a checkpoint in use are left alone") {
     const ToolFixture fixture;
     const std::string expected = whole(fixture);
     fixture.write("out/picture.png.part", "mine");
@@ -272,7 +272,7 @@ TEST_CASE("a foreign file and a journal in use are left alone") {
     CHECK((picture_of(fixture) == expected));
 }
 
-TEST_CASE("an image is drawn even if the disk has no space for a journal") {
+TEST_CASE("an image is drawn even if the disk has no space for a checkpoint") {
     const ToolFixture fixture;
     const std::string expected = whole(fixture);
     static_cast<void>(interrupt(fixture));
@@ -289,17 +289,17 @@ TEST_CASE("an image is drawn even if the disk has no space for a journal") {
     CHECK(count_of("raylane: out/picture.png.part: cannot write: File too large\n", outcome.err) ==
           1);
     CHECK(picture_of(fixture) == expected);
-    CHECK(!has_journal(fixture));
+    CHECK(!has_checkpoint(fixture));
 }
 
-TEST_CASE("a journal that has filled the disk gives its space to the image") {
+TEST_CASE("a checkpoint that has filled the disk gives its space to the image") {
     const ToolFixture fixture;
     const std::string expected = whole(fixture);
     // The missing tiles have more bytes than the image.
-    const std::filesystem::path journal = fixture.output() / "picture.png.part";
+    const std::filesystem::path checkpoint = fixture.output() / "picture.png.part";
     const std::size_t pixels = sanitized ? 800 * 800 : 1000 * 1000;
     static_cast<void>(interrupt(fixture));
-    const std::string kept = content_of(journal);
+    const std::string kept = content_of(checkpoint);
     REQUIRE(12 * pixels > kept.size() + expected.size() + (1 << 20));
     const std::string room =
         "size=" + std::to_string(std::max(kept.size(), expected.size()) + (1 << 18));
@@ -316,7 +316,7 @@ TEST_CASE("a journal that has filled the disk gives its space to the image") {
     CHECK(count_of("raylane: out/picture.png.part: cannot write: No space left on device\n",
                    outcome.err) == 1);
     CHECK(picture_of(fixture) == expected);
-    CHECK(!has_journal(fixture));
+    CHECK(!has_checkpoint(fixture));
     CHECK(::umount(fixture.output().c_str()) == 0);
 }
 
@@ -333,14 +333,14 @@ TEST_CASE("a tile is kept while the next one takes long") {
 TEST_CASE("The same command with another option leaves the tiles of the first") {
     const ToolFixture fixture(two_tiles);
     const Options other = joined(second_takes_minutes, {"--max-depth", "11"});
-    const auto journals = [&] {
+    const auto checkpoints = [&] {
         return std::distance(std::filesystem::directory_iterator(fixture.output()), {});
     };
     std::ptrdiff_t count = 0;
     for (const Options& options : {second_takes_minutes, other}) {
         Process process = fixture.start(options);
-        REQUIRE(comes_true([&] { return journals() > count; }));
-        count = journals();
+        REQUIRE(comes_true([&] { return checkpoints() > count; }));
+        count = checkpoints();
         process.send(SIGKILL);
         CHECK(!process.wait().exited);
     }
@@ -384,7 +384,7 @@ TEST_CASE("a signal while the last tile is written ends the program after the wh
                       "f-0.png");
 }
 
-TEST_CASE("a journal distinguishes settings of a scene that no option has") {
+TEST_CASE("a checkpoint distinguishes settings of a scene that no option has") {
     std::string scene = ball;
     const auto with_outline = [&](const char* color) {
         std::string text = scene;
@@ -401,7 +401,7 @@ TEST_CASE("a journal distinguishes settings of a scene that no option has") {
     CHECK(picture_of(fixture) == picture);
 }
 
-TEST_CASE("a journal has the permissions of the existing image") {
+TEST_CASE("a checkpoint has the permissions of the existing image") {
     const ToolFixture fixture;
     fixture.write("out/picture.png", "old");
     const auto mode = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
@@ -414,17 +414,17 @@ TEST_CASE("a journal has the permissions of the existing image") {
     CHECK(process.wait().err.ends_with("; the same command resumes from out/picture.png.part\n"));
 }
 
-TEST_CASE("a signal after the last tile leaves the whole image or its journal") {
+TEST_CASE("a signal after the last tile leaves the whole image or its checkpoint") {
     const ToolFixture fixture;
     const std::string expected = whole(fixture);
-    leave_whole_journal(fixture);
-    const std::string journal = content_of(fixture.output() / "picture.png.part");
+    leave_whole_checkpoint(fixture);
+    const std::string checkpoint = content_of(fixture.output() / "picture.png.part");
     // The hundredth pread reads a tile. Then rename names the image, and unlink removes the
-    // journal.
+    // checkpoint.
     for (const auto& [call, count] :
          {std::pair{"pread", 100}, std::pair{"rename", 1}, std::pair{"unlink", 1}}) {
         CAPTURE(call);
-        fixture.write("out/picture.png.part", journal);
+        fixture.write("out/picture.png.part", checkpoint);
         Hold hold(call, count);
         Process process = fixture.start(drawing({}, "1"), hold.in({}));
         REQUIRE(hold.wait());
@@ -443,7 +443,7 @@ TEST_CASE("a signal after the last tile leaves the whole image or its journal") 
         }
         CHECK(said == "raylane: stopped; out/picture.png is complete\n");
         CHECK((picture_of(fixture) == expected)); // too long to be printed
-        CHECK(!has_journal(fixture));
+        CHECK(!has_checkpoint(fixture));
         std::filesystem::remove(fixture.output() / "picture.png");
     }
 }
@@ -463,7 +463,7 @@ TEST_CASE("a sequence reports a signal at any moment between its first and last 
     }
 }
 
-TEST_CASE("a full disk is reported at once and the journal continues when it has space again") {
+TEST_CASE("a full disk is reported at once and the checkpoint continues when it has space again") {
     const ToolFixture fixture;
     void* const shared =
         ::mmap(nullptr, sizeof(pid_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -482,28 +482,29 @@ TEST_CASE("a full disk is reported at once and the journal continues when it has
     const rlimit unlimited{RLIM_INFINITY, RLIM_INFINITY};
     REQUIRE(::prlimit(*pid, RLIMIT_FSIZE, &unlimited, nullptr) == 0);
     ::munmap(shared, sizeof(pid_t));
-    const std::filesystem::path journal = fixture.output() / "picture.png.part";
+    const std::filesystem::path checkpoint = fixture.output() / "picture.png.part";
     std::error_code none;
     CHECK(comes_true([&] {
-        return std::filesystem::exists(journal) && std::filesystem::file_size(journal, none) > room;
+        return std::filesystem::exists(checkpoint) &&
+               std::filesystem::file_size(checkpoint, none) > room;
     }));
     process.send(SIGTERM);
     const Outcome outcome = process.wait();
     CHECK(outcome.code == 128 + SIGTERM);
     CHECK(count_of("cannot write", outcome.err) == 1);
     CHECK(outcome.err.ends_with(" %; the same command resumes from out/picture.png.part\n"));
-    CHECK(std::filesystem::file_size(journal) > room);
+    CHECK(std::filesystem::file_size(checkpoint) > room);
 }
 
-TEST_CASE("the target of a link has a journal unless it is a device") {
+TEST_CASE("the target of a link has a checkpoint unless it is a device") {
     const ToolFixture fixture;
     std::filesystem::create_directories(fixture.path() / "dev");
     fixture.write("dev/real.png", "old");
     std::filesystem::create_symlink(fixture.path() / "dev/real.png",
                                     fixture.output() / "picture.png");
     static_cast<void>(interrupt(fixture));
-    CHECK(has_journal(fixture));
-    // A journal would be reported as a foreign file.
+    CHECK(has_checkpoint(fixture));
+    // A checkpoint would be reported as a foreign file.
     fixture.write("out/stream.png.part", "mine");
     fixture.write("out/further.png.part", "mine");
     std::filesystem::create_symlink("/dev/stdout", fixture.output() / "stream.png");
@@ -517,7 +518,7 @@ TEST_CASE("the target of a link has a journal unless it is a device") {
     }
 }
 
-TEST_CASE("a journal whose name would be too long is reported and omitted") {
+TEST_CASE("a checkpoint whose name would be too long is reported and omitted") {
     const ToolFixture fixture;
     for (const std::size_t length : {250, 251, 255}) {
         const std::string name = "out/" + std::string(length - 4, 'n') + ".png";

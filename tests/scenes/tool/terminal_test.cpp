@@ -45,7 +45,7 @@ TEST_CASE("a successful rendering draws no progress bar in a pipe") {
 
 TEST_CASE("a rendering shows its progress on a terminal and a summary at the end") {
     const ToolFixture fixture;
-    // An existing journal gets each tile at once. The first three writes are the head and two
+    // An existing checkpoint gets each tile at once. The first three writes are the head and two
     // tiles.
     fixture.write("out/picture.png.part", "");
     Hold hold("pwrite", 3);

@@ -138,7 +138,7 @@ TEST_CASE("verify finds one changed bit in each format") {
                 film.at(static_cast<int>(i) % image.width,
                         static_cast<int>(i) / image.width)[static_cast<int>(channel)] =
                     image.rgb[3 * i + channel];
-        scenes::PictureOptions options{core::Transfer::linear, 16, {}, image.texts};
+        scenes::ImageOptions options{core::Transfer::linear, 16, {}, image.texts};
         scenes::OutputFile(fixture.path() / "a.png").commit(film, options);
         CHECK(verify(fixture, "a.png", {"--whole"}).out == right + std::string(again));
         core::Color& one = film.at(3, 4);
@@ -155,8 +155,8 @@ TEST_CASE("verify finds one changed bit in each format") {
     for (const int bits : {16, 32}) {
         CAPTURE(bits);
         REQUIRE(fixture.render("a.exr", {"--bits", std::to_string(bits), "--layers"}).code == 0);
-        scenes::ExrPicture picture = scenes::read_own_exr(fixture.path() / "a.exr");
-        scenes::PictureOptions options{.bits = bits, .texts = picture.texts};
+        scenes::ExrImage picture = scenes::read_own_exr(fixture.path() / "a.exr");
+        scenes::ImageOptions options{.bits = bits, .texts = picture.texts};
         const auto written = [&] {
             fixture.write("a.exr", scenes::exr_of(picture.film, &*picture.layers, options));
         };
@@ -379,7 +379,7 @@ TEST_CASE("verify renders each image of a sequence by itself") {
             CHECK(outcome.code == 0);
         }
         // An image with the place of another in its sequence is not confirmed.
-        scenes::PictureOptions swapped;
+        scenes::ImageOptions swapped;
         const scenes::Image last = scenes::read_image(fixture.path() / "f2.png");
         swapped.texts = last.texts;
         for (auto& [key, text] : swapped.texts)

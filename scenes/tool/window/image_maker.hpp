@@ -12,7 +12,7 @@
 namespace raylane::scenes {
 
 /// Draws a scene on a separate thread, coarse to fine, and starts again whenever the view changes.
-class PictureMaker {
+class ImageMaker {
   public:
     struct Picture {
         core::Film film; ///< at first with fewer pixels than the settings request
@@ -20,10 +20,10 @@ class PictureMaker {
     };
 
     /// The thread calls `on_picture` whenever a picture can be taken.
-    PictureMaker(core::Scene scene, simd::RenderOptions options, std::function<void()> on_picture);
-    ~PictureMaker();
-    PictureMaker(const PictureMaker&) = delete;
-    PictureMaker& operator=(const PictureMaker&) = delete;
+    ImageMaker(core::Scene scene, simd::RenderOptions options, std::function<void()> on_picture);
+    ~ImageMaker();
+    ImageMaker(const ImageMaker&) = delete;
+    ImageMaker& operator=(const ImageMaker&) = delete;
 
     /// Starts again with this view. The last picture has these settings.
     void show(core::View view, const core::Settings& settings);

@@ -1,4 +1,4 @@
-#include "scenes/tool/window/picture_maker.hpp"
+#include "scenes/tool/window/image_maker.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,26 +19,26 @@ double samples_of(const core::Settings& settings) {
 
 } // namespace
 
-PictureMaker::PictureMaker(core::Scene scene, simd::RenderOptions options,
-                           std::function<void()> on_picture)
+ImageMaker::ImageMaker(core::Scene scene, simd::RenderOptions options,
+                       std::function<void()> on_picture)
     : options_(std::move(options)), on_picture_(std::move(on_picture)), scene_(std::move(scene)) {
     options_.progress = &progress_;
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
-PictureMaker::~PictureMaker() {
+ImageMaker::~ImageMaker() {
     thread_.request_stop();
     interrupt();
     thread_.join();
 }
 
-void PictureMaker::interrupt() {
+void ImageMaker::interrupt() {
     const std::lock_guard lock(mutex_);
     is_interrupted_ = true;
     progress_.abandon = true;
 }
 
-void PictureMaker::show(core::View view, const core::Settings& settings) {
+void ImageMaker::show(core::View view, const core::Settings& settings) {
     const std::lock_guard lock(mutex_);
     is_interrupted_ = true; // together with the wish, or an earlier wish could reset it
     progress_.abandon = true;
@@ -46,29 +46,29 @@ void PictureMaker::show(core::View view, const core::Settings& settings) {
     wake_.notify_all();
 }
 
-void PictureMaker::replace(core::Scene scene) {
+void ImageMaker::replace(core::Scene scene) {
     interrupt();
     const std::lock_guard lock(scene_mutex_);
     scene_ = std::move(scene);
 }
 
-std::optional<PictureMaker::Picture> PictureMaker::take() {
+std::optional<ImageMaker::Picture> ImageMaker::take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(picture_, std::nullopt);
 }
 
-void PictureMaker::with_scene(const std::function<void(const core::Scene&)>& use) {
+void ImageMaker::with_scene(const std::function<void(const core::Scene&)>& use) {
     interrupt();
     const std::lock_guard lock(scene_mutex_);
     use(scene_);
 }
 
-void PictureMaker::rethrow() {
+void ImageMaker::rethrow() {
     const std::lock_guard lock(mutex_);
     if (failure_) std::rethrow_exception(failure_);
 }
 
-void PictureMaker::run(const std::stop_token& stop) {
+void ImageMaker::run(const std::stop_token& stop) {
     try {
         while (true) {
             std::optional<Wish> wish;
@@ -91,7 +91,7 @@ void PictureMaker::run(const std::stop_token& stop) {
     on_picture_();
 }
 
-void PictureMaker::draw(const std::stop_token& stop, const core::Settings& settings) {
+void ImageMaker::draw(const std::stop_token& stop, const core::Settings& settings) {
     constexpr std::array<Level, 7> levels = {
         {{16, 1}, {8, 1}, {4, 1}, {2, 1}, {1, 1}, {1, 2}, {1, 0}}};
     std::size_t level = 0;

@@ -1,5 +1,5 @@
+#include "scenes/tool/checkpoint/checkpoint.hpp"
 #include "scenes/tool/checkpoint/fingerprint.hpp"
-#include "scenes/tool/checkpoint/journal.hpp"
 #include "tests/catch.hpp"
 #include "tests/comes_true.hpp"
 #include "tests/scenes/json_scenes.hpp"
@@ -11,7 +11,7 @@
 #include <sys/resource.h>
 
 using namespace raylane;
-using scenes::Journal;
+using scenes::Checkpoint;
 using scenes::TileRecords;
 using tests::scene_of;
 
@@ -33,28 +33,28 @@ bool same(const core::Layers& a, const core::Layers& b) {
            a.material == b.material && a.samples == b.samples;
 }
 
-/// A scene with the options of its rendering, which a journal may record.
+/// A scene with the options of its rendering, which a checkpoint may record.
 struct Drawing {
     const core::Scene& scene;
     core::Settings settings;
     simd::RenderOptions options{};
     std::filesystem::path path;
 
-    simd::Rendering draw(Journal* journal, int tiles_before_it_stops = 0) const {
+    simd::Rendering draw(Checkpoint* checkpoint, int tiles_before_it_stops = 0) const {
         simd::RenderOptions with = options;
         simd::Progress progress;
         with.progress = &progress;
         int tiles = 0;
-        if (journal != nullptr) {
-            with.recall = [&](const simd::TileToFill& tile) { return journal->recall(tile); };
+        if (checkpoint != nullptr) {
+            with.recall = [&](const simd::TileToFill& tile) { return checkpoint->recall(tile); };
             with.after_tile = [&](const simd::FinishedTile& tile) {
-                journal->note(tile);
+                checkpoint->note(tile);
                 if (++tiles == tiles_before_it_stops) progress.stop = true;
             };
         }
         return simd::render(scene, settings, with);
     }
-    scenes::JournalSubject subject() const { return {scenes::fingerprint_of(scene), "options"}; }
+    scenes::CheckpointSubject subject() const { return {scenes::fingerprint_of(scene), "options"}; }
     TileRecords records() const { return {settings, options}; }
 };
 
@@ -78,7 +78,7 @@ class Fullness {
     rlimit before_{};
 };
 
-/// The journal of an image of 20 x 12 pixels in tiles of 8 x 8. The bytes of its tiles are
+/// The checkpoint of an image of 20 x 12 pixels in tiles of 8 x 8. The bytes of its tiles are
 /// arbitrary.
 struct Notes {
     core::Scene scene = scene_of(text);
@@ -90,19 +90,20 @@ struct Notes {
     std::string bytes(std::size_t number) const {
         return std::string(drawing.records().bytes(number), static_cast<char>('a' + number));
     }
-    /// Returns the number of finished tiles that a new journal of this subject finds in the file.
+    /// Returns the number of finished tiles that a new checkpoint of this subject finds in the
+    /// file.
     int found() const {
-        const Journal journal(drawing.path, drawing.subject(), drawing.records());
+        const Checkpoint checkpoint(drawing.path, drawing.subject(), drawing.records());
         int count = 0;
         for (std::size_t number = 0; number < drawing.records().grid().count(); ++number)
-            count += journal.has(number) ? 1 : 0;
+            count += checkpoint.has(number) ? 1 : 0;
         return count;
     }
 };
 
 } // namespace
 
-TEST_CASE("a journal that is truncated or damaged at any byte does not change the image") {
+TEST_CASE("a checkpoint that is truncated or damaged at any byte does not change the image") {
     const core::Scene scene = scene_of(text);
     const tests::TemporaryDirectory directory;
     Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
@@ -112,23 +113,23 @@ TEST_CASE("a journal that is truncated or damaged at any byte does not change th
     drawing.settings.alpha = true;
     const simd::Rendering whole = drawing.draw(nullptr);
     {
-        Journal journal(drawing.path, drawing.subject(), drawing.records());
-        CHECK(journal.found() == Journal::Found::nothing);
-        CHECK(!drawing.draw(&journal, 4).complete);
-        CHECK(journal.keep());
+        Checkpoint checkpoint(drawing.path, drawing.subject(), drawing.records());
+        CHECK(checkpoint.found() == Checkpoint::Found::nothing);
+        CHECK(!drawing.draw(&checkpoint, 4).complete);
+        CHECK(checkpoint.keep());
     }
     const std::string content = tests::content_of(drawing.path.string() + ".part");
     const auto goes_on = [&](const std::string& with, std::int64_t max_pixels) {
         directory.write("picture.part", with);
-        Journal journal(drawing.path, drawing.subject(), drawing.records());
-        CHECK(journal.found_pixels() <= max_pixels);
-        const simd::Rendering rendering = drawing.draw(&journal);
+        Checkpoint checkpoint(drawing.path, drawing.subject(), drawing.records());
+        CHECK(checkpoint.found_pixels() <= max_pixels);
+        const simd::Rendering rendering = drawing.draw(&checkpoint);
         REQUIRE(rendering.complete);
         REQUIRE(rendering.film.pixels() == whole.film.pixels());
         REQUIRE(rendering.film.alphas() == whole.film.alphas());
         REQUIRE(same(rendering.layers, whole.layers));
         REQUIRE(rendering.counters.as_numbers() == whole.counters.as_numbers());
-        return journal.found_pixels();
+        return checkpoint.found_pixels();
     };
     std::int64_t first_four = 0;
     for (std::size_t i = 0; i < 4; ++i)
@@ -147,29 +148,30 @@ TEST_CASE("a journal that is truncated or damaged at any byte does not change th
     }
 }
 
-TEST_CASE("a damaged byte costs a journal one tile and records of another journal are ignored") {
+TEST_CASE(
+    "a damaged byte costs a checkpoint one tile and records of another checkpoint are ignored") {
     const core::Scene scene = scene_of(text);
     const tests::TemporaryDirectory directory;
     Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
     drawing.options.threads = 1;
     drawing.options.tile = 8;
     {
-        Journal journal(drawing.path, drawing.subject(), drawing.records());
-        static_cast<void>(drawing.draw(&journal));
-        CHECK(journal.keep());
+        Checkpoint checkpoint(drawing.path, drawing.subject(), drawing.records());
+        static_cast<void>(drawing.draw(&checkpoint));
+        CHECK(checkpoint.keep());
     }
     const std::string content = tests::content_of(drawing.path.string() + ".part");
     const std::size_t head = content.find("\n\n") + 2;
-    const auto pixels_of = [&](const std::string& with, const scenes::JournalSubject& subject) {
+    const auto pixels_of = [&](const std::string& with, const scenes::CheckpointSubject& subject) {
         directory.write("picture.part", with);
-        return Journal(drawing.path, subject, drawing.records()).found_pixels();
+        return Checkpoint(drawing.path, subject, drawing.records()).found_pixels();
     };
     CHECK(pixels_of(content, drawing.subject()) == 20 * 12);
     std::string damaged = content;
     damaged[head + 100] ^= 0x10; // in the first tile's pixels
     CHECK(pixels_of(damaged, drawing.subject()) == 20 * 12 - 8 * 8);
-    // Records of another image's journal behind this journal's head.
-    const scenes::JournalSubject other{drawing.subject().scene, "others"};
+    // Records of another image's checkpoint behind this checkpoint's head.
+    const scenes::CheckpointSubject other{drawing.subject().scene, "others"};
     std::string mixed = content;
     mixed.replace(mixed.find("options options"), 15, "options others");
     CHECK(pixels_of(mixed, other) == 0);
@@ -179,10 +181,10 @@ TEST_CASE("any damaged byte of a tile's record costs that tile alone") {
     const Notes notes;
     const TileRecords records = notes.drawing.records();
     {
-        Journal journal(notes.drawing.path, notes.drawing.subject(), records);
+        Checkpoint checkpoint(notes.drawing.path, notes.drawing.subject(), records);
         for (std::size_t number = 0; number < records.grid().count(); ++number)
-            journal.note(number, notes.bytes(number));
-        REQUIRE(journal.keep());
+            checkpoint.note(number, notes.bytes(number));
+        REQUIRE(checkpoint.keep());
     }
     const std::string content = tests::content_of(notes.path);
     const std::size_t begin = content.find("\n\n") + 2 + 16 + records.bytes(0), // the second tile
@@ -195,9 +197,9 @@ TEST_CASE("any damaged byte of a tile's record costs that tile alone") {
                 REQUIRE(file.seekp(static_cast<std::streamoff>(at)).put(byte).flush());
             };
             put(static_cast<char>(content[at] ^ bits));
-            const Journal journal(notes.drawing.path, notes.drawing.subject(), records);
+            const Checkpoint checkpoint(notes.drawing.path, notes.drawing.subject(), records);
             for (std::size_t number = 0; number < records.grid().count(); ++number)
-                REQUIRE(journal.has(number) == (number != 1));
+                REQUIRE(checkpoint.has(number) == (number != 1));
             REQUIRE(std::filesystem::file_size(notes.path) == content.size());
             put(content[at]);
         }
@@ -214,31 +216,31 @@ TEST_CASE("any damaged byte of a tile's record costs that tile alone") {
 TEST_CASE("tiles that a full disk refuses are written when it has space again") {
     const Notes notes;
     std::vector<std::string> told;
-    Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records(),
-                    [&](const std::string& problem) { told.push_back(problem); });
+    Checkpoint checkpoint(notes.drawing.path, notes.drawing.subject(), notes.drawing.records(),
+                          [&](const std::string& problem) { told.push_back(problem); });
     const std::string problem = notes.path.string() + ": cannot write: File too large";
-    journal.note(0, notes.bytes(0));
+    checkpoint.note(0, notes.bytes(0));
     {
         const Fullness full(100); // before the file exists
-        CHECK(!journal.keep());
+        CHECK(!checkpoint.keep());
         CHECK(!std::filesystem::exists(notes.path));
-        CHECK(journal.problem() == problem);
+        CHECK(checkpoint.problem() == problem);
     }
-    CHECK(journal.keep());
-    CHECK(journal.problem().empty());
+    CHECK(checkpoint.keep());
+    CHECK(checkpoint.problem().empty());
     {
         const Fullness full(std::filesystem::file_size(notes.path) + 20);
         for (const std::size_t number : {1, 2, 3})
-            journal.note(number, notes.bytes(number));
-        CHECK(!journal.keep());
-        CHECK(journal.problem() == problem);
-        journal.note(4, notes.bytes(4));
-        CHECK(journal.problem() == problem);
+            checkpoint.note(number, notes.bytes(number));
+        CHECK(!checkpoint.keep());
+        CHECK(checkpoint.problem() == problem);
+        checkpoint.note(4, notes.bytes(4));
+        CHECK(checkpoint.problem() == problem);
     }
-    // The journal tries again by itself.
-    CHECK(tests::comes_true([&] { return journal.problem().empty(); }));
-    journal.note(5, notes.bytes(5));
-    CHECK(journal.keep());
+    // The checkpoint tries again by itself.
+    CHECK(tests::comes_true([&] { return checkpoint.problem().empty(); }));
+    checkpoint.note(5, notes.bytes(5));
+    CHECK(checkpoint.keep());
     CHECK(told == std::vector{problem});
     const std::string content = tests::content_of(notes.path);
     notes.directory.write("picture.part.part", content);
@@ -246,48 +248,49 @@ TEST_CASE("tiles that a full disk refuses are written when it has space again") 
     CHECK(notes.found() == 6);
 }
 
-TEST_CASE("Journals of other options or scenes or versions stay until the image is complete") {
+TEST_CASE("Checkpoints of other options or scenes or versions stay until the image is complete") {
     const Notes notes;
     const TileRecords records = notes.drawing.records();
-    const scenes::JournalSubject subject = notes.drawing.subject();
-    const auto of = [&](const scenes::JournalSubject& of_it) {
-        return std::make_unique<Journal>(notes.drawing.path, of_it, records);
+    const scenes::CheckpointSubject subject = notes.drawing.subject();
+    const auto of = [&](const scenes::CheckpointSubject& of_it) {
+        return std::make_unique<Checkpoint>(notes.drawing.path, of_it, records);
     };
-    const auto keep_tile = [&](Journal& journal, std::size_t number) {
-        journal.note(number, notes.bytes(number));
-        REQUIRE(journal.keep());
+    const auto keep_tile = [&](Checkpoint& checkpoint, std::size_t number) {
+        checkpoint.note(number, notes.bytes(number));
+        REQUIRE(checkpoint.keep());
     };
     keep_tile(*of(subject), 0);
     const std::string first = tests::content_of(notes.path);
-    const scenes::JournalSubject others[] = {{subject.scene, "others"}, {"0", subject.options}};
-    const Journal::Found kinds[] = {Journal::Found::other_options, Journal::Found::other_scene};
+    const scenes::CheckpointSubject others[] = {{subject.scene, "others"}, {"0", subject.options}};
+    const Checkpoint::Found kinds[] = {Checkpoint::Found::other_options,
+                                       Checkpoint::Found::other_scene};
     for (std::size_t i = 0; i < 2; ++i) {
-        const auto journal = of(others[i]);
-        CHECK(journal->found() == kinds[i]);
-        CHECK(journal->found_at() == notes.path);
-        CHECK(journal->path() != notes.path);
-        keep_tile(*journal, i + 1);
+        const auto checkpoint = of(others[i]);
+        CHECK(checkpoint->found() == kinds[i]);
+        CHECK(checkpoint->found_at() == notes.path);
+        CHECK(checkpoint->path() != notes.path);
+        keep_tile(*checkpoint, i + 1);
     }
     CHECK(tests::content_of(notes.path) == first);
     for (std::size_t i = 0; i < 2; ++i) {
-        const auto journal = of(others[i]);
-        CHECK(journal->found() == Journal::Found::same);
-        CHECK(journal->found_at() == journal->path());
-        CHECK(journal->has(i + 1));
-        CHECK(!journal->has(0));
+        const auto checkpoint = of(others[i]);
+        CHECK(checkpoint->found() == Checkpoint::Found::same);
+        CHECK(checkpoint->found_at() == checkpoint->path());
+        CHECK(checkpoint->has(i + 1));
+        CHECK(!checkpoint->has(0));
     }
     const auto files = [&] {
         return std::distance(std::filesystem::directory_iterator(notes.directory.path()), {});
     };
     CHECK(files() == 3);
 
-    // A complete picture leaves journals of other outputs, and files of other programs.
+    // A complete picture leaves checkpoints of other outputs, and files of other programs.
     for (const char* name : {"pictures.part", "picture.0123456789abcdeX.part", "picture.png.part"})
         notes.directory.write(name, first);
     notes.directory.write("picture.0123456789abcdef.part", "mine");
     notes.directory.write("picture", "drawn");
     const auto goes_on = of(subject);
-    CHECK(goes_on->found() == Journal::Found::same);
+    CHECK(goes_on->found() == Checkpoint::Found::same);
     CHECK(goes_on->has(0));
     const auto in_use = of(others[0]);
     goes_on->remove();
@@ -299,106 +302,106 @@ TEST_CASE("Journals of other options or scenes or versions stay until the image 
     CHECK(notes.found() == 0);
 }
 
-TEST_CASE("A complete image without a journal removes the journals of other options") {
+TEST_CASE("A complete image without a checkpoint removes the checkpoints of other options") {
     const Notes notes;
     notes.directory.write("picture.part", "raylane journal 0\nscene 0\noptions 0\n\nmuch");
     notes.directory.write("picture", "drawn");
-    Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
-    CHECK(journal.found() == Journal::Found::other_options);
-    journal.note(0, notes.bytes(0));
-    journal.remove();
+    Checkpoint checkpoint(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
+    CHECK(checkpoint.found() == Checkpoint::Found::other_options);
+    checkpoint.note(0, notes.bytes(0));
+    checkpoint.remove();
     CHECK(!std::filesystem::exists(notes.path));
-    CHECK(!std::filesystem::exists(journal.path()));
+    CHECK(!std::filesystem::exists(checkpoint.path()));
 }
 
-TEST_CASE("A truncated journal is replaced as soon as the disk has space for the new one") {
+TEST_CASE("A truncated checkpoint is replaced as soon as the disk has space for the new one") {
     const Notes notes;
     notes.directory.write("picture.part", "raylane jour");
-    Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
-    CHECK(journal.found() == Journal::Found::cut_off);
+    Checkpoint checkpoint(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
+    CHECK(checkpoint.found() == Checkpoint::Found::cut_off);
     {
         const Fullness full(20); // the space ends in the head
-        journal.note(0, notes.bytes(0));
-        CHECK(!journal.keep());
+        checkpoint.note(0, notes.bytes(0));
+        CHECK(!checkpoint.keep());
     }
     {
         const Fullness full(300); // the space ends in the tile
-        CHECK(!journal.keep());
+        CHECK(!checkpoint.keep());
     }
-    CHECK(journal.keep());
+    CHECK(checkpoint.keep());
     const std::string content = tests::content_of(notes.path);
     notes.directory.write("copy", content);
     std::filesystem::rename(notes.directory.path() / "copy", notes.path);
     CHECK(notes.found() == 1);
 }
 
-TEST_CASE("A truncated journal is written from the first tile on and removed") {
+TEST_CASE("A truncated checkpoint is written from the first tile on and removed") {
     const Notes notes;
     notes.directory.write("picture.part", "");
-    Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
-    CHECK(journal.found() == Journal::Found::cut_off);
-    journal.note(0, notes.bytes(0));
+    Checkpoint checkpoint(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
+    CHECK(checkpoint.found() == Checkpoint::Found::cut_off);
+    checkpoint.note(0, notes.bytes(0));
     CHECK(tests::content_of(notes.path).find(notes.bytes(0)) != std::string::npos);
     notes.directory.write("picture", "drawn");
-    journal.remove();
+    checkpoint.remove();
     CHECK(!std::filesystem::exists(notes.path));
 }
 
-TEST_CASE("a journal that has given up its space or was removed accepts no more tiles") {
+TEST_CASE("a checkpoint that has given up its space or was removed accepts no more tiles") {
     const Notes notes;
     {
-        Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
-        journal.note(0, notes.bytes(0));
-        REQUIRE(journal.keep());
+        Checkpoint checkpoint(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
+        checkpoint.note(0, notes.bytes(0));
+        REQUIRE(checkpoint.keep());
         {
             const Fullness full(std::filesystem::file_size(notes.path));
-            journal.note(1, notes.bytes(1));
-            CHECK(!journal.keep());
+            checkpoint.note(1, notes.bytes(1));
+            CHECK(!checkpoint.keep());
         }
-        CHECK(journal.give_room(1));
-        journal.note(2, notes.bytes(2));
-        CHECK(!journal.keep());
+        CHECK(checkpoint.give_room(1));
+        checkpoint.note(2, notes.bytes(2));
+        CHECK(!checkpoint.keep());
         CHECK(std::filesystem::file_size(notes.path) == 0);
         notes.directory.write("picture", "drawn");
-        journal.remove();
+        checkpoint.remove();
         CHECK(!std::filesystem::exists(notes.path));
     }
-    Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
-    journal.note(0, notes.bytes(0));
-    journal.remove(); // before the file exists
-    CHECK(!journal.keep());
+    Checkpoint checkpoint(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
+    checkpoint.note(0, notes.bytes(0));
+    checkpoint.remove(); // before the file exists
+    CHECK(!checkpoint.keep());
     CHECK(!std::filesystem::exists(notes.path));
 }
 
-TEST_CASE("a journal continues only for the same scene and options and tiles") {
+TEST_CASE("a checkpoint continues only for the same scene and options and tiles") {
     const core::Scene scene = scene_of(text);
     const tests::TemporaryDirectory directory;
     Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
     drawing.options.tile = 8;
     {
-        Journal journal(drawing.path, drawing.subject(), drawing.records());
-        static_cast<void>(drawing.draw(&journal));
-        CHECK(journal.keep());
-        CHECK(Journal(drawing.path, drawing.subject(), drawing.records()).found() ==
-              Journal::Found::in_use);
+        Checkpoint checkpoint(drawing.path, drawing.subject(), drawing.records());
+        static_cast<void>(drawing.draw(&checkpoint));
+        CHECK(checkpoint.keep());
+        CHECK(Checkpoint(drawing.path, drawing.subject(), drawing.records()).found() ==
+              Checkpoint::Found::in_use);
     }
     const std::string content = tests::content_of(drawing.path.string() + ".part");
-    const auto found = [&](const scenes::JournalSubject& subject) {
+    const auto found = [&](const scenes::CheckpointSubject& subject) {
         directory.write("picture.part", content);
-        return Journal(drawing.path, subject, drawing.records()).found();
+        return Checkpoint(drawing.path, subject, drawing.records()).found();
     };
-    CHECK(found(drawing.subject()) == Journal::Found::same);
-    CHECK(found({drawing.subject().scene, "others"}) == Journal::Found::other_options);
-    CHECK(found({"0", "options"}) == Journal::Found::other_scene);
+    CHECK(found(drawing.subject()) == Checkpoint::Found::same);
+    CHECK(found({drawing.subject().scene, "others"}) == Checkpoint::Found::other_options);
+    CHECK(found({"0", "options"}) == Checkpoint::Found::other_scene);
     for (const std::size_t end : {0, 7, 15, 16, 30}) {
         directory.write("picture.part", content.substr(0, end));
-        CHECK(Journal(drawing.path, drawing.subject(), drawing.records()).found() ==
-              Journal::Found::cut_off);
+        CHECK(Checkpoint(drawing.path, drawing.subject(), drawing.records()).found() ==
+              Checkpoint::Found::cut_off);
     }
     for (const char* content_of_another : {"mine", "raylanes", "raylane journey", "\x89PNG"}) {
         directory.write("picture.part", content_of_another);
-        CHECK(Journal(drawing.path, drawing.subject(), drawing.records()).found() ==
-              Journal::Found::none_of_ours);
+        CHECK(Checkpoint(drawing.path, drawing.subject(), drawing.records()).found() ==
+              Checkpoint::Found::none_of_ours);
         CHECK(tests::content_of(drawing.path.string() + ".part") == content_of_another);
     }
 }

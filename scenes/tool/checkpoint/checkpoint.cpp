@@ -1,4 +1,4 @@
-#include "scenes/tool/checkpoint/journal.hpp"
+#include "scenes/tool/checkpoint/checkpoint.hpp"
 
 #include "scenes/errors.hpp"
 #include "scenes/library/raylane/version.h"
@@ -63,7 +63,7 @@ class Window {
     bool is_refused_ = false;
 };
 
-std::string head_of(const JournalSubject& subject) {
+std::string head_of(const CheckpointSubject& subject) {
     return std::string(magic) + RAYLANE_VERSION "\nscene " + subject.scene + "\noptions " +
            subject.options + "\n\n";
 }
@@ -105,7 +105,7 @@ bool take_lock(int descriptor) {
     return result == 0 || errno != EWOULDBLOCK;
 }
 
-/// Returns the record of a tile. `seed`: that of the journal, which accepts only such records.
+/// Returns the record of a tile. `seed`: that of the checkpoint, which accepts only such records.
 std::string record_of(std::size_t number, std::string_view bytes, std::uint64_t seed) {
     const RecordHead head{static_cast<std::uint32_t>(number),
                           static_cast<std::uint32_t>(bytes.size())};
@@ -139,7 +139,7 @@ std::filesystem::path own_name(const std::filesystem::path& picture, std::uint64
     return (picture.string() + '.' + digits).append(ending);
 }
 
-bool is_name_of_journal(std::string_view name, std::string_view picture) {
+bool is_name_of_checkpoint(std::string_view name, std::string_view picture) {
     if (!name.starts_with(picture) || !name.ends_with(ending)) return false;
     name.remove_prefix(picture.size());
     if (name == ending) return true;
@@ -148,7 +148,7 @@ bool is_name_of_journal(std::string_view name, std::string_view picture) {
 }
 
 /// Opens a checkpoint. Returns -1 with errno set if that fails.
-int open_journal(const std::filesystem::path& path) {
+int open_checkpoint(const std::filesystem::path& path) {
     return ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
 }
 
@@ -174,15 +174,15 @@ bool is_at(const std::filesystem::path& path, int descriptor) {
 
 } // namespace
 
-Journal::Journal(std::filesystem::path picture, const JournalSubject& subject, TileRecords records,
-                 std::function<void(const std::string&)> tell)
+Checkpoint::Checkpoint(std::filesystem::path picture, const CheckpointSubject& subject,
+                       TileRecords records, std::function<void(const std::string&)> tell)
     : picture_(std::move(picture)), records_(records), head_(head_of(subject)),
       seed_(checksum_of(head_, 0)), places_(records_.grid().count(), -1), tell_(std::move(tell)) {
     open();
     if (descriptor_ < 0) next_try_ = start_ + begin_after;
 }
 
-Journal::~Journal() {
+Checkpoint::~Checkpoint() {
     {
         const std::lock_guard lock(mutex_);
         is_ending_ = true;
@@ -193,7 +193,7 @@ Journal::~Journal() {
 }
 
 /// Opens the checkpoint of this subject under either name, or chooses the name of a new one.
-void Journal::open() {
+void Checkpoint::open() {
     path_ = found_at_ = own_name(picture_, seed_);
     const Found own = look_at(path_);
     const auto is_others = [](Found found) {
@@ -215,8 +215,8 @@ void Journal::open() {
 }
 
 /// Keeps the file open and locked if it belongs to this subject or was cut off.
-Journal::Found Journal::look_at(const std::filesystem::path& path) {
-    const int descriptor = open_journal(path);
+Checkpoint::Found Checkpoint::look_at(const std::filesystem::path& path) {
+    const int descriptor = open_checkpoint(path);
     if (descriptor < 0)
         return errno == ENOENT         ? Found::nothing
                : errno == ENAMETOOLONG ? Found::named_too_long
@@ -236,7 +236,7 @@ Journal::Found Journal::look_at(const std::filesystem::path& path) {
     return found;
 }
 
-Journal::Found Journal::kind_of(const std::string& head) const {
+Checkpoint::Found Checkpoint::kind_of(const std::string& head) const {
     if (head == head_) return Found::same;
     if (head_.starts_with(head)) return Found::cut_off;
     const std::size_t options = head_.find("options ");
@@ -247,7 +247,7 @@ Journal::Found Journal::kind_of(const std::string& head) const {
 
 /// Finds the complete records. After a damaged one, whichever of its bytes that is, it searches
 /// byte by byte for the next complete record.
-void Journal::read_records() {
+void Checkpoint::read_records() {
     std::vector<std::size_t> sizes(places_.size());
     for (std::size_t number = 0; number < sizes.size(); ++number)
         sizes[number] = records_.bytes(number);
@@ -276,14 +276,14 @@ void Journal::read_records() {
     [[maybe_unused]] const int shortened = ::ftruncate(descriptor_, end_);
 }
 
-std::int64_t Journal::found_pixels() const {
+std::int64_t Checkpoint::found_pixels() const {
     std::int64_t pixels = 0;
     for (std::size_t number = 0; number < places_.size(); ++number)
         if (places_[number] >= 0) pixels += records_.grid().tile(number).pixels();
     return pixels;
 }
 
-bool Journal::recall(const simd::TileToFill& tile) {
+bool Checkpoint::recall(const simd::TileToFill& tile) {
     const std::size_t number = records_.grid().number_of(tile.region);
     if (places_[number] < 0) return false;
     const std::string bytes = bytes_at(descriptor_, places_[number], records_.bytes(number));
@@ -292,14 +292,14 @@ bool Journal::recall(const simd::TileToFill& tile) {
     return true;
 }
 
-void Journal::note(const simd::FinishedTile& tile) {
+void Checkpoint::note(const simd::FinishedTile& tile) {
     if (is_left_alone()) return;
     std::string bytes;
     records_.append(tile, bytes);
     note(records_.grid().number_of(tile.region), bytes);
 }
 
-void Journal::note(std::size_t number, std::string_view bytes) {
+void Checkpoint::note(std::size_t number, std::string_view bytes) {
     if (is_left_alone()) return;
     std::string record = record_of(number, bytes, seed_);
     const std::lock_guard lock(mutex_);
@@ -315,13 +315,13 @@ void Journal::note(std::size_t number, std::string_view bytes) {
         drop_oldest();
 }
 
-void Journal::drop_oldest() {
+void Checkpoint::drop_oldest() {
     waiting_bytes_ -= waiting_.front().size();
     waiting_.pop_front();
 }
 
 /// Writes as many of the waiting records as the system accepts.
-void Journal::write_waiting() {
+void Checkpoint::write_waiting() {
     if (is_given_up_ || waiting_.empty()) return;
     bool goes_on = is_ours_ || begin();
     if (goes_on && end_ == 0) {
@@ -339,7 +339,7 @@ void Journal::write_waiting() {
 
 /// Makes the file, with the waiting records, or empties one that was cut off. Returns false, and
 /// reports it, if the system refuses.
-bool Journal::begin() {
+bool Checkpoint::begin() {
     if (descriptor_ < 0) {
         if (!make()) return false;
         waiting_.clear();
@@ -357,7 +357,7 @@ bool Journal::begin() {
 
 /// Writes and flushes at intervals. Tiles may be minutes apart, so the last one must not wait until
 /// note() is called for the next one.
-void Journal::keep_up() {
+void Checkpoint::keep_up() {
     std::unique_lock lock(mutex_);
     const auto is_ending = [this] { return is_ending_; };
     bool ends = ends_.wait_until(lock, start_ + begin_after, is_ending);
@@ -375,7 +375,7 @@ void Journal::keep_up() {
 /// Makes the file. Where the system supports it, the file is complete before it has a name. So a
 /// named file is always identifiable and contains the waiting records. It is as private as an
 /// existing picture. Returns false after an error, which it reports.
-bool Journal::make() {
+bool Checkpoint::make() {
     struct stat picture {};
     const bool is_there = ::stat(picture_.c_str(), &picture) == 0;
     const mode_t mode = is_there ? picture.st_mode & 0666 : 0666;
@@ -416,7 +416,7 @@ bool Journal::make() {
 
 /// Writes the header and the waiting records into an empty file. Returns the end of the file, or
 /// nothing after an error.
-std::optional<std::int64_t> Journal::write_all(int descriptor) const {
+std::optional<std::int64_t> Checkpoint::write_all(int descriptor) const {
     if (!write_at(descriptor, 0, head_)) return std::nullopt;
     auto end = static_cast<std::int64_t>(head_.size());
     for (const std::string& record : waiting_) {
@@ -426,7 +426,7 @@ std::optional<std::int64_t> Journal::write_all(int descriptor) const {
     return end;
 }
 
-void Journal::fail() {
+void Checkpoint::fail() {
     const bool is_others = errno == EEXIST; // made after open() searched for it
     problem_ = is_others ? printable(path_.string(), 4096) +
                                ": is in use by another process, so this process keeps no checkpoint"
@@ -436,14 +436,14 @@ void Journal::fail() {
 }
 
 /// Stops writing for good.
-void Journal::give_up() {
+void Checkpoint::give_up() {
     is_given_up_ = true;
     waiting_.clear();
     waiting_bytes_ = 0;
 }
 
 /// Appends all bytes or none. Returns false after an error, which it reports.
-bool Journal::append(const std::string& bytes) {
+bool Checkpoint::append(const std::string& bytes) {
     if (write_at(descriptor_, end_, bytes)) {
         end_ += static_cast<std::int64_t>(bytes.size());
         is_to_be_synced_ = true;
@@ -455,7 +455,7 @@ bool Journal::append(const std::string& bytes) {
     return false;
 }
 
-bool Journal::keep() {
+bool Checkpoint::keep() {
     if (is_left_alone()) return false;
     const std::lock_guard lock(mutex_);
     write_waiting();
@@ -463,7 +463,7 @@ bool Journal::keep() {
     return is_ours_ && problem_.empty();
 }
 
-bool Journal::give_room(std::size_t bytes) {
+bool Checkpoint::give_room(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     struct statvfs disk {};
     struct stat own {};
@@ -473,12 +473,12 @@ bool Journal::give_room(std::size_t bytes) {
     const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize +
                                block * static_cast<std::uint64_t>(own.st_blocks);
     if (room < bytes || ::ftruncate(descriptor_, 0) != 0) return false;
-    give_up(); // otherwise the journal would use the space again
+    give_up(); // otherwise the checkpoint would use the space again
     if (problem_.empty()) problem_ = path_.string() + ": was emptied to free space for the image";
     return true;
 }
 
-void Journal::remove() {
+void Checkpoint::remove() {
     const std::lock_guard lock(mutex_);
     give_up(); // otherwise waiting records would make a new file
     if (!is_ours_ && found_ == Found::nothing) return;
@@ -493,14 +493,14 @@ void Journal::remove() {
     remove_others();
 }
 
-void Journal::remove_others() const {
+void Checkpoint::remove_others() const {
     std::error_code end;
     const std::filesystem::path folder = path_.parent_path();
     std::filesystem::directory_iterator file(folder.empty() ? "." : folder, end);
     for (; !end && file != std::filesystem::directory_iterator(); file.increment(end)) {
-        if (!is_name_of_journal(file->path().filename().string(), picture_.filename().string()))
+        if (!is_name_of_checkpoint(file->path().filename().string(), picture_.filename().string()))
             continue;
-        const int descriptor = open_journal(file->path());
+        const int descriptor = open_checkpoint(file->path());
         if (descriptor < 0) continue;
         if (head_in(descriptor, magic.size()) && take_lock(descriptor) &&
             is_at(file->path(), descriptor))
@@ -509,7 +509,7 @@ void Journal::remove_others() const {
     }
 }
 
-std::string Journal::problem() {
+std::string Checkpoint::problem() {
     const std::lock_guard lock(mutex_);
     return problem_;
 }

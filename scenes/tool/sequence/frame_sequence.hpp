@@ -13,7 +13,7 @@
 namespace raylane::scenes {
 
 /// Several pictures that belong together: frames of atoms, values of parameters, views of a turn.
-struct FilmStrip {
+struct FrameSequence {
     std::shared_ptr<core::Workers> workers; ///< used by `source`
     std::unique_ptr<SceneSource> source;
     std::function<std::string(std::size_t)> name; ///< the file name for a picture's number
@@ -40,20 +40,20 @@ struct FilmStrip {
 [[noreturn]] void refuse_turn(const Turn& turn, const std::string& otherwise);
 
 /// The scene of a picture and the name of its file.
-struct Shot {
+struct SequenceFrame {
     core::Scene scene;
     std::string name;
 };
 
 /// Returns the scene and file name of the first picture, whether or not that file exists. The
 /// caller draws it. Exceptions of the source propagate.
-Shot first_shot(const FilmStrip& strip);
+SequenceFrame first_frame(const FrameSequence& sequence);
 
 /// Draws all pictures. The scene of the next one is made while one is drawn. Exceptions of the
-/// source and of `strip.draw` propagate after the previous pictures are drawn. Throws BadInput if
-/// the turn has another number of pictures than the source: before the first picture too many, or
-/// after the last one.
-void draw(const FilmStrip& strip);
+/// source and of `sequence.draw` propagate after the previous pictures are drawn. Throws BadInput
+/// if the turn has another number of pictures than the source: before the first picture too many,
+/// or after the last one.
+void draw(const FrameSequence& sequence);
 
 /// Returns a function from the number of a picture to the name of its file, according to --output.
 /// `is_one`: there is a single picture, whose name needs no number. Both functions throw BadInput
@@ -64,7 +64,7 @@ picture_names(const std::string& scene, const std::optional<std::string>& output
 /// Returns the pictures that the command line requests, if there may be several. The caller sets
 /// how they are drawn. Scenes are made with `threads` threads. `arguments` must outlive the result.
 /// Throws BadInput.
-std::optional<FilmStrip> film_strip_of(const RenderArguments& arguments, int threads,
-                                       Verbosity verbosity);
+std::optional<FrameSequence> requested_sequence(const RenderArguments& arguments, int threads,
+                                                Verbosity verbosity);
 
 } // namespace raylane::scenes

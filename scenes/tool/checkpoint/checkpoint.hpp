@@ -20,7 +20,7 @@ namespace raylane::scenes {
 
 /// The picture that a checkpoint belongs to: a scene with the options of its rendering. A rendering
 /// resumes only from a checkpoint of its own subject.
-struct JournalSubject {
+struct CheckpointSubject {
     std::string scene;   ///< fingerprint_of() the scene
     std::string options; ///< one line with everything else that the picture depends on
 };
@@ -30,7 +30,7 @@ struct JournalSubject {
 ///
 /// A new file is made only `begin_after` seconds after the start, with the tiles that are finished
 /// by then. From then on, each tile is written as soon as it is finished, with a checksum. A file
-/// that this journal found is extended from its first finished tile on. If the process dies, at
+/// that this checkpoint found is extended from its first finished tile on. If the process dies, at
 /// most the tiles in progress are lost. If the power fails, the tiles of the last `sync_every`
 /// seconds are lost, too.
 ///
@@ -41,17 +41,17 @@ struct JournalSubject {
 ///
 /// A lock on the file ensures that one process uses it at a time. Errors of the file do not end the
 /// rendering; problem() returns them. Records that cannot be written are kept in memory, up to
-/// `max_waiting` bytes. The journal tries to write them again every `sync_every` seconds.
-class Journal {
+/// `max_waiting` bytes. The checkpoint tries to write them again every `sync_every` seconds.
+class Checkpoint {
   public:
     static constexpr std::chrono::seconds begin_after{2}, sync_every{3};
     static constexpr std::size_t max_waiting = std::size_t{256} << 20;
 
-    /// The file that was found at construction, and the journal's reaction.
+    /// The file that was found at construction, and the checkpoint's reaction.
     enum class Found : std::uint8_t {
         nothing,
         same,           ///< a checkpoint of this subject: resumes from it
-        other_scene,    ///< of another scene: keeps it; this journal takes another name
+        other_scene,    ///< of another scene: keeps it; this checkpoint takes another name
         other_options,  ///< of other options or another version: as for other_scene
         cut_off,        ///< cut off within the header: truncates it
         none_of_ours,   ///< not a checkpoint of this user: keeps it and writes no checkpoint
@@ -61,11 +61,11 @@ class Journal {
 
     /// `picture`: the output. `tell` receives the first problem() as soon as it occurs, in the
     /// thread in which it occurs.
-    Journal(std::filesystem::path picture, const JournalSubject& subject, TileRecords records,
-            std::function<void(const std::string&)> tell = {});
-    ~Journal();
-    Journal(const Journal&) = delete;
-    Journal& operator=(const Journal&) = delete;
+    Checkpoint(std::filesystem::path picture, const CheckpointSubject& subject, TileRecords records,
+               std::function<void(const std::string&)> tell = {});
+    ~Checkpoint();
+    Checkpoint(const Checkpoint&) = delete;
+    Checkpoint& operator=(const Checkpoint&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
     Found found() const { return found_; }
@@ -118,7 +118,7 @@ class Journal {
     std::filesystem::path picture_, path_, found_at_;
     TileRecords records_;
     std::string head_;
-    std::uint64_t seed_; // of the checksums, so that records of other journals are invalid here
+    std::uint64_t seed_; // of the checksums, so that records of other checkpoints are invalid here
     Found found_ = Found::nothing;
     std::vector<std::int64_t> places_; // of the tiles' bytes in the file; -1: missing
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

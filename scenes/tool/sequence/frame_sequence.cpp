@@ -1,4 +1,4 @@
-#include "scenes/tool/sequence/film_strip.hpp"
+#include "scenes/tool/sequence/frame_sequence.hpp"
 
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
@@ -31,35 +31,35 @@ struct Picture {
 /// Makes the scenes one after the other, each with its camera.
 class Stage {
   public:
-    explicit Stage(const FilmStrip& strip) : strip_(strip), change_(strip.view) {
-        change_.turning = strip.turn.has_value();
-        if (strip.fit_to == FitTo::all && strip.source->count() != 1) fit_to_all();
+    explicit Stage(const FrameSequence& sequence) : sequence_(sequence), change_(sequence.view) {
+        change_.turning = sequence.turn.has_value();
+        if (sequence.fit_to == FitTo::all && sequence.source->count() != 1) fit_to_all();
     }
 
     /// Returns true if there is only one scene, around which the camera may turn.
-    bool is_still() const { return strip_.source->count() == 1; }
+    bool is_still() const { return sequence_.source->count() == 1; }
     std::size_t count() const {
-        return is_still() && strip_.turn ? strip_.turn->count : strip_.source->count();
+        return is_still() && sequence_.turn ? sequence_.turn->count : sequence_.source->count();
     }
 
     /// Returns true if there were any pictures, including those of other processes.
     bool has_any() const { return made_ > 0; }
 
     /// Returns the scene and the file name of the first picture.
-    Shot first() {
-        const std::optional<std::size_t> number = strip_.source->next();
+    SequenceFrame first() {
+        const std::optional<std::size_t> number = sequence_.source->next();
         if (!number) refuse_none();
-        return {scene(made_++), strip_.name(is_still() && strip_.turn ? 0 : *number)};
+        return {scene(made_++), sequence_.name(is_still() && sequence_.turn ? 0 : *number)};
     }
 
     std::optional<Picture> next() {
         for (;;) {
-            if (strip_.only && made_ > *strip_.only) return std::nullopt;
+            if (sequence_.only && made_ > *sequence_.only) return std::nullopt;
             if (is_still() && made_ > 0) {
                 if (made_ >= count()) return std::nullopt;
                 number_ = made_;
             } else {
-                const std::optional<std::size_t> number = strip_.source->next();
+                const std::optional<std::size_t> number = sequence_.source->next();
                 if (!number) {
                     if (made_ > 0) require_turn_of(made_);
                     return std::nullopt;
@@ -68,16 +68,17 @@ class Stage {
             }
             const std::size_t place = made_++;
             // The source may not know the number of pictures before its end.
-            if (strip_.turn && made_ > strip_.turn->count)
-                refuse_turn(*strip_.turn, "at least " + std::to_string(made_));
-            const bool is_ours = strip_.only ? place == *strip_.only
-                                             : place % strip_.share.of == strip_.share.number;
-            Picture picture{place, strip_.name(is_still() && strip_.turn ? place : number_),
+            if (sequence_.turn && made_ > sequence_.turn->count)
+                refuse_turn(*sequence_.turn, "at least " + std::to_string(made_));
+            const bool is_ours = sequence_.only
+                                     ? place == *sequence_.only
+                                     : place % sequence_.share.of == sequence_.share.number;
+            Picture picture{place, sequence_.name(is_still() && sequence_.turn ? place : number_),
                             std::nullopt};
             if (is_ours && is_wanted(picture.name)) picture.scene = scene(place);
             // The view of the first picture fixes that of the others, so its scene is needed in any
             // case.
-            else if (place == 0 && strip_.fit_to == FitTo::first && !is_still())
+            else if (place == 0 && sequence_.fit_to == FitTo::first && !is_still())
                 static_cast<void>(scene(place));
             if (is_ours) return picture;
         }
@@ -90,26 +91,27 @@ class Stage {
 
   private:
     void require_turn_of(std::size_t count) const {
-        if (strip_.turn && strip_.turn->count != count)
-            refuse_turn(*strip_.turn, std::to_string(count));
+        if (sequence_.turn && sequence_.turn->count != count)
+            refuse_turn(*sequence_.turn, std::to_string(count));
     }
 
     /// Returns true if the picture must be drawn. A loss of power may leave an empty file, which
     /// does not count.
     bool is_wanted(const std::string& name) const {
         std::error_code unknown;
-        return strip_.overwrites || !std::filesystem::is_regular_file(name, unknown) ||
+        return sequence_.overwrites || !std::filesystem::is_regular_file(name, unknown) ||
                std::filesystem::file_size(name, unknown) == 0;
     }
 
     core::Scene scene(std::size_t place) {
-        core::Scene scene = still_ ? *std::exchange(still_, std::nullopt) : strip_.source->scene();
-        if (place == 0 && strip_.fit_to == FitTo::first) strip_.source->keep_scale();
+        core::Scene scene =
+            still_ ? *std::exchange(still_, std::nullopt) : sequence_.source->scene();
+        if (place == 0 && sequence_.fit_to == FitTo::first) sequence_.source->keep_scale();
         if (!is_still() || !is_set_up_) {
-            const core::Settings settings = strip_.settings(scene.settings());
+            const core::Settings settings = sequence_.settings(scene.settings());
             scene = seen(std::move(scene), change_, settings, frame_);
             // Scenes with an explicit camera keep it (below).
-            if (!is_set_up_ && (is_still() || strip_.fit_to != FitTo::each))
+            if (!is_set_up_ && (is_still() || sequence_.fit_to != FitTo::each))
                 fixed_ = view_of(scene);
             is_set_up_ = true;
         }
@@ -120,12 +122,12 @@ class Stage {
             view = *fixed_;
             if (!(auto_camera.depth_cue > 0.0F)) view.fog = own;
         }
-        if (strip_.turn) {
+        if (sequence_.turn) {
             const core::Vec3f up =
                 auto_camera.fit_camera ? auto_camera.fit_camera->up : view.camera.up;
             view = core::turned(view, up,
-                                strip_.turn->degrees * static_cast<double>(place) /
-                                    static_cast<double>(strip_.turn->count));
+                                sequence_.turn->degrees * static_cast<double>(place) /
+                                    static_cast<double>(sequence_.turn->count));
         }
         return std::move(scene).seen(auto_camera, view);
     }
@@ -133,25 +135,25 @@ class Stage {
     /// Reads all scenes once to find the frame that contains their shapes.
     void fit_to_all() {
         std::atomic<std::size_t> count = 0;
-        const ProgressLine line(strip_.verbosity,
+        const ProgressLine line(sequence_.verbosity,
                                 [&] { return std::to_string(count) + " frames surveyed"; });
-        for (; strip_.source->next(); ++count) {
-            const core::Scene scene = strip_.source->scene();
+        for (; sequence_.source->next(); ++count) {
+            const core::Scene scene = sequence_.source->scene();
             core::Camera camera = scene.camera();
             const core::AutoCamera auto_camera = change_.auto_camera(scene, camera);
             if (auto_camera.fit_camera) {
                 if (!frame_)
                     frame_ =
-                        core::empty_frame(scene, auto_camera, strip_.settings(scene.settings()));
+                        core::empty_frame(scene, auto_camera, sequence_.settings(scene.settings()));
                 core::include_shapes(scene, *frame_);
             }
         }
         if (count > 0) require_turn_of(count);
-        strip_.source->keep_scale();
-        strip_.source->rewind();
+        sequence_.source->keep_scale();
+        sequence_.source->rewind();
     }
 
-    const FilmStrip& strip_;
+    const FrameSequence& sequence_;
     ViewChange change_;
     std::optional<core::Frame> frame_; // contains the shapes of all scenes
     std::optional<core::View> fixed_;
@@ -269,22 +271,22 @@ void refuse_turn(const Turn& turn, const std::string& otherwise) {
                        std::to_string(turn.count));
 }
 
-Shot first_shot(const FilmStrip& strip) {
+SequenceFrame first_frame(const FrameSequence& sequence) {
     const auto start = std::chrono::steady_clock::now();
-    const ProgressLine line(strip.verbosity, [start] {
+    const ProgressLine line(sequence.verbosity, [start] {
         return "reading the frame: " + duration_text(seconds_since(start));
     });
-    return Stage(strip).first();
+    return Stage(sequence).first();
 }
 
-void draw(const FilmStrip& strip) {
-    Stage stage(strip);
-    const auto [number, of] = strip.share;
+void draw(const FrameSequence& sequence) {
+    Stage stage(sequence);
+    const auto [number, of] = sequence.share;
     StripProgress progress((stage.count() + of - 1 - number) / of);
     const auto start = std::chrono::steady_clock::now();
     std::size_t pictures = 0;
     {
-        const ProgressLine line(strip.verbosity, [&] { return progress.text(); });
+        const ProgressLine line(sequence.verbosity, [&] { return progress.text(); });
         const auto make_next = [&] { return stage.next(); };
         std::optional<Picture> picture = stage.next();
         while (picture) {
@@ -293,8 +295,8 @@ void draw(const FilmStrip& strip) {
             // If there is only one scene, the next picture reuses it after this one is drawn.
             if (!stage.is_still()) next = std::async(std::launch::async, make_next);
             if (picture->scene) {
-                strip.draw(*picture->scene, picture->place, picture->name,
-                           progress.of_picture(strip.settings(picture->scene->settings())));
+                sequence.draw(*picture->scene, picture->place, picture->name,
+                              progress.of_picture(sequence.settings(picture->scene->settings())));
                 progress.drawn();
                 stage.take_back(*std::move(picture->scene));
             } else {
@@ -305,11 +307,11 @@ void draw(const FilmStrip& strip) {
     }
     if (!stage.has_any()) refuse_none();
     const std::size_t kept = progress.kept_count();
-    if (strip.verbosity == Verbosity::verbose ||
-        (strip.verbosity == Verbosity::normal && is_terminal()))
+    if (sequence.verbosity == Verbosity::verbose ||
+        (sequence.verbosity == Verbosity::normal && is_terminal()))
         std::fprintf(stderr, "%zu images rendered in %s\n", pictures - kept,
                      duration_text(seconds_since(start)).c_str());
-    if (kept > 0 && strip.verbosity != Verbosity::quiet)
+    if (kept > 0 && sequence.verbosity != Verbosity::quiet)
         std::fprintf(stderr, "%zu of %zu images exist already; --overwrite renders them again\n",
                      kept, pictures);
 }
@@ -326,8 +328,8 @@ picture_names(const std::string& scene, const std::optional<std::string>& output
     };
 }
 
-std::optional<FilmStrip> film_strip_of(const RenderArguments& arguments, int threads,
-                                       Verbosity verbosity) {
+std::optional<FrameSequence> requested_sequence(const RenderArguments& arguments, int threads,
+                                                Verbosity verbosity) {
     const FrameArguments& frames = arguments.frames;
     const ParameterArguments& parameters = arguments.scene_arguments.parameters;
     const std::optional<FrameRange>& range = frames.frames.value();
@@ -335,28 +337,28 @@ std::optional<FilmStrip> film_strip_of(const RenderArguments& arguments, int thr
     if (range && !(*parameters.set).empty())
         throw BadInput("--set", "", "goes with a JSON scene, but --frames goes with atoms");
 
-    FilmStrip strip;
-    strip.view = arguments.scene_arguments.view.change();
-    strip.turn = frames.turn.value();
-    strip.fit_to = *frames.camera_from;
+    FrameSequence sequence;
+    sequence.view = arguments.scene_arguments.view.change();
+    sequence.turn = frames.turn.value();
+    sequence.fit_to = *frames.camera_from;
     LoadOptions options = arguments.scene_arguments.load_options();
-    strip.workers = std::make_shared<simd::ParallelWorkers>(threads);
-    options.workers = strip.workers.get();
-    strip.verbosity = verbosity;
+    sequence.workers = std::make_shared<simd::ParallelWorkers>(threads);
+    options.workers = sequence.workers.get();
+    sequence.verbosity = verbosity;
     if (verbosity != Verbosity::quiet)
         options.on_remark = [](const std::string& remark) {
             // Replaces the progress line, which is drawn again afterwards.
             std::fprintf(stderr, is_terminal() ? "\r%s\x1B[K\n" : "%s\n", remark.c_str());
         };
-    strip.source = range ? trajectory_of(*arguments.scene, options, *range)
-                         : sweep_of(*arguments.scene, options, parameters.values());
-    const std::size_t count = strip.source->count();
-    if (strip.turn && count > 1 && count != strip.turn->count)
-        refuse_turn(*strip.turn, std::to_string(count));
-    strip.name = picture_names(*arguments.scene, arguments.output.value(), frames.is_one());
-    strip.overwrites = frames.overwrite || frames.is_one();
-    strip.settings = [&](const core::Settings& own) { return arguments.settings_of(own); };
-    return strip;
+    sequence.source = range ? trajectory_of(*arguments.scene, options, *range)
+                            : sweep_of(*arguments.scene, options, parameters.values());
+    const std::size_t count = sequence.source->count();
+    if (sequence.turn && count > 1 && count != sequence.turn->count)
+        refuse_turn(*sequence.turn, std::to_string(count));
+    sequence.name = picture_names(*arguments.scene, arguments.output.value(), frames.is_one());
+    sequence.overwrites = frames.overwrite || frames.is_one();
+    sequence.settings = [&](const core::Settings& own) { return arguments.settings_of(own); };
+    return sequence;
 }
 
 } // namespace raylane::scenes
