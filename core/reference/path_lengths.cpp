@@ -10,17 +10,17 @@ namespace raylane::core {
 
 namespace {
 
-using Wide = Bounded<DoubleDouble>;
+using Extended = Bounded<DoubleDouble>;
 
 /// Returns true if the sum is certainly not 0, and accurate enough to be rounded to double.
-bool is_good(const Wide& sum) {
+bool is_good(const Extended& sum) {
     return sum.value.high > 0.0 && sum.error <= 0x1p-60 * sum.value.high;
 }
 
 } // namespace
 
 Bounded<DoubleDouble> PathLengths::End::t() const {
-    return crossing != nullptr ? crossing->wide_t() : Wide(limit);
+    return crossing != nullptr ? crossing->wide_t() : Extended(limit);
 }
 
 PathLengths::PathLengths(const Scene& scene)
@@ -109,7 +109,7 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
     }
 
     const CrossingOrder order(scene_, from);
-    const Wide speed = sqrt(squared_length(convert<Wide>(from.ray.direction)));
+    const Extended speed = sqrt(squared_length(convert<Extended>(from.ray.direction)));
     const std::size_t first = lengths.size();
     for (std::size_t i = 0; i < count_; ++i) {
         OfMaterial& material = materials_[i];
@@ -120,7 +120,7 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
         for (const Inside& part : material.parts)
             for (const End& end : {part.begin, part.end})
                 if (end.crossing != nullptr) end.crossing->widen(scene_, from);
-        Wide sum = sum_of(material.parts);
+        Extended sum = sum_of(material.parts);
         if (!is_good(sum)) {
             std::erase_if(material.parts, [&](const Inside& part) {
                 return part.begin.crossing != nullptr && part.end.crossing != nullptr &&
@@ -137,7 +137,7 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
 }
 
 Bounded<DoubleDouble> PathLengths::sum_of(const std::vector<Inside>& parts) const {
-    Wide sum;
+    Extended sum;
     for (const Inside& part : parts)
         sum = sum + (part.end.t() - part.begin.t());
     return sum;
@@ -162,7 +162,7 @@ Bounded<DoubleDouble> PathLengths::exact_sum_of(const LeavingRay& from,
         const double low = (sum - Dyadic(high)).approximately().to_double();
         const double error = std::ldexp(2.0 * static_cast<double>(parts.size()), exponent) +
                              0x1p-48 * std::abs(low) + std::numeric_limits<double>::min();
-        const Wide known{{high, low}, error};
+        const Extended known{{high, low}, error};
         if (is_good(known)) return known;
     }
 }

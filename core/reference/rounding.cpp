@@ -13,7 +13,7 @@ namespace raylane::core {
 namespace {
 
 using Limits = std::numeric_limits<float>;
-using Wide = Bounded<DoubleDouble>;
+using Extended = Bounded<DoubleDouble>;
 
 float float_of(double t) {
     return static_cast<float>(std::clamp(t, static_cast<double>(Limits::denorm_min()),
@@ -63,17 +63,18 @@ bool with_wide_t(const Scene& scene, const LeavingRay& from, const SharpHit& sha
            is_enough(sharp.root(scene, from).in_wide(sharp.hit().t, sharp.hit().error));
 }
 
-Vec3<Wide> wide_normal(const Scene& scene, const Ray<Wide>& ray, const Wide& t,
-                       const Hit<double>& hit) {
-    return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Wide> {
-        const NormalAlong<Wide> along = normal_along(shape, ray, hit.face);
+Vec3<Extended> wide_normal(const Scene& scene, const Ray<Extended>& ray, const Extended& t,
+                           const Hit<double>& hit) {
+    return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Extended> {
+        const NormalAlong<Extended> along = normal_along(shape, ray, hit.face);
         return mul_add(t, along.slope, along.v);
     });
 }
 
 /// Returns the normal of an apex.
-Vec3<Wide> wide_apex_normal(const Scene& scene, const Ray<Wide>& ray, const Hit<double>& hit) {
-    return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Wide> {
+Vec3<Extended> wide_apex_normal(const Scene& scene, const Ray<Extended>& ray,
+                                const Hit<double>& hit) {
+    return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Extended> {
         return normal_along(shape, ray, hit.face).apex;
     });
 }
@@ -157,8 +158,8 @@ class RoundedDirection {
   public:
     /// Normalises a direction. Returns true if each component rounds to one float, whatever its
     /// error.
-    bool is_sure(const Vec3<Wide>& direction) {
-        const Wide length = core::length(direction);
+    bool is_sure(const Vec3<Extended>& direction) {
+        const Extended length = core::length(direction);
         for (int axis = 0; axis < 3; ++axis) {
             const Bounded<double> component = in_double(direction[axis] / length);
             if (!(component.error <= 1.0)) continue;
@@ -196,7 +197,7 @@ bool rounds_surely(const DoubleDouble& t, double error) {
 
 double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
     DoubleDouble known;
-    if (with_wide_t(scene, from, hit, [&](const Wide& t) {
+    if (with_wide_t(scene, from, hit, [&](const Extended& t) {
             known = t.value;
             return rounds_surely(t.value, t.error);
         }))
@@ -235,11 +236,12 @@ float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& h
 }
 
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
-    const Ray<Wide> ray = ray_in<Wide>(from.ray);
+    const Ray<Extended> ray = ray_in<Extended>(from.ray);
     RoundedDirection normal;
     // The vector kernels have already tried with t in double.
-    if (with_wide_t(scene, from, hit,
-                    [&](const Wide& t) { return normal.is_sure(wide_normal(scene, ray, t, hit)); }))
+    if (with_wide_t(scene, from, hit, [&](const Extended& t) {
+            return normal.is_sure(wide_normal(scene, ray, t, hit));
+        }))
         return normal.rounded();
     const ExactDirection exact(ExactNormal(scene, from, hit));
     if (exact.at_apex() && normal.is_sure(wide_apex_normal(scene, ray, hit)))
@@ -284,11 +286,11 @@ SurfacePoint<double> surface_point(const Scene& scene, const LeavingRay& from,
         });
         return result;
     }
-    const Ray<Wide> wide = ray_in<Wide>(ray);
+    const Ray<Extended> wide = ray_in<Extended>(ray);
     Vec3<Bounded<double>> direction;
-    const auto is_known = [&](const Wide& t) {
-        const Vec3<Wide> true_point = mul_add(t, wide.direction, wide.origin);
-        const Vec3<Wide> normal = wide_normal(scene, wide, t, hit);
+    const auto is_known = [&](const Extended& t) {
+        const Vec3<Extended> true_point = mul_add(t, wide.direction, wide.origin);
+        const Vec3<Extended> normal = wide_normal(scene, wide, t, hit);
         for (int axis = 0; axis < 3; ++axis) {
             point[axis] = in_double(true_point[axis]);
             result.point[axis] = point[axis].value;

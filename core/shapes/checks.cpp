@@ -88,12 +88,12 @@ void require_count(const char* field, int value, int least, int most) {
 
 namespace {
 
-using Wide = Bounded<DoubleDouble>;
+using Extended = Bounded<DoubleDouble>;
 
 /// Returns true if volume() is 0. Uses numbers with bounds, and exact ones if these leave a doubt.
 template <class Volume>
 bool vanishes(const Volume& volume) {
-    const Wide wide = volume(std::type_identity<Wide>());
+    const Extended wide = volume(std::type_identity<Extended>());
     if (wide.magnitude() > wide.error) return false;
     return volume(std::type_identity<Dyadic>()).sign() == 0;
 }

@@ -18,7 +18,7 @@ namespace raylane::scenes {
 
 namespace {
 
-std::atomic<bool> ending = false;
+std::atomic<bool> ends_early = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not wait");
 
 // The functions from here to catch_signals() call only functions that POSIX lists as safe in a
@@ -37,7 +37,7 @@ std::atomic<const char*> last_words = nullptr;
 static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler must not wait");
 
 extern "C" void end_process(int signal) {
-    ending = true;
+    ends_early = true;
     remove_temporaries();
     if (is_shown()) say("\n"); // the prompt must not follow a progress bar
     if (const char* const line = last_words; line != nullptr) say(line);
@@ -69,7 +69,7 @@ extern "C" void lose_pages(int) {
     static std::atomic_flag is_said;
     while (is_said.test_and_set())
         ::pause();
-    ending = true;
+    ends_early = true;
     remove_temporaries();
     if (is_shown()) say("\n");
     say("raylane: a built scene was truncated while in use, or can no longer be read\n");
@@ -141,7 +141,7 @@ void say_when_ended(const char* line) {
 }
 
 bool is_ending() {
-    return ending;
+    return ends_early;
 }
 
 } // namespace raylane::scenes

@@ -20,8 +20,6 @@ namespace raylane::scenes {
 
 namespace {
 
-constexpr int most = std::numeric_limits<int>::max();
-
 constexpr const char* help =
     R"(Render a scene by the command line of Tachyon
 Usage: raylane tachyon SCENE [OPTIONS]
@@ -78,7 +76,10 @@ class TachyonOptions {
 
     /// Returns the next value of the current option.
     const std::string& value();
-    int whole(int least) { return scenes::whole(least, most).parse(option_, value()); }
+    int whole(int least) {
+        constexpr int largest = std::numeric_limits<int>::max();
+        return scenes::whole(least, largest).parse(option_, value());
+    }
     float number(float largest) { return scenes::number(0.0F, largest).parse(option_, value()); }
 
     void add_shading_options();
