@@ -55,7 +55,8 @@ constexpr StyleRow rows[] = {
     {"oxdna", "type x y z", true},
     {"meso", "type rho esph cv x y z"}, // the former name of sph
 };
-constexpr std::string_view species[] = {"cc1", "cc2", "cc3", "cc4", "cc5", "cc6", "cc7", "cc8"};
+constexpr std::string_view species_columns[] = {"cc1", "cc2", "cc3", "cc4",
+                                                "cc5", "cc6", "cc7", "cc8"};
 
 std::vector<std::string_view> words_of(std::string_view text) {
     constexpr std::string_view blanks = " \t";
@@ -93,9 +94,10 @@ AtomLayout layout_of(const StyleRow& row) {
 /// Adds the concentrations of tdpd. If their number is unknown, allows any columns instead.
 void add_species(AtomLayout& layout, std::string_view count) {
     const int number = to_int(count).value_or(0);
-    layout.is_open = number < 1 || number > static_cast<int>(std::size(species));
+    layout.is_open = number < 1 || number > static_cast<int>(std::size(species_columns));
     if (!layout.is_open)
-        layout.columns.insert(layout.columns.end(), std::begin(species), species + number);
+        layout.columns.insert(layout.columns.end(), std::begin(species_columns),
+                              species_columns + number);
 }
 
 /// Returns true if LAMMPS has one field for two columns of different names.
