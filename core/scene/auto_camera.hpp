@@ -21,7 +21,7 @@ struct AutoCamera {
     bool any() const { return fit_camera || lights || depth_cue > 0.0F; }
 };
 
-/// The result of a auto_camera.
+/// The result of an automatic camera.
 struct View {
     Camera camera;
     Fog fog;

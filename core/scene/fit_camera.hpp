@@ -29,7 +29,7 @@ std::span<const NamedView> named_views();
 /// Returns the usual up direction for a camera that looks in this direction.
 Vec3f upright(const Vec3f& direction);
 
-/// Returns the fit_camera of a camera that has a position.
+/// Returns the fit of a camera that has a position.
 FitCamera fit_camera_of(const Camera& camera);
 
 /// Collects the extent of the contents that a camera must see, and computes that camera.
@@ -74,7 +74,7 @@ class Frame {
 
     FitCamera fit_camera_;
     Vec3d right_, up_, back_;
-    Vec3d axis_;                           // the fit_camera's up, of length 1
+    Vec3d axis_;                           // the fit's up, of length 1
     std::optional<Vec3d> center_;          // the contents turn about it
     double sine_[2] = {}, cosine_[2] = {}; // of half the angles of view, across and upward
     double aspect_;

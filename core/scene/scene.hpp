@@ -177,8 +177,8 @@ class SceneBuilder {
     /// `name_of_shape` returns a name.
     Scene build(const NameOfShape& name_of_shape = nullptr) &&;
     /// Returns a scene with these shapes alone, and with the camera, fog and lights that their
-    /// auto_camera produced. No shape may have been added. Also throws InvalidValue for anything
-    /// that check() refuses.
+    /// automatic camera produced. No shape may have been added. Also throws InvalidValue for
+    /// anything that check() refuses.
     Scene build(BuiltShapes shapes) &&;
 
   private:

@@ -12,7 +12,7 @@ namespace raylane::scenes {
 /// .nff (of the Standard Procedural Databases), .pov (POV-Ray 3.7's), or .rl (the in-memory layout,
 /// see scenes/built). The file appears complete or not at all.
 ///
-/// JSON keeps everything visible of a scene, to the bit, and the camera's auto_camera, unless that
+/// JSON keeps everything visible of a scene, to the bit, and the automatic camera, unless that
 /// has been changed to something that JSON cannot express. It loses which triangles make up a flat
 /// polygon. The other formats refuse shapes that they cannot express, and omit other features that
 /// they cannot express. Returns a phrase for each omitted feature, and for each feature that other

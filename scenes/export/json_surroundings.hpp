@@ -10,7 +10,7 @@ namespace raylane::scenes {
 
 void write_settings(JsonObject& root, const core::Settings& settings);
 /// Writes camera, background, spectrum and fog. If camera and fog follow from `auto_camera`, writes
-/// the auto_camera instead, from which the reader derives them.
+/// the automatic camera instead, from which the reader derives them.
 void write_surroundings(JsonObject& root, const core::Scene& scene,
                         const core::AutoCamera& auto_camera);
 /// Writes the lights. If `auto_camera` has the camera's own lights, omits these for the reader to

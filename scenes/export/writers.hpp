@@ -14,16 +14,16 @@ namespace raylane::scenes {
 using Differences = std::set<std::string>;
 inline constexpr const char* lost_polygons = "polygons made of triangles";
 
-/// Writes the auto_camera in place of the view that follows from it, as far as JSON can express the
-/// auto_camera. Throws core::InvalidValue for a solid that is nested deeper than the reader
-/// accepts.
+/// Writes the automatic camera in place of the view that follows from it, as far as JSON can
+/// express the auto_camera. Throws core::InvalidValue for a solid that is nested deeper than the
+/// reader accepts.
 void write_json(TextFile& file, const core::Scene& scene, Differences& differences);
 /// Writes only the settings, on one line.
 void write_json_settings(TextFile& file, const core::Settings& settings);
 /// Writes everything except the settings, the names of materials, and the shapes outside of
-/// constructed solids. Writes the view itself, not the auto_camera.
+/// constructed solids. Writes the view itself, not the automatic camera.
 void write_json_without_shapes(TextFile& file, const core::Scene& scene);
-/// Writes everything except the objects. Writes the view itself, not the auto_camera.
+/// Writes everything except the objects. Writes the view itself, not the automatic camera.
 void write_json_without_objects(TextFile& file, const core::Scene& scene);
 /// These also throw core::InvalidValue for content that the format cannot express at all.
 void write_nff(TextFile& file, const core::Scene& scene, Differences& differences);

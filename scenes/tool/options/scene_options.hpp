@@ -118,7 +118,7 @@ struct ViewChange {
     bool orthographic = false;
     bool turning = false; ///< the camera will turn around the scene
 
-    /// Returns the scene's auto_camera with these changes. If the scene keeps its own camera,
+    /// Returns the scene's automatic camera with these changes. If the scene keeps its own camera,
     /// changes are made to `camera` instead. Throws BadInput.
     core::AutoCamera auto_camera(const core::Scene& scene, core::Camera& camera) const;
 };
