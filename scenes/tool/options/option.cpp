@@ -143,10 +143,7 @@ Values<int> whole(int least, int most) {
             [=](const std::string& option, const std::string& text) {
                 const std::optional<int> value = to_int(text);
                 if (!value || *value < least || *value > most)
-                    refuse(option,
-                           "a whole number from " + std::to_string(least) + " to " +
-                               std::to_string(most),
-                           text);
+                    refuse(option, "a whole number from " + range, text);
                 return *value;
             },
             [](const int& value) { return std::to_string(value); }};
