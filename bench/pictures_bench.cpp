@@ -1,5 +1,5 @@
 #include "core/shapes/precision.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "simd/wavefront/render.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,5 +1,5 @@
 #include "bench/rendering.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 
 #include <algorithm>
 #include <cstdlib>

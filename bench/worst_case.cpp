@@ -1,5 +1,5 @@
 #include "raylane/raylane.hpp"
-#include "scenes/library/internals.hpp"
+#include "scenes/api/cpp/internals.hpp"
 #include "simd/isa/isa.hpp"
 
 #ifdef RAYLANE_EMBREE

@@ -21,16 +21,16 @@ forbid simd/kernel 'simd/(query|wavefront)'
 forbid simd/kernel 'core/(shapes|solids|hierarchy|scene|optics|beams|reference)'
 forbid simd/query 'simd/wavefront'
 forbid scenes 'bench|tests'
-forbid scenes/python 'simd|scenes' # it is a user of the library
-if grep -rn '^#include "core/' scenes/python --include='*.hpp' --include='*.cpp' | grep -v '"core/scene/fields.hpp"' ||
+forbid scenes/api/python 'simd|scenes' # it is a user of the library
+if grep -rn '^#include "core/' scenes/api/python --include='*.hpp' --include='*.cpp' | grep -v '"core/scene/fields.hpp"' ||
     grep -n '^#include "' core/scene/fields.hpp; then
-    echo "scenes/python must include only fields.hpp from core, and that header nothing of raylane"
+    echo "scenes/api/python must include only fields.hpp from core, and that header nothing of raylane"
     failed=1
 fi
-for folder in scenes/*/; do
+for folder in scenes/*/ scenes/api/*/; do
     case ${folder%/} in
-    scenes/library | scenes/c | scenes/tool | scenes/web | scenes/python | scenes/examples) ;; # they use the engine
-    *) forbid "${folder%/}" 'simd|scenes/(library|tool|c|web)' ;;
+    scenes/api | scenes/api/* | scenes/tool | scenes/web) ;; # they use the engine
+    *) forbid "${folder%/}" 'simd|scenes/(api|tool|web)' ;;
     esac
 done
 

@@ -26,7 +26,7 @@ touch "$root/var/lib/dpkg/status"
 # shellcheck disable=SC2086 # one word or none
 quietly $as_root dpkg --root="$root" --force-depends --log=/dev/null \
     --install "$build"/packages/*.deb
-for package in $(sed -n 's/^ *find_dependency(\([A-Za-z]*\).*/\1/p' scenes/library/raylaneConfig.cmake.in); do
+for package in $(sed -n 's/^ *find_dependency(\([A-Za-z]*\).*/\1/p' scenes/api/cpp/raylaneConfig.cmake.in); do
     case $package in TBB) name=libtbb-dev ;; PNG) name=libpng-dev ;; ZLIB) name=zlib1g-dev ;; *) name="$package" ;; esac
     dpkg-deb --field "$build"/packages/libraylane-dev_*.deb Depends | grep -qwF "$name" ||
         { echo "packages: libraylane-dev does not depend on $name"; exit 1; }
@@ -45,6 +45,6 @@ done
 bash -n "$root/usr/share/bash-completion/completions/raylane"
 test -s "$root/usr/share/doc/raylane-doc/html/tracer_8hpp.html"
 
-quietly cmake -S scenes/examples -B "$out/examples" -DCMAKE_PREFIX_PATH="$root/usr"
+quietly cmake -S scenes/api/examples -B "$out/examples" -DCMAKE_PREFIX_PATH="$root/usr"
 quietly cmake --build "$out/examples"
 echo "packages: installed and used"

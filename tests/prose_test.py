@@ -15,7 +15,7 @@ import sys
 
 # Flagged lines that a folder may have. Everything outside of these folders may have none.
 LIMITS = {"bench": 5, "core": 10, "scenes": 45, "simd": 16, "tests": 30}
-NONE = ("scenes/library/raylane/",)  # public headers
+NONE = ("scenes/api/cpp/raylane/",)  # public headers
 WHATS = 2.0  # the word "what", in 1,000 words
 WORDS = 32  # of a sentence
 COMMITS = 20  # the last ones

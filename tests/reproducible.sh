@@ -42,7 +42,7 @@ if [ "${1-}" = quick ]; then
     set -- core/CMakeFiles/raylane_core.dir/numbers/dyadic.cpp.o \
         core/CMakeFiles/raylane_core.dir/scene/glass.cpp.o \
         scenes/CMakeFiles/raylane_scenes.dir/format.cpp.o \
-        scenes/library/CMakeFiles/raylane_api.dir/version.cpp.o
+        scenes/api/cpp/CMakeFiles/raylane_api.dir/version.cpp.o
     build() { quietly cmake --build build/own --target "$@"; }
 elif [ "${1-}" = kernels ]; then
     set --
@@ -54,7 +54,7 @@ elif [ "${1-}" = kernels ]; then
     done
     build() { quietly cmake --build build/own --target "$@"; }
 else
-    set -- bin/raylane bin/raylane-window.so scenes/library/libraylane.a \
+    set -- bin/raylane bin/raylane-window.so scenes/api/cpp/libraylane.a \
         scenes/tool/manual/raylane-render.1 scenes/tool/completions/raylane
     build() {
         quietly cmake --build build/own

@@ -4,7 +4,7 @@
 #include "core/numbers/sample_sequence.hpp"
 #include "core/optics/soft_light.hpp"
 #include "core/scene/camera_rays.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "simd/isa/isa.hpp"
 #include "simd/query/query.hpp"
 

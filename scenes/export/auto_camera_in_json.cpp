@@ -46,7 +46,7 @@ std::span<const core::Light> brought_lights(const core::Scene& scene) {
     return std::span(scene.lights()).subspan(scene.own_light_count());
 }
 
-/// Returns true if scenes/json/surroundings.cpp accepts the fit.
+/// Returns true if scenes/formats/json/surroundings.cpp accepts the fit.
 bool is_read(const core::FitCamera& fit_camera) {
     const bool perspective = fit_camera.projection == core::Projection::perspective;
     const auto across = core::cross(core::convert<double>(fit_camera.up),

@@ -1,8 +1,8 @@
 #include "scenes/export/export.hpp"
 
-#include "scenes/built/built_file.hpp"
 #include "scenes/export/writers.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/number.hpp"
+#include "scenes/formats/built/built_file.hpp"
 
 namespace raylane::scenes {
 

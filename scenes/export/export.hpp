@@ -10,7 +10,7 @@ namespace raylane::scenes {
 
 /// Writes a scene in the format that the file's ending selects, in any case: .json (raylane's own),
 /// .nff (of the Standard Procedural Databases), .pov (POV-Ray 3.7's), or .rl (the in-memory layout,
-/// see scenes/built). The file appears complete or not at all.
+/// see scenes/formats/built). The file appears complete or not at all.
 ///
 /// JSON keeps everything visible of a scene, to the bit, and the automatic camera, unless that
 /// has been changed to something that JSON cannot express. It loses which triangles make up a flat

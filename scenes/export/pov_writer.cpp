@@ -3,7 +3,7 @@
 #include "core/shapes/shapes.hpp"
 #include "core/solids/solid.hpp"
 #include "scenes/export/writers.hpp"
-#include "scenes/pov/scanner.hpp"
+#include "scenes/formats/pov/scanner.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/numbers/vector.hpp"
-#include "scenes/atomic_file.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/atomic_file.hpp"
+#include "scenes/files/number.hpp"
 
 #include <charconv>
 #include <cmath>

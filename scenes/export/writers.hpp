@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/scene/solid_description.hpp"
-#include "scenes/errors.hpp"
 #include "scenes/export/text_file.hpp"
+#include "scenes/files/errors.hpp"
 
 #include <set>
 #include <string>

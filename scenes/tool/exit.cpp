@@ -1,8 +1,8 @@
 #include "scenes/tool/exit.hpp"
 
 #include "core/shapes/invalid_value.hpp"
-#include "scenes/atomic_file.hpp"
-#include "scenes/errors.hpp"
+#include "scenes/files/atomic_file.hpp"
+#include "scenes/files/errors.hpp"
 #include "scenes/tool/checkpoint/resumable.hpp"
 #include "scenes/tool/ranks/job.hpp"
 

@@ -1,8 +1,8 @@
 #include "scenes/tool/image_texts.hpp"
 
-#include "scenes/errors.hpp"
 #include "scenes/export/writers.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/files/number.hpp"
 #include "scenes/tool/checkpoint/fingerprint.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "scenes/tool/loading.hpp"
 
-#include "scenes/built/built_file.hpp"
-#include "scenes/errors.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/built/built_file.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/system.hpp"
 #include "simd/threads/threads.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/ranks/job.hpp"
 

@@ -1,6 +1,6 @@
 #include "scenes/tool/system.hpp"
 
-#include "scenes/errors.hpp"
+#include "scenes/files/errors.hpp"
 
 #include <cerrno>
 #include <dlfcn.h>

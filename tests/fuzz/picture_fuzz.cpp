@@ -1,6 +1,6 @@
-#include "scenes/errors.hpp"
-#include "scenes/image/exr.hpp"
-#include "scenes/image/reader.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/images/exr.hpp"
+#include "scenes/images/reader.hpp"
 
 #include <cstdint>
 #include <string_view>

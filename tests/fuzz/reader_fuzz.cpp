@@ -1,8 +1,8 @@
-#include "scenes/built/built_file.hpp"
-#include "scenes/errors.hpp"
-#include "scenes/format.hpp"
-#include "scenes/scene_file.hpp"
-#include "scenes/structure/structure_file.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/built/built_file.hpp"
+#include "scenes/formats/format.hpp"
+#include "scenes/formats/scene_file.hpp"
+#include "scenes/formats/structure/structure_file.hpp"
 #include "simd/wavefront/render.hpp"
 
 #include <cstdint>

@@ -9,7 +9,7 @@ import zipfile
 import pytest
 import raylane
 
-SOURCE = pathlib.Path(__file__).parents[2] / "scenes" / "python"
+SOURCE = pathlib.Path(__file__).parents[2] / "scenes" / "api" / "python"
 
 
 def run(*command, **options):

@@ -1,5 +1,5 @@
-#include "scenes/errors.hpp"
-#include "scenes/image/compare.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/images/compare.hpp"
 #include "tests/catch.hpp"
 
 #include <cmath>

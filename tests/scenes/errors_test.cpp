@@ -1,4 +1,4 @@
-#include "scenes/errors.hpp"
+#include "scenes/files/errors.hpp"
 #include "tests/catch.hpp"
 
 using namespace raylane::scenes;

@@ -1,6 +1,6 @@
 #include "core/scene/auto_camera.hpp"
 #include "scenes/export/export.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/exports.hpp"
 #include "tests/scenes/json_scenes.hpp"

@@ -1,6 +1,6 @@
 #include "scenes/export/export.hpp"
 #include "scenes/export/writers.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/places.hpp"
 #include "tests/scenes/exports.hpp"

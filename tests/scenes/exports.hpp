@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scenes/errors.hpp"
 #include "scenes/export/export.hpp"
+#include "scenes/files/errors.hpp"
 #include "simd/wavefront/render.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "core/scene/fields.hpp"
 #include "core/scene/surroundings.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/number.hpp"
 #include "tests/catch.hpp"
 #include "tests/places.hpp"
 #include "tests/scenes/temporary_directory.hpp"

@@ -1,4 +1,4 @@
-#include "scenes/generators.hpp"
+#include "scenes/formats/generators.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/shared_scene.hpp"
 

@@ -1,5 +1,5 @@
 #include "core/kinds.hpp"
-#include "scenes/json/object.hpp"
+#include "scenes/formats/json/object.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/json_scenes.hpp"
 #include "tests/scenes/message_of.hpp"

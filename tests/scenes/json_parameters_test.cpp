@@ -1,4 +1,4 @@
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/json_scenes.hpp"
 #include "tests/scenes/message_of.hpp"

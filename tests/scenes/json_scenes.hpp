@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scenes/errors.hpp"
-#include "scenes/json/reader.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/json/reader.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <sstream>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/errors.hpp"
+#include "scenes/files/errors.hpp"
 
 #include <fstream>
 #include <malloc.h>

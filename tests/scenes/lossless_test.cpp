@@ -1,5 +1,5 @@
 #include "core/reference/tracer.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/places.hpp"
 #include "tests/scenes/shared_scene.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scenes/errors.hpp"
-#include "scenes/nff/reader.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/nff/reader.hpp"
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 

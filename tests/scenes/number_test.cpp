@@ -1,4 +1,4 @@
-#include "scenes/number.hpp"
+#include "scenes/files/number.hpp"
 #include "tests/catch.hpp"
 
 #include <charconv>

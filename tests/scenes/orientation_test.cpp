@@ -1,4 +1,4 @@
-#include "scenes/nff/orientation.hpp"
+#include "scenes/formats/nff/orientation.hpp"
 #include "tests/catch.hpp"
 
 #include <random>

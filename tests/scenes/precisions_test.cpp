@@ -1,5 +1,5 @@
 #include "core/scene/transfer.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/places.hpp"

@@ -1,4 +1,4 @@
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/places.hpp"

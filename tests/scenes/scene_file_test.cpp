@@ -1,5 +1,5 @@
-#include "scenes/errors.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"

@@ -1,5 +1,5 @@
-#include "scenes/errors.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "scenes/tool/checkpoint/checkpoint.hpp"
 #include "scenes/tool/checkpoint/fingerprint.hpp"
 #include "tests/catch.hpp"

@@ -1,4 +1,4 @@
-#include "scenes/nff/triangulate.hpp"
+#include "scenes/formats/nff/triangulate.hpp"
 #include "tests/catch.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "core/numbers/vector.hpp"
-#include "scenes/number.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/files/number.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "simd/stream/stream_tracer.hpp"
 #include "simd/wavefront/render.hpp"
 

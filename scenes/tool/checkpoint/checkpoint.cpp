@@ -1,7 +1,7 @@
 #include "scenes/tool/checkpoint/checkpoint.hpp"
 
-#include "scenes/errors.hpp"
-#include "scenes/library/raylane/version.h"
+#include "scenes/api/cpp/raylane/version.h"
+#include "scenes/files/errors.hpp"
 #include "scenes/tool/checkpoint/fingerprint.hpp"
 #include "scenes/tool/system.hpp"
 

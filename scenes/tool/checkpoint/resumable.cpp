@@ -1,7 +1,7 @@
 #include "scenes/tool/checkpoint/resumable.hpp"
 
-#include "scenes/errors.hpp"
-#include "scenes/image/exr.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/images/exr.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/ranked_tiles.hpp"
 #include "scenes/tool/system.hpp"

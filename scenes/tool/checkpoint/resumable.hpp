@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/image/writer.hpp"
+#include "scenes/images/writer.hpp"
 #include "scenes/tool/checkpoint/checkpoint.hpp"
 #include "scenes/tool/exit.hpp"
 #include "scenes/tool/image_texts.hpp"

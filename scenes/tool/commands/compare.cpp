@@ -1,8 +1,8 @@
-#include "scenes/image/compare.hpp"
+#include "scenes/images/compare.hpp"
 
-#include "scenes/image/exr.hpp"
-#include "scenes/image/writer.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/number.hpp"
+#include "scenes/images/exr.hpp"
+#include "scenes/images/writer.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/options/option.hpp"
 #include "scenes/tool/options/render_options.hpp"

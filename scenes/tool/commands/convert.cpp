@@ -1,5 +1,5 @@
-#include "scenes/errors.hpp"
 #include "scenes/export/export.hpp"
+#include "scenes/files/errors.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/options/option.hpp"

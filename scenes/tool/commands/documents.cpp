@@ -1,4 +1,4 @@
-#include "scenes/atomic_file.hpp"
+#include "scenes/files/atomic_file.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/commands/manual.hpp"
 

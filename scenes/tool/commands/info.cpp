@@ -1,6 +1,6 @@
 #include "core/scene/features.hpp"
-#include "scenes/errors.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/files/number.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/options/scene_options.hpp"

@@ -1,6 +1,6 @@
 #include "scenes/tool/commands/manual.hpp"
 
-#include "scenes/library/raylane/version.h"
+#include "scenes/api/cpp/raylane/version.h"
 #include "scenes/tool/commands/command.hpp"
 
 #include <CLI/CLI.hpp>

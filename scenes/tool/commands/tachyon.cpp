@@ -1,5 +1,5 @@
-#include "scenes/image/writer.hpp"
-#include "scenes/library/raylane/version.h"
+#include "scenes/api/cpp/raylane/version.h"
+#include "scenes/images/writer.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/options/option.hpp"

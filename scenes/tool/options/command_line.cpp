@@ -1,6 +1,6 @@
 #include "scenes/tool/options/command_line.hpp"
 
-#include "scenes/errors.hpp"
+#include "scenes/files/errors.hpp"
 #include "scenes/tool/commands/command.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,8 +1,8 @@
 #include "scenes/tool/options/option.hpp"
 
-#include "scenes/format.hpp"
-#include "scenes/number.hpp"
-#include "scenes/structure/drawing.hpp"
+#include "scenes/files/number.hpp"
+#include "scenes/formats/format.hpp"
+#include "scenes/formats/structure/drawing.hpp"
 #include "simd/threads/threads.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/surroundings.hpp"
-#include "scenes/errors.hpp"
+#include "scenes/files/errors.hpp"
 #include "simd/wavefront/render.hpp"
 
 #include <filesystem>

@@ -1,8 +1,8 @@
 #include "scenes/tool/options/render_options.hpp"
 
 #include "core/scene/transfer.hpp"
-#include "scenes/image/exr.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/number.hpp"
+#include "scenes/images/exr.hpp"
 #include "scenes/tool/options/command_line.hpp"
 
 #include <charconv>

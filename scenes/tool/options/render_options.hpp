@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/image/writer.hpp"
+#include "scenes/images/writer.hpp"
 #include "scenes/tool/image_texts.hpp"
 #include "scenes/tool/options/scene_options.hpp"
 #include "simd/wavefront/render.hpp"

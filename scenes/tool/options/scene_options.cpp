@@ -1,8 +1,8 @@
 #include "scenes/tool/options/scene_options.hpp"
 
 #include "core/scene/field_of_view.hpp"
-#include "scenes/json/parameters.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/number.hpp"
+#include "scenes/formats/json/parameters.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "scenes/scene_file.hpp"
-#include "scenes/structure/drawing.hpp"
+#include "scenes/formats/scene_file.hpp"
+#include "scenes/formats/structure/drawing.hpp"
 #include "scenes/tool/options/option.hpp"
 
 #include <array>

@@ -1,8 +1,8 @@
 #include "scenes/tool/ranks/job.hpp"
 
-#include "scenes/atomic_file.hpp"
-#include "scenes/errors.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/atomic_file.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/files/number.hpp"
 #include "scenes/tool/exit.hpp"
 #include "scenes/tool/ranks/ranks.hpp"
 #include "scenes/tool/system.hpp"

@@ -1,7 +1,7 @@
 #include "scenes/tool/sequence/frame_sequence.hpp"
 
-#include "scenes/errors.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/files/number.hpp"
 #include "scenes/tool/options/option.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "simd/threads/threads.hpp"

@@ -1,7 +1,7 @@
 #include "scenes/tool/sequence/scene_source.hpp"
 
-#include "scenes/errors.hpp"
-#include "scenes/structure/structure_file.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/structure/structure_file.hpp"
 
 #include <algorithm>
 #include <utility>

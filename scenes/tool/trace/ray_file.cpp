@@ -1,6 +1,6 @@
 #include "scenes/tool/trace/ray_file.hpp"
 
-#include "scenes/errors.hpp"
+#include "scenes/files/errors.hpp"
 #include "scenes/tool/system.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/atomic_file.hpp"
+#include "scenes/files/atomic_file.hpp"
 
 #include <condition_variable>
 #include <cstddef>

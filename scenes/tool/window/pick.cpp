@@ -1,8 +1,8 @@
 #include "scenes/tool/window/pick.hpp"
 
 #include "core/scene/camera_rays.hpp"
-#include "scenes/errors.hpp"
-#include "scenes/number.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/files/number.hpp"
 #include "simd/stream/stream_tracer.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "scenes/structure/structure_file.hpp"
+#include "scenes/formats/structure/structure_file.hpp"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 #include "core/scene/validate.hpp"
 #include "core/shapes/shapes.hpp"
-#include "scenes/library/internals.hpp"
+#include "scenes/api/cpp/internals.hpp"
 #include "simd/isa/isa.hpp"
 #include "simd/stream/row_worker.hpp"
 #include "simd/stream/stream_tracer.hpp"

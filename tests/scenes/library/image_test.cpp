@@ -1,6 +1,6 @@
 #include "raylane/raylane.hpp"
-#include "scenes/image/reader.hpp"
-#include "scenes/library/internals.hpp"
+#include "scenes/api/cpp/internals.hpp"
+#include "scenes/images/reader.hpp"
 #include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/message_of.hpp"

@@ -74,7 +74,7 @@ else
 fi
 
 echo "the examples find it, build and run"
-quietly "$cmake" -S "$source/scenes/examples" -B "$folder/examples" -G "$generator" \
+quietly "$cmake" -S "$source/scenes/api/examples" -B "$folder/examples" -G "$generator" \
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$c_compiler" -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_C_FLAGS="$flags"
 quietly "$cmake" --build "$folder/examples"
@@ -97,7 +97,7 @@ if [ -n "$in_c" ]; then
 cmake_minimum_required(VERSION 3.25)
 project(in_c LANGUAGES C)
 find_package(raylane REQUIRED)
-add_executable(hits_in_c "$source/scenes/examples/hits_in_c.c")
+add_executable(hits_in_c "$source/scenes/api/examples/hits_in_c.c")
 target_link_libraries(hits_in_c PRIVATE raylane::raylane)
 EOF
     quietly "$cmake" -S in_c -B in_c/build -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
@@ -112,13 +112,13 @@ echo "pkg-config finds it"
 if command -v pkg-config >/dev/null; then
     pc=$(find "$prefix" -name raylane.pc)
     words=$(PKG_CONFIG_PATH=$(dirname "$pc") pkg-config --cflags --libs raylane)
-    eval "quietly \"$compiler\" $flags -std=c++20 \"$source/scenes/examples/hits.cpp\" -o hits.pc \
+    eval "quietly \"$compiler\" $flags -std=c++20 \"$source/scenes/api/examples/hits.cpp\" -o hits.pc \
         $words ${run_path:+\"$run_path\"}"
     rm sphere.png
     ./hits.pc
     [ -s sphere.png ] || fail "no picture"
     if [ -n "$in_c" ]; then
-        eval "quietly \"$c_compiler\" $flags -std=c99 \"$source/scenes/examples/hits_in_c.c\" -o hits_in_c.pc \
+        eval "quietly \"$c_compiler\" $flags -std=c99 \"$source/scenes/api/examples/hits_in_c.c\" -o hits_in_c.pc \
             $words ${run_path:+\"$run_path\"}"
         rm ball.png
         ./hits_in_c.pc

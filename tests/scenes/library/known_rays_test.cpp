@@ -1,4 +1,4 @@
-#include "scenes/library/internals.hpp"
+#include "scenes/api/cpp/internals.hpp"
 #include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/library/exam.hpp"

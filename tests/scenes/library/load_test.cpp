@@ -99,9 +99,10 @@ TEST_CASE("atoms are read with or without the edges of their cell") {
 }
 
 TEST_CASE("the pages contain the example program that is tested") {
-    const std::string program = tests::content_of(RAYLANE_SOURCE_DIR "/scenes/examples/hits.cpp");
+    const std::string program =
+        tests::content_of(RAYLANE_SOURCE_DIR "/scenes/api/examples/hits.cpp");
     REQUIRE(!program.empty());
-    for (const char* const page : {"/README.md", "/scenes/library/README.md"}) {
+    for (const char* const page : {"/README.md", "/scenes/api/cpp/README.md"}) {
         CAPTURE(page);
         const std::string text = tests::content_of(std::string(RAYLANE_SOURCE_DIR) + page);
         CHECK(text.find("```cpp\n" + program + "```") != std::string::npos);

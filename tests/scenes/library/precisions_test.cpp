@@ -1,5 +1,5 @@
 #include "core/reference/search.hpp"
-#include "scenes/library/internals.hpp"
+#include "scenes/api/cpp/internals.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/library/ray_arrays.hpp"
 

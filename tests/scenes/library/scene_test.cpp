@@ -1,5 +1,5 @@
 #include "raylane/raylane.hpp"
-#include "scenes/library/internals.hpp"
+#include "scenes/api/cpp/internals.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/library/in_library.hpp"
 #include "tests/scenes/message_of.hpp"

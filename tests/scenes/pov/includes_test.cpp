@@ -1,4 +1,4 @@
-#include "scenes/pov/includes.hpp"
+#include "scenes/formats/pov/includes.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/pov/read.hpp"
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "scenes/errors.hpp"
 #include "scenes/export/writers.hpp"
-#include "scenes/number.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/files/number.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "tests/scenes/message_of.hpp"
 
 #include <string>

@@ -1,5 +1,5 @@
 #include "core/scene/scene.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/pov/read.hpp"

@@ -1,6 +1,6 @@
-#include "scenes/errors.hpp"
-#include "scenes/structure/readers.hpp"
-#include "scenes/structure/structure_file.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/structure/readers.hpp"
+#include "scenes/formats/structure/structure_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/structure/frames.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scenes/errors.hpp"
-#include "scenes/structure/readers.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/structure/readers.hpp"
 #include "tests/scenes/message_of.hpp"
 
 #include <string>

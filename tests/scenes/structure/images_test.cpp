@@ -1,7 +1,7 @@
-#include "scenes/errors.hpp"
-#include "scenes/scene_file.hpp"
-#include "scenes/structure/bonds.hpp"
-#include "scenes/structure/images.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/scene_file.hpp"
+#include "scenes/formats/structure/bonds.hpp"
+#include "scenes/formats/structure/images.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/message_of.hpp"
 

@@ -1,4 +1,4 @@
-#include "scenes/structure/labels.hpp"
+#include "scenes/formats/structure/labels.hpp"
 #include "tests/catch.hpp"
 
 #include <string>

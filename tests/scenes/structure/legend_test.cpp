@@ -1,5 +1,5 @@
-#include "scenes/errors.hpp"
-#include "scenes/scene_file.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/scene_file.hpp"
 #include "simd/wavefront/render.hpp"
 #include "tests/catch.hpp"
 

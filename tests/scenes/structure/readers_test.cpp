@@ -1,5 +1,5 @@
-#include "scenes/errors.hpp"
-#include "scenes/structure/readers.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/structure/readers.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/structure/frames.hpp"
 

@@ -1,4 +1,4 @@
-#include "scenes/image/reader.hpp"
+#include "scenes/images/reader.hpp"
 #include "tests/catch.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/scenes/json_scenes.hpp"

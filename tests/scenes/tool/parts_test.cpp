@@ -1,6 +1,6 @@
-#include "scenes/image/exr.hpp"
-#include "scenes/image/reader.hpp"
-#include "scenes/image/writer.hpp"
+#include "scenes/images/exr.hpp"
+#include "scenes/images/reader.hpp"
+#include "scenes/images/writer.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
 

@@ -1,5 +1,5 @@
-#include "scenes/image/exr.hpp"
-#include "scenes/image/reader.hpp"
+#include "scenes/images/exr.hpp"
+#include "scenes/images/reader.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
 

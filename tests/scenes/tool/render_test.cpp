@@ -1,4 +1,4 @@
-#include "scenes/image/reader.hpp"
+#include "scenes/images/reader.hpp"
 #include "simd/isa/isa.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"

@@ -1,0 +1,154 @@
+#include "raylane/image.hpp"
+
+#include "scenes/api/cpp/convert.hpp"
+#include "scenes/api/cpp/internals.hpp"
+#include "scenes/api/cpp/translate.hpp"
+#include "scenes/images/writer.hpp"
+#include "simd/threads/threads.hpp"
+#include "simd/wavefront/render.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace raylane {
+
+using library::converted;
+using library::translated;
+
+namespace {
+
+core::Settings settings_for(const Scene& scene, const RenderOptions& options) {
+    if (!options.settings) return library::Internals::of(scene).settings();
+    return converted<core::Settings>(*options.settings);
+}
+
+simd::Rendering render_with(const Scene& scene, const core::Settings& settings,
+                            const simd::RenderOptions& options) {
+    library::require_threads(options.threads);
+    if (options.threads == 0)
+        translated(
+            [] { static_cast<void>(simd::default_threads()); }); // throws without "settings/"
+    try {
+        return simd::render(library::Internals::of(scene), settings, options);
+    } catch (const core::InvalidValue& invalid) {
+        throw InvalidValue("settings/" + invalid.field, invalid.expectation);
+    }
+}
+
+simd::RenderOptions inner_options(const core::Settings& settings, const RenderOptions& options) {
+    simd::RenderOptions inner;
+    inner.threads = options.threads;
+    inner.precision = library::core_precision(options.precision);
+    inner.layers = options.layers;
+    if (const auto& crop = options.crop) {
+        const auto is_within = [](int first, int count, int all) { // no sum, which could overflow
+            return first >= 0 && count >= 1 &&
+                   count <= std::min(all, core::Settings::max_size) - first;
+        };
+        if (!is_within(crop->x, crop->width, settings.width) ||
+            !is_within(crop->y, crop->height, settings.height))
+            throw InvalidValue("crop", "must lie within the image");
+        inner.crop = {crop->x, crop->y, crop->x + crop->width, crop->y + crop->height};
+    }
+    return inner;
+}
+
+template <class Vector>
+std::vector<float> components_of(const std::vector<Vector>& vectors) {
+    std::vector<float> components;
+    components.reserve(3 * vectors.size());
+    for (const Vector& vector : vectors)
+        components.insert(components.end(), {vector.x, vector.y, vector.z});
+    return components;
+}
+
+Image image_of(simd::Rendering rendering) {
+    const core::Film& film = rendering.film;
+    core::Layers& layers = rendering.layers;
+    return {film.width(),
+            film.height(),
+            components_of(film.pixels()),
+            film.alphas(),
+            {std::move(layers.depth), components_of(layers.normal), std::move(layers.shape),
+             std::move(layers.material), std::move(layers.samples)}};
+}
+
+Tile tile_of(const core::Film& film, const core::Region& region) {
+    static_assert(sizeof(core::Color) == 3 * sizeof(float));
+    return {region.x0,
+            region.y0,
+            region.x1 - region.x0,
+            region.y1 - region.y0,
+            &film.at(region.x0, region.y0).x,
+            std::size_t{3} * film.width(),
+            film.has_alpha() ? &film.alphas()[film.index(region.x0, region.y0)] : nullptr};
+}
+
+void require_side(const char* field, int pixels) {
+    if (pixels < 1 || pixels > core::Settings::max_size)
+        throw InvalidValue(field, "must be from 1 to " + std::to_string(core::Settings::max_size) +
+                                      ", got " + std::to_string(pixels));
+}
+
+} // namespace
+
+Image render(const Scene& scene, const RenderOptions& options) {
+    const core::Settings settings = settings_for(scene, options);
+    return image_of(render_with(scene, settings, inner_options(settings, options)));
+}
+
+std::optional<Image> render(const Scene& scene, const RenderOptions& options,
+                            const ProgressCallback& progress) {
+    if (!progress) return render(scene, options);
+    const core::Settings settings = settings_for(scene, options);
+    simd::RenderOptions inner = inner_options(settings, options);
+    const core::Region drawn = simd::drawn_part(settings, inner.crop);
+    const std::int64_t total = std::int64_t{drawn.x1 - drawn.x0} * (drawn.y1 - drawn.y0);
+    simd::Progress made;
+    std::mutex calling;
+    bool has_ended = false; // true once the callback has returned false or thrown
+    inner.progress = &made;
+    inner.after_tile = [&](const simd::FinishedTile& tile) {
+        const std::lock_guard lock(calling);
+        if (has_ended) return;
+        has_ended = true;
+        has_ended = !progress({made.pixels, total, made.rays, tile_of(tile.film, tile.region)});
+        made.stop = made.abandon = has_ended;
+    };
+    simd::Rendering rendering = render_with(scene, settings, inner);
+    if (!rendering.complete || has_ended) return std::nullopt;
+    return image_of(std::move(rendering));
+}
+
+void write_image(const std::filesystem::path& path, const Image& image, Transfer transfer) {
+    require_side("width", image.width);
+    require_side("height", image.height);
+    if (transfer > Transfer::linear) throw InvalidValue("transfer", "must be a Transfer");
+    if (image.rgb.size() != std::size_t{3} * image.width * image.height)
+        throw InvalidValue("rgb", "must be 3 components for each of " +
+                                      std::to_string(image.width) + " x " +
+                                      std::to_string(image.height) + " pixels, got " +
+                                      std::to_string(image.rgb.size()));
+    if (!image.alpha.empty() && 3 * image.alpha.size() != image.rgb.size())
+        throw InvalidValue("alpha", "must be empty, or one for each of " +
+                                        std::to_string(image.width) + " x " +
+                                        std::to_string(image.height) + " pixels, got " +
+                                        std::to_string(image.alpha.size()));
+    translated([&] {
+        scenes::OutputFile file(path);
+        core::Film film(image.width, image.height, !image.alpha.empty());
+        std::size_t i = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x, ++i) {
+                const Color pixel = image.at(x, y);
+                film.at(x, y) = {pixel.x, pixel.y, pixel.z};
+                if (film.has_alpha()) film.alpha_at(x, y) = image.alpha[i];
+            }
+        file.reserve(image.width, image.height);
+        file.commit(film, converted<core::Transfer>(transfer));
+    });
+}
+
+} // namespace raylane

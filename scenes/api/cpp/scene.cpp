@@ -1,0 +1,270 @@
+#include "core/scene/scene.hpp"
+
+#include "core/scene/auto_camera.hpp"
+#include "core/scene/validate.hpp"
+#include "raylane/scene.hpp"
+#include "scenes/api/cpp/convert.hpp"
+#include "scenes/api/cpp/internals.hpp"
+#include "scenes/api/cpp/translate.hpp"
+#include "scenes/export/export.hpp"
+#include "scenes/files/number.hpp"
+#include "scenes/formats/scene_file.hpp"
+#include "simd/threads/threads.hpp"
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace raylane {
+
+using library::converted;
+using library::translated;
+
+namespace {
+
+void require_index(std::size_t index, std::size_t count, const char* what) {
+    if (index >= count)
+        throw InvalidValue("", "must be one of " + std::to_string(count) + " " + what + ", got " +
+                                   std::to_string(index));
+}
+
+Scene owning(core::Scene&& scene) {
+    return library::Internals::scene(std::make_shared<const core::Scene>(std::move(scene)));
+}
+
+/// Returns a path that names the file "-", which the readers and writers take for standard input or
+/// output.
+std::filesystem::path file_named(const std::filesystem::path& path) {
+    return path == "-" ? "./-" : path;
+}
+
+} // namespace
+
+Scene::Scene(std::shared_ptr<const core::Scene> scene) : scene_(std::move(scene)) {}
+
+std::size_t Scene::shape_count() const {
+    return scene_->shape_count();
+}
+
+std::size_t Scene::material_count() const {
+    return scene_->materials().size();
+}
+
+Bounds Scene::bounds() const {
+    const core::Bounds& bounds = scene_->hierarchy().bounds;
+    return {converted<Vec3>(bounds.lower), converted<Vec3>(bounds.upper)};
+}
+
+MaterialIndex Scene::material_of(ShapeId shape) const {
+    require_index(shape, shape_count(), "shapes");
+    return scene_->material_index_of(shape);
+}
+
+ShapeId Scene::solid_of(ShapeId shape) const {
+    require_index(shape, shape_count(), "shapes");
+    return scene_->solids().solid_of(shape);
+}
+
+Material Scene::material(MaterialIndex index) const {
+    require_index(index, material_count(), "materials");
+    return converted<Material>(scene_->materials()[index]);
+}
+
+std::vector<Light> Scene::lights() const {
+    std::vector<Light> lights;
+    for (const core::Light& light : scene_->lights())
+        lights.push_back(converted<Light>(light));
+    return lights;
+}
+
+Fog Scene::fog() const {
+    return converted<Fog>(scene_->fog());
+}
+
+Camera Scene::camera() const {
+    return converted<Camera>(scene_->camera());
+}
+
+Color Scene::background() const {
+    return converted<Color>(scene_->background());
+}
+
+Settings Scene::settings() const {
+    return converted<Settings>(scene_->settings());
+}
+
+Scene Scene::seen_by(const Camera& camera) const {
+    return translated([&] {
+        core::AutoCamera auto_camera = scene_->auto_camera();
+        auto_camera.fit_camera.reset(); // the new camera's position is given
+        core::Scene same = core::Scene(*scene_).seen(
+            auto_camera, {converted<core::Camera>(camera), scene_->fog(), {}});
+        if (auto_camera.any()) {
+            const core::View view = core::staged(same, auto_camera, same.settings());
+            same = std::move(same).seen(auto_camera, view);
+        }
+        return owning(std::move(same));
+    });
+}
+
+Camera Scene::camera_on_all(const Vec3& direction, float aspect) const {
+    if (!(aspect >= 1e-5F && aspect <= 1e5F))
+        throw InvalidValue("aspect",
+                           "must be from 0.00001 to 100000, got " + scenes::to_text(aspect));
+    return translated([&] {
+        const auto way = converted<core::Vec3f>(direction);
+        const double squared_length = core::squared_length(core::convert<double>(way));
+        if (!(squared_length > 0.0 && squared_length < std::numeric_limits<double>::infinity()))
+            throw InvalidValue("direction", "must be finite and not zero");
+        core::Frame frame({.direction = way, .up = core::upright(way)},
+                          static_cast<double>(aspect));
+        core::include_shapes(*scene_, frame);
+        if (frame.empty())
+            throw InvalidValue("scene", "must have a shape other than planes to frame");
+        const core::Camera found = frame.camera();
+        try {
+            core::validate(found);
+        } catch (const core::InvalidValue&) {
+            throw InvalidValue("scene", "is too large for an automatic camera, whose position "
+                                        "would exceed 1e30: set a camera");
+        }
+        return converted<Camera>(found);
+    });
+}
+
+SceneBuilder::SceneBuilder() = default;
+SceneBuilder::~SceneBuilder() = default;
+SceneBuilder::SceneBuilder(SceneBuilder&& other) noexcept {
+    *this = std::move(other);
+}
+SceneBuilder& SceneBuilder::operator=(SceneBuilder&& other) noexcept {
+    if (this == &other) return *this;
+    camera = std::exchange(other.camera, {});
+    background = std::exchange(other.background, {});
+    fog = std::exchange(other.fog, {});
+    settings = std::exchange(other.settings, {});
+    wavelengths = std::exchange(other.wavelengths, {});
+    builder_ = std::move(other.builder_);
+    return *this;
+}
+
+core::SceneBuilder& SceneBuilder::builder() {
+    if (builder_ == nullptr) builder_ = std::make_unique<core::SceneBuilder>();
+    return *builder_;
+}
+
+MaterialIndex SceneBuilder::add_material(const Material& material) {
+    return translated([&] { return builder().add_material(converted<core::Material>(material)); });
+}
+
+void SceneBuilder::add_light(const Light& light) {
+    translated([&] { builder().add_light(converted<core::Light>(light)); });
+}
+
+#define RAYLANE_ADD(Shape, name, text)                                                             \
+    template <>                                                                                    \
+    ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {                        \
+        return translated(                                                                         \
+            [&] { return builder().add(library::core_shape<core::Shape>(shape), material); });     \
+    }                                                                                              \
+    template <>                                                                                    \
+    ShapeId SceneBuilder::add(const Shape##Of<double>& shape, MaterialIndex material) {            \
+        return translated([&] {                                                                    \
+            return builder().add(library::core_shape<core::InDouble<core::Shape>>(shape),          \
+                                 material);                                                        \
+        });                                                                                        \
+    }
+RAYLANE_SHAPES(RAYLANE_ADD)
+#undef RAYLANE_ADD
+
+ShapeId SceneBuilder::add(const Solid& solid, MaterialIndex material) {
+    return translated([&] { return builder().add_solid(library::Internals::of(solid), material); });
+}
+
+template <class CoreShape, class Shape>
+ShapeId SceneBuilder::add_polygon_as(std::span<const Shape> triangles, MaterialIndex material) {
+    std::vector<CoreShape> converted_triangles;
+    converted_triangles.reserve(triangles.size());
+    for (const Shape& triangle : triangles)
+        converted_triangles.push_back(library::core_shape<CoreShape>(triangle));
+    return translated([&] {
+        return builder().add_polygon(std::span<const CoreShape>(converted_triangles), material);
+    });
+}
+
+ShapeId SceneBuilder::add_polygon(std::span<const Triangle> triangles, MaterialIndex material) {
+    return add_polygon_as<core::Triangle>(triangles, material);
+}
+ShapeId SceneBuilder::add_polygon(std::span<const SmoothTriangle> triangles,
+                                  MaterialIndex material) {
+    return add_polygon_as<core::SmoothTriangle>(triangles, material);
+}
+ShapeId SceneBuilder::add_polygon(std::span<const TriangleOf<double>> triangles,
+                                  MaterialIndex material) {
+    return add_polygon_as<core::TriangleOf<double>>(triangles, material);
+}
+ShapeId SceneBuilder::add_polygon(std::span<const SmoothTriangleOf<double>> triangles,
+                                  MaterialIndex material) {
+    return add_polygon_as<core::SmoothTriangleOf<double>>(triangles, material);
+}
+
+std::size_t SceneBuilder::shape_count() const {
+    return builder_ != nullptr ? builder_->shape_count() : 0;
+}
+
+Scene SceneBuilder::build() {
+    return translated([&] {
+        simd::ParallelWorkers workers; // may throw, so before the builder is emptied
+        SceneBuilder taken = std::move(*this);
+        core::SceneBuilder& builder = taken.builder();
+        library::copy(taken.camera, builder.camera);
+        library::copy(taken.background, builder.background);
+        library::copy(taken.fog, builder.fog);
+        library::copy(taken.settings, builder.settings);
+        builder.wavelengths = taken.wavelengths;
+        builder.wants_light = false;
+        builder.workers = &workers;
+        return owning(std::move(builder).build());
+    });
+}
+
+Scene load(const std::filesystem::path& path, const OnRemark& on_remark) {
+    return translated([&] {
+        simd::ParallelWorkers workers;
+        return owning(
+            scenes::load_scene(file_named(path), {.workers = &workers, .on_remark = on_remark}));
+    });
+}
+
+Scene parse(std::string_view text, const std::string& name, const OnRemark& on_remark) {
+    return translated([&] {
+        simd::ParallelWorkers workers;
+        return owning(
+            scenes::parse_scene(name, text, {.workers = &workers, .on_remark = on_remark}));
+    });
+}
+
+Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
+                  const OnRemark& on_remark) {
+    return translated([&] {
+        simd::ParallelWorkers workers;
+        scenes::LoadOptions options;
+        options.workers = &workers;
+        options.on_remark = on_remark;
+        options.drawing.show_cell = show_cell;
+        return owning(scenes::parse_scene(name, text, options));
+    });
+}
+
+void save(const Scene& scene, const std::filesystem::path& path, const OnRemark& on_remark) {
+    const std::filesystem::path file = file_named(path);
+    const std::vector<std::string> differences =
+        translated([&] { return scenes::export_scene(file, library::Internals::of(scene)); });
+    if (on_remark)
+        for (const std::string& what : differences)
+            on_remark(file.string() +
+                      ": differs from the scene, because the format cannot express: " + what);
+}
+
+} // namespace raylane

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "scenes/formats/structure/structure.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace raylane::scenes {
+
+inline constexpr std::size_t max_bonds = 24; ///< of an atom, besides the file's bonds
+
+/// Returns the file's bonds, which keep their orders, and bonds that are found by distance; sorted.
+/// Two atoms are bonded if they are nearer to each other than the sum of their covalent radii and
+/// 0.4 angstrom, and farther apart than 0.4 angstrom: nearer positions are two places of one atom.
+///
+/// Some atoms have only the file's bonds:
+/// - atoms of unknown elements, and metals with each other;
+/// - crowded atoms, which would have more than `max_bonds`, counting atoms nearer than 0.4
+///   angstrom.
+///
+/// So the time is linear in the atoms even if they lie on top of each other. `crowded_atoms`, if
+/// given, receives the number of crowded atoms.
+std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_atoms = nullptr);
+
+} // namespace raylane::scenes

@@ -1,0 +1,99 @@
+#include "scenes/formats/structure/images.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raylane::scenes {
+
+using core::Vec3d;
+
+namespace {
+
+/// Returns the distance, in cells along each edge, to the image of `b` that is nearest to `a`.
+std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& b) {
+    const Vec3d &u = cell.edges[0], &v = cell.edges[1], &w = cell.edges[2];
+    const double volume = core::dot(u, core::cross(v, w));
+    if (volume == 0.0) return {};
+    const std::array<Vec3d, 3> across = {core::cross(v, w), core::cross(w, u), core::cross(u, v)};
+    std::array<int, 3> cells{};
+    const Vec3d way = b - a;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double part = core::dot(way, across[k]) / volume;
+        if (!cell.periodic[k] || !(std::abs(part) < 1e6)) continue;
+        cells[k] = -static_cast<int>(std::lround(part));
+    }
+    // In an oblique cell, one of the surrounding cells may be nearer.
+    const auto squared = [&](const std::array<int, 3>& of) {
+        const Vec3d at = way + static_cast<double>(of[0]) * u + static_cast<double>(of[1]) * v +
+                         static_cast<double>(of[2]) * w;
+        return core::dot(at, at);
+    };
+    // If images are equally near, the original one is taken.
+    std::array<int, 3> best{};
+    for (int i = -1; i <= 1; ++i)
+        for (int j = -1; j <= 1; ++j)
+            for (int k = -1; k <= 1; ++k) {
+                const std::array<int, 3> by = {i, j, k};
+                std::array<int, 3> of = cells;
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    if (cell.periodic[axis]) of[axis] += by[axis];
+                if (squared(of) < squared(best)) best = of;
+            }
+    return best;
+}
+
+} // namespace
+
+std::vector<Vec3d> offsets_of_images(const Cell& cell, const std::array<int, 3>& repeat) {
+    std::vector<Vec3d> offsets;
+    // An edge that is not a number is unused if there is one cell along it.
+    const auto along = [&](std::size_t edge, int cells) {
+        return cells == 0 ? Vec3d(0.0) : static_cast<double>(cells) * cell.edges[edge];
+    };
+    for (int u = 0; u < repeat[0]; ++u)
+        for (int v = 0; v < repeat[1]; ++v)
+            for (int w = 0; w < repeat[2]; ++w)
+                offsets.push_back(along(0, u) + along(1, v) + along(2, w));
+    return offsets;
+}
+
+Structure with_images(const Structure& structure, const std::array<int, 3>& repeat) {
+    Structure all;
+    all.of_kind = structure.of_kind;
+    all.has_all_bonds = structure.has_all_bonds;
+    for (const Vec3d& offset : offsets_of_images(structure.cell, repeat)) {
+        const auto by = core::convert<float>(offset);
+        for (const core::Vec3f& at : structure.positions)
+            all.positions.push_back(at + by);
+        all.kinds.insert(all.kinds.end(), structure.kinds.begin(), structure.kinds.end());
+    }
+    const auto count = static_cast<AtomIndex>(structure.size());
+    const auto index_of = [&](const std::array<int, 3>& image) {
+        return static_cast<AtomIndex>((image[0] * repeat[1] + image[1]) * repeat[2] + image[2]);
+    };
+    for (const Bond& bond : structure.bonds) {
+        const std::array<int, 3> cells =
+            structure.cell.any()
+                ? cells_between(structure.cell, core::convert<double>(structure.positions[bond.a]),
+                                core::convert<double>(structure.positions[bond.b]))
+                : std::array<int, 3>{};
+        std::array<int, 3> image{};
+        for (image[0] = 0; image[0] < repeat[0]; ++image[0])
+            for (image[1] = 0; image[1] < repeat[1]; ++image[1])
+                for (image[2] = 0; image[2] < repeat[2]; ++image[2]) {
+                    std::array<int, 3> other = image;
+                    bool is_there = true;
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        other[k] += cells[k];
+                        is_there = is_there && other[k] >= 0 && other[k] < repeat[k];
+                    }
+                    if (!is_there) continue;
+                    const AtomIndex a = index_of(image) * count + bond.a;
+                    const AtomIndex b = index_of(other) * count + bond.b;
+                    all.bonds.push_back({std::min(a, b), std::max(a, b), bond.order});
+                }
+    }
+    return all;
+}
+
+} // namespace raylane::scenes

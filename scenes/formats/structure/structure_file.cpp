@@ -1,0 +1,109 @@
+#include "scenes/formats/structure/structure_file.hpp"
+
+#include "scenes/files/errors.hpp"
+
+namespace raylane::scenes {
+
+namespace {
+
+std::string words_for(const Structure& structure, AtomIndex atom) {
+    std::string text = "atom " + std::to_string(atom + 1) + ", ";
+    const AtomKind& kind = structure.of_kind[structure.kinds[atom]];
+    text += structure.names.empty() ? kind.label : structure.names[atom];
+    if (!structure.residues.empty()) {
+        const Residue& residue = structure.of_residue[structure.residues[atom]];
+        text += " of " + residue.name + " " + std::to_string(residue.number);
+        if (residue.insertion != ' ') text += residue.insertion;
+        const std::string& chain = structure.chains[residue.chain];
+        if (!chain.empty()) text += " in chain " + chain;
+    }
+    if (kind.element != 0) text += " (" + std::string(data_of(kind.element).symbol) + ")";
+    return text;
+}
+
+} // namespace
+
+std::string Legend::of(core::ShapeId shape) const {
+    if (shape >= atoms_of_shape.size() || atoms_of_shape[shape] == no_atoms) return {};
+    const auto [a, b] = atoms_of_shape[shape];
+    if (a == b) return words_for(structure, a);
+    return "bond of " + words_for(structure, a) + ", and " + words_for(structure, b);
+}
+
+namespace {
+
+/// Returns make(). Rethrows a value that a scene refuses as an error of the file.
+auto of_file(const std::string& file, const auto& make) {
+    try {
+        return make();
+    } catch (const core::InvalidValue& invalid) {
+        throw BadInput(file, "", invalid.what());
+    }
+}
+
+} // namespace
+
+std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
+                                            const ReaderOptions& options) {
+    if (!options.atom_style.empty() && format != Format::lammps_data)
+        throw BadInput("--atom-style", "",
+                       "goes with a LAMMPS data file, but " + printable(file.name(), 4096) +
+                           " is not one");
+    switch (format) {
+    case Format::pdb:
+        return open_pdb(file);
+    case Format::cif:
+        return open_cif(file, options);
+    case Format::xyz:
+        return open_xyz(file);
+    case Format::gro:
+        return open_gro(file);
+    case Format::lammps_dump:
+        return open_lammps_dump(file);
+    case Format::lammps_data:
+        return open_lammps_data(file, options);
+    case Format::json:
+    case Format::nff:
+    case Format::pov:
+    case Format::tachyon:
+    case Format::built:
+        break;
+    }
+    throw BadInput(file.name(), "", "must be a file of atoms");
+}
+
+core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
+                           const std::string& file, core::Workers* workers, DrawingScale* scale,
+                           const OnRemark& on_remark) {
+    core::SceneBuilder builder;
+    builder.workers = workers;
+    return of_file(file, [&] {
+        const DrawingScale drawn = draw(structure, drawing, file, builder, nullptr, on_remark);
+        if (scale != nullptr) *scale = drawn;
+        return std::move(builder).build();
+    });
+}
+
+core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& options,
+                           const Drawing& drawing, core::Workers* workers, Legend* legend) {
+    core::SceneBuilder builder;
+    builder.workers = workers;
+    return of_file(file.name(), [&] {
+        {
+            Structure structure;
+            if (!open_structure(file, format, options)->next(structure))
+                throw BadInput(file.name(), "", "has no atoms");
+            if (structure.size() == 0)
+                throw BadInput(
+                    file.name(), "",
+                    "has no atoms in its first frame; \"--frames 1\" selects the next one, if any");
+            std::vector<AtomPair> atoms;
+            draw(structure, drawing, file.name(), builder, legend == nullptr ? nullptr : &atoms,
+                 options.on_remark);
+            if (legend != nullptr) *legend = {std::move(structure), std::move(atoms)};
+        } // frees the structure before the hierarchy takes memory
+        return std::move(builder).build();
+    });
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "core/scene/film.hpp"
+#include "core/scene/layers.hpp"
+#include "scenes/files/atomic_file.hpp"
+#include "scenes/images/picture_options.hpp"
+
+namespace raylane::scenes {
+
+/// The encoding of a picture:
+/// - PNG: 8 or 16 bits through the transfer curve
+/// - Targa, BMP, PPM: 8 bits through the transfer curve, uncompressed
+/// - EXR (OpenEXR): linear, halves or floats
+/// - HDR (Radiance): linear, with a shared exponent
+/// - PFM: linear floats, unchanged
+enum class ImageFormat : std::uint8_t { png, exr, hdr, pfm, tga, bmp, ppm };
+
+/// Returns the format for a file name's extension: .png, .exr, ... "-" is standard output, in PNG.
+/// Throws BadInput if the extension is unknown, or .exr without `with_exr`.
+ImageFormat picture_format_of(const std::filesystem::path& path, bool with_exr);
+
+/// Returns the bytes of an OpenEXR file (scenes/images/exr.hpp). A function pointer, because the
+/// library is built without OpenEXR. `layers` may be null.
+using EncodeExr = std::string (*)(const core::Film& film, const core::Layers* layers,
+                                  const ImageOptions& options);
+
+/// The file of a picture. PNG and EXR store a film's alpha; in other formats the picture lies over
+/// black.
+class OutputFile {
+  public:
+    /// Chooses the format by the extension. Throws BadInput if the extension is unknown, or .exr
+    /// while `encode_exr` is null. Throws SystemRefused if it is already certain that the file
+    /// cannot be written.
+    explicit OutputFile(const std::filesystem::path& path, EncodeExr encode_exr = nullptr);
+    OutputFile(const std::filesystem::path& path, ImageFormat format,
+               EncodeExr encode_exr = nullptr);
+
+    ImageFormat format() const { return format_; }
+
+    /// Reserves as much of the disk space that a picture of this size takes as is known. Throws
+    /// SystemRefused if there is not enough.
+    void reserve(int width, int height);
+
+    /// Makes commit() flush the file to the disk before it gets its name, so that it survives a
+    /// loss of power. This takes milliseconds.
+    void be_durable() { file_.be_durable(); }
+
+    /// Writes the picture, and in EXR also the layers, unless null. Call it once. Throws
+    /// SystemRefused; then there is no new file, and the call may be repeated.
+    void commit(const core::Film& film, const ImageOptions& options,
+                const core::Layers* layers = nullptr);
+    void commit(const core::Film& film, core::Transfer transfer);
+
+  private:
+    void write_exr(const core::Film& film, const core::Layers* layers, const ImageOptions& options);
+    void write_codes(const core::Film& film, core::Transfer transfer);
+    void write_hdr(const core::Film& film);
+    void write_pfm(const core::Film& film);
+
+    EncodeExr encode_exr_;
+    ImageFormat format_; // before file_: a wrong extension leaves no trace
+    AtomicFile file_;
+    bool has_failed_ = false;
+};
+
+} // namespace raylane::scenes
