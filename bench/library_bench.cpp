@@ -1,5 +1,5 @@
 #include "raylane/raylane.hpp"
-#include "tests/scenes/library/ray_arrays.hpp"
+#include "tests/scenes/api/ray_arrays.hpp"
 
 #include <benchmark/benchmark.h>
 

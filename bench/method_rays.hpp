@@ -3,7 +3,7 @@
 #include "bench/random_shapes.hpp"
 #include "core/reference/search.hpp"
 #include "simd/query/query.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/support/ray_sets.hpp"
 
 #include <benchmark/benchmark.h>
 

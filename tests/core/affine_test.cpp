@@ -1,7 +1,7 @@
 #include "core/numbers/affine.hpp"
-#include "tests/catch.hpp"
-#include "tests/random.hpp"
-#include "tests/simd/rounds.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/rounds.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 

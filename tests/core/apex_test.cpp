@@ -1,5 +1,5 @@
 #include "core/reference/search.hpp"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace raylane;
 using namespace raylane::core;

@@ -1,5 +1,5 @@
 #include "core/scene/scene.hpp"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <numbers>

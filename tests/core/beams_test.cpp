@@ -1,11 +1,11 @@
 #include "core/beams/beam_tracer.hpp"
 #include "core/beams/region_samples.hpp"
 #include "core/reference/tracer.hpp"
-#include "tests/catch.hpp"
-#include "tests/core/little_scene.hpp"
-#include "tests/random.hpp"
 #include "tests/shapes/shapes.hpp"
-#include "tests/simd/rounds.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/little_scene.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/rounds.hpp"
 
 /// Checks the claims of beams about all of their rays with single rays.
 using namespace raylane;

@@ -1,6 +1,6 @@
 #include "core/numbers/bounded.hpp"
-#include "tests/bounded_truth.hpp"
-#include "tests/catch.hpp"
+#include "tests/support/bounded_truth.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace raylane;
 using core::Bounded;

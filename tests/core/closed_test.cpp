@@ -1,7 +1,7 @@
 #include "core/shapes/solve.hpp"
-#include "tests/catch.hpp"
-#include "tests/oracle.hpp"
+#include "tests/oracle/first_hit.hpp"
 #include "tests/shapes/shapes.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace raylane;
 using namespace raylane::core;

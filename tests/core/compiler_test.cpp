@@ -1,6 +1,6 @@
 #include "core/numbers/vector.hpp"
-#include "tests/catch.hpp"
 #include "tests/core/rounded_pair.hpp"
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "core/scene/scene.hpp"
 #include "core/shapes/material_indices.hpp"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace raylane::core;
 

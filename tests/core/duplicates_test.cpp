@@ -1,6 +1,6 @@
-#include "tests/catch.hpp"
-#include "tests/core/little_scene.hpp"
 #include "tests/shapes/shapes.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/little_scene.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "core/numbers/elementary.hpp"
-#include "tests/catch.hpp"
 #include "tests/core/ulps.hpp"
+#include "tests/support/catch.hpp"
 
 #include <boost/math/constants/constants.hpp>
 

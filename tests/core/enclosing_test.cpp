@@ -1,6 +1,6 @@
 #include "core/reference/enclosing.hpp"
-#include "tests/catch.hpp"
-#include "tests/random.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random.hpp"
 
 using namespace raylane;
 using namespace raylane::core;

@@ -1,7 +1,7 @@
 #include "core/numbers/exact_root.hpp"
-#include "tests/catch.hpp"
-#include "tests/oracle.hpp"
-#include "tests/random.hpp"
+#include "tests/oracle/first_hit.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "core/numbers/exact.hpp"
-#include "tests/catch.hpp"
-#include "tests/random.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>

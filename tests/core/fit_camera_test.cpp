@@ -1,6 +1,6 @@
 #include "core/scene/fit_camera.hpp"
-#include "tests/catch.hpp"
-#include "tests/random.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random.hpp"
 
 #include <algorithm>
 #include <cmath>

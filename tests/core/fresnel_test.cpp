@@ -1,5 +1,5 @@
 #include "core/optics/optics.hpp"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 

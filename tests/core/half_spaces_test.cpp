@@ -1,7 +1,7 @@
 #include "core/solids/half_spaces.hpp"
 #include "core/solids/transform.hpp"
-#include "tests/catch.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/ray_sets.hpp"
 
 #include <cmath>
 #include <vector>

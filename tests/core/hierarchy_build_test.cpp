@@ -1,7 +1,7 @@
 #include "core/hierarchy/hierarchy.hpp"
 #include "core/shapes/shapes.hpp"
-#include "tests/catch.hpp"
 #include "tests/shapes/shapes.hpp"
+#include "tests/support/catch.hpp"
 
 #include <map>
 #include <vector>

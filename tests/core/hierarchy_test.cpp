@@ -1,7 +1,7 @@
-#include "tests/catch.hpp"
-#include "tests/core/little_scene.hpp"
-#include "tests/ray_sets.hpp"
-#include "tests/simd/rounds.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/little_scene.hpp"
+#include "tests/support/ray_sets.hpp"
+#include "tests/support/rounds.hpp"
 
 using namespace little_scene;
 using namespace raylane;

@@ -1,7 +1,7 @@
 #include "core/shapes/solve.hpp"
-#include "tests/catch.hpp"
-#include "tests/oracle.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/oracle/first_hit.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/ray_sets.hpp"
 
 #include <algorithm>
 #include <cmath>

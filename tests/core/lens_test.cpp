@@ -3,7 +3,7 @@
 #include "core/reference/search.hpp"
 #include "core/scene/glass.hpp"
 #include "core/solids/lens.hpp"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <map>

@@ -1,6 +1,6 @@
 #include "core/numbers/more_functions.hpp"
-#include "tests/catch.hpp"
 #include "tests/core/ulps.hpp"
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <initializer_list>

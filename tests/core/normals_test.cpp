@@ -1,7 +1,7 @@
 #include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
-#include "tests/catch.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/ray_sets.hpp"
 
 #include <cmath>
 

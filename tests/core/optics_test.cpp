@@ -1,6 +1,6 @@
 #include "core/optics/optics.hpp"
-#include "tests/catch.hpp"
-#include "tests/core/little_scene.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/little_scene.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "core/hierarchy/packing.hpp"
 #include "core/shapes/material_indices.hpp"
-#include "tests/catch.hpp"
 #include "tests/shapes/shapes.hpp"
+#include "tests/support/catch.hpp"
 
 #include <bit>
 #include <cmath>

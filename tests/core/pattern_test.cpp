@@ -1,5 +1,5 @@
 #include "core/scene/pattern.hpp"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "core/numbers/sample_sequence.hpp"
 #include "core/scene/pixel_filter.hpp"
-#include "tests/catch.hpp"
-#include "tests/core/little_scene.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/little_scene.hpp"
 
 #include <bit>
 #include <cmath>

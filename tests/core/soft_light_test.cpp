@@ -3,8 +3,8 @@
 #include "core/numbers/vector.hpp"
 #include "core/optics/soft_light.hpp"
 #include "core/scene/surroundings.hpp"
-#include "tests/catch.hpp"
-#include "tests/random.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 #include "core/scene/scene.hpp"
 #include "core/shapes/shapes.hpp"
-#include "tests/catch.hpp"
-#include "tests/random.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random.hpp"
 
 #include <algorithm>
 #include <cmath>

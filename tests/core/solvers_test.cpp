@@ -1,9 +1,9 @@
 #include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
-#include "tests/catch.hpp"
-#include "tests/oracle.hpp"
-#include "tests/ray_sets.hpp"
-#include "tests/simd/rounds.hpp"
+#include "tests/oracle/first_hit.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/ray_sets.hpp"
+#include "tests/support/rounds.hpp"
 
 #include <cmath>
 #include <cstring>

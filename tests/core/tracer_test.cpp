@@ -1,5 +1,5 @@
-#include "tests/catch.hpp"
-#include "tests/core/little_scene.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/little_scene.hpp"
 
 #include <array>
 #include <cmath>

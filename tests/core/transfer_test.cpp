@@ -1,5 +1,5 @@
 #include "core/scene/transfer.hpp"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 #include <bit>
 #include <cstdint>

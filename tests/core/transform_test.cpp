@@ -1,9 +1,9 @@
 #include "core/reference/containing.hpp"
 #include "core/shapes/shapes.hpp"
 #include "core/solids/transform.hpp"
-#include "tests/catch.hpp"
 #include "tests/oracle/exact.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/ray_sets.hpp"
 
 #include <cmath>
 

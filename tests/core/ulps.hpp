@@ -1,7 +1,7 @@
 #pragma once
 
-#include "tests/catch.hpp"
-#include "tests/simd/rounds.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/rounds.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 

@@ -1,6 +1,6 @@
 #include "core/shapes/shapes.hpp"
 #include "tests/fuzz/shapes.hpp"
-#include "tests/scenes/library/exam_in_double.hpp"
+#include "tests/scenes/api/exam_in_double.hpp"
 
 #include <algorithm>
 #include <string>

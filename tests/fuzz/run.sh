@@ -25,8 +25,8 @@ cmake --build "$build" --target $targets
 seeds() { # format, folder: copies the first inputs
     case $1 in
     json) cp scenes/*.json "$2" ;;
-    pov) cp tests/scenes/pov/*.pov "$2" ;;
-    tachyon) cp tests/scenes/tachyon/data/*.dat "$2" ;;
+    pov) cp tests/scenes/formats/pov/*.pov "$2" ;;
+    tachyon) cp tests/scenes/formats/tachyon/data/*.dat "$2" ;;
     esac
     [ -e "tests/fuzz/seeds/$1.hex" ] || cp tests/fuzz/seeds/"$1".* "$2" 2>/dev/null || true
     [ ! -e "tests/fuzz/seeds/$1.hex" ] || # lines of bytes

@@ -2,8 +2,8 @@
 
 #include "core/scene/validate.hpp"
 #include "core/shapes/shapes.hpp"
-#include "tests/any_shape.hpp"
 #include "tests/fuzz/bytes.hpp"
+#include "tests/support/any_shape.hpp"
 
 #include <algorithm>
 #include <utility>

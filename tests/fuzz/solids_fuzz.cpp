@@ -1,5 +1,5 @@
 #include "tests/fuzz/shapes.hpp"
-#include "tests/scenes/library/solid_exam.hpp"
+#include "tests/scenes/api/solid_exam.hpp"
 
 /// Solids of solids from any bytes. Exact arithmetic decides which answers are right.
 using namespace raylane;

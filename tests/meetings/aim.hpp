@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/shapes/ray.hpp"
-#include "tests/any_shape.hpp"
 #include "tests/meetings/frame.hpp"
+#include "tests/support/any_shape.hpp"
 
 namespace raylane::meetings {
 

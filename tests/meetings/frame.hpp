@@ -1,7 +1,7 @@
 #pragma once
 
-#include "tests/placing.hpp"
-#include "tests/random.hpp"
+#include "tests/support/placing.hpp"
+#include "tests/support/random.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tests/any_shape.hpp"
+#include "tests/support/any_shape.hpp"
 
 #include <algorithm>
 #include <map>

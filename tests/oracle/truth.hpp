@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/shapes/ray.hpp"
-#include "tests/any_shape.hpp"
+#include "tests/support/any_shape.hpp"
 
 #include <algorithm>
 #include <optional>

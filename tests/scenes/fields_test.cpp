@@ -1,9 +1,9 @@
 #include "core/scene/fields.hpp"
 #include "core/scene/surroundings.hpp"
 #include "scenes/files/number.hpp"
-#include "tests/catch.hpp"
 #include "tests/places.hpp"
-#include "tests/scenes/temporary_directory.hpp"
+#include "tests/scenes/files/temporary_directory.hpp"
+#include "tests/support/catch.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,10 +1,10 @@
 #include "core/scene/transfer.hpp"
 #include "scenes/formats/scene_file.hpp"
 #include "simd/wavefront/render.hpp"
-#include "tests/catch.hpp"
 #include "tests/places.hpp"
 #include "tests/scenes/shared_scene.hpp"
-#include "tests/simd/rounds.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/rounds.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/scene/surroundings.hpp"
-#include "tests/catch.hpp"
 #include "tests/places.hpp"
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <filesystem>

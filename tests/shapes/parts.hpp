@@ -5,9 +5,9 @@
 #include "core/shapes/types.hpp"
 #include "tests/meetings/frame.hpp"
 #include "tests/oracle/line.hpp"
-#include "tests/placing.hpp"
-#include "tests/random.hpp"
-#include "tests/simd/close_shells.hpp"
+#include "tests/shapes/close_shells.hpp"
+#include "tests/support/placing.hpp"
+#include "tests/support/random.hpp"
 
 #include <array>
 #include <utility>

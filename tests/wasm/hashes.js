@@ -264,7 +264,7 @@ async function main() {
     console.log(`${compared} numbers as files have them`);
     compare_fused(lanes);
     const shipped = fs.readdirSync(source).filter((name) => name.endsWith(".json") && !name.includes("schema"));
-    const others = ["pov/pymol.pov", "pov/vmd.pov", "tachyon/data/vmd.dat"].map((name) => path.join(__dirname, "../scenes", name));
+    const others = ["pov/pymol.pov", "pov/vmd.pov", "tachyon/data/vmd.dat"].map((name) => path.join(__dirname, "../scenes/formats", name));
     const scenes = [...shipped.map((name) => path.join(source, name)), ...others];
     for (const scene of scenes) compare_scene(scene, lanes, engine);
     if (!(shipped.length > 0)) wrong.push("no scenes");

@@ -1,9 +1,9 @@
 #include "scenes/images/reader.hpp"
-#include "tests/catch.hpp"
-#include "tests/sanitized.hpp"
-#include "tests/scenes/json_scenes.hpp"
-#include "tests/scenes/nff_scenes.hpp"
+#include "tests/scenes/formats/json/json_scenes.hpp"
+#include "tests/scenes/formats/nff/nff_scenes.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/sanitized.hpp"
 
 #include <fstream>
 #include <unistd.h>

@@ -1,6 +1,6 @@
-#include "tests/catch.hpp"
 #include "tests/places.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
 
 #include <regex>
 #include <set>

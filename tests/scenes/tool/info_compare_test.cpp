@@ -1,6 +1,6 @@
 #include "scenes/images/reader.hpp"
-#include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
 
 #include <nlohmann/json.hpp>
 

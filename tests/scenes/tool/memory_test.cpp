@@ -1,6 +1,6 @@
-#include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
-#include "tests/simd/rounds.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/rounds.hpp"
 
 #include <cstdlib>
 #include <fstream>

@@ -1,5 +1,5 @@
 #include "scenes/tool/window/orbit.hpp"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace raylane;
 using namespace raylane::core;

@@ -1,8 +1,8 @@
 #include "scenes/images/exr.hpp"
 #include "scenes/images/reader.hpp"
 #include "scenes/images/writer.hpp"
-#include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #include "scenes/images/exr.hpp"
 #include "scenes/images/reader.hpp"
-#include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
 
 /// Tests of options for the drawn part of an image and for its file.
 using namespace raylane;

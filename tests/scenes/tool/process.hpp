@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tests/scenes/temporary_directory.hpp"
+#include "tests/scenes/files/temporary_directory.hpp"
 
 #include <chrono>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #include "scenes/images/reader.hpp"
 #include "simd/isa/isa.hpp"
-#include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
 
 #include <nlohmann/json.hpp>
 

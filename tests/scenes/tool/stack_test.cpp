@@ -1,6 +1,6 @@
-#include "tests/catch.hpp"
-#include "tests/sanitized.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/sanitized.hpp"
 
 #include <sys/resource.h>
 

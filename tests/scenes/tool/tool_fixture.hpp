@@ -1,8 +1,8 @@
 #pragma once
 
-#include "tests/comes_true.hpp"
-#include "tests/scenes/temporary_directory.hpp"
+#include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/scenes/tool/process.hpp"
+#include "tests/support/comes_true.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-#include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
 
 #include <cstdint>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "simd/isa/isa.hpp"
-#include "tests/catch.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
 
 #include <chrono>
 #include <cmath>

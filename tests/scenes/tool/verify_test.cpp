@@ -2,9 +2,9 @@
 #include "scenes/images/exr.hpp"
 #include "scenes/images/reader.hpp"
 #include "scenes/images/writer.hpp"
-#include "tests/catch.hpp"
-#include "tests/scenes/png_chunk.hpp"
+#include "tests/scenes/images/png_chunk.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #include "scenes/tool/window/pick.hpp"
-#include "tests/catch.hpp"
-#include "tests/scenes/json_scenes.hpp"
+#include "tests/scenes/formats/json/json_scenes.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
 
 #include <csignal>
 #include <cstdlib>

@@ -1,0 +1,125 @@
+#include "tests/scenes/api/exam_in_double.hpp"
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace raylane::tests {
+
+namespace {
+
+/// Compares the exact t of a crossing with a double: negative, zero or positive.
+int compare(const oracle::Hit& hit, double t) {
+    if (t == endless) return -1;
+    const int order = oracle::compare_digits(hit.t, oracle::Number(t));
+    return order != 0 ? order : oracle::sign_at(hit.root, oracle::Exact(-t), oracle::Exact(1));
+}
+
+struct Question {
+    std::size_t sight;
+    double t_min, t_max;
+};
+
+template <oracle::Variant Any>
+std::string described(const Question& question, const DoubleRays& rays, std::size_t i,
+                      const oracle::Found* truth, const std::vector<Any>& shapes) {
+    std::ostringstream out;
+    out << std::setprecision(17) << shapes.size() << " shapes; ray";
+    for (int axis = 0; axis < 3; ++axis)
+        out << ' ' << rays.origin[axis][i];
+    out << " towards";
+    for (int axis = 0; axis < 3; ++axis)
+        out << ' ' << rays.direction[axis][i];
+    out << ", t from " << question.t_min << " to " << question.t_max;
+    if (truth != nullptr) out << "; shape " << truth->shape << " at " << truth->t;
+    for (std::size_t id = 0; id < shapes.size(); ++id) {
+        if (shapes.size() > 40 && (truth == nullptr || id != truth->shape)) continue;
+        out << "; shape " << id << ", kind " << shapes[id].index() << ':';
+        std::visit(
+            [&](const auto& shape) {
+                for (const auto value : core::numbers_of(shape))
+                    out << ' ' << value;
+            },
+            shapes[id]);
+    }
+    return out.str();
+}
+
+} // namespace
+
+template <oracle::Variant Any>
+void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays,
+         DoubleFaults& faults) {
+    const std::vector<Any> shapes = valid(all);
+    const oracle::Neighbours neighbours(shapes);
+    const std::vector<char> counts = which_count(shapes);
+    const Tracer tracer(scene_of(shapes), {.threads = 1});
+    std::vector<oracle::Sight> sights;
+    std::vector<Question> questions;
+    DoubleRays asked;
+    const auto add = [&](const core::Ray<double>& ray, double t_min, double t_max) {
+        asked.add(ray, t_min, t_max);
+        questions.push_back({sights.size() - 1, t_min, t_max});
+    };
+    for (const core::Ray<double>& ray : rays) {
+        sights.emplace_back(shapes, neighbours, ray, [](ShapeId, bool) { return true; });
+        add(ray, 0.0, endless);
+        int count = 0;
+        for (const oracle::Found& found : sights.back().all()) {
+            if (++count > 3) break;
+            const double t = oracle::rounded_to_double(found.hit.root, found.hit.t);
+            for (const double limit : {std::nextafter(t, 0.0), t, std::nextafter(t, endless)}) {
+                add(ray, limit, endless);
+                add(ray, 0.0, limit);
+            }
+        }
+    }
+    const DoubleAnswers answers(tracer, asked);
+    const long known = faults.all();
+    const oracle::Found* before = nullptr;
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        const Question& question = questions[i];
+        oracle::Sight& sight = sights[question.sight];
+        const oracle::Found* truth = nullptr;
+        for (const oracle::Found& found : sight.all()) {
+            if (compare(found.hit, question.t_min) <= 0) continue;
+            if (compare(found.hit, question.t_max) <= 0) truth = &found;
+            break;
+        }
+        ++faults.rays;
+        if (faults.all() > known && faults.first.empty())
+            faults.first = described(questions[i - 1], asked, i - 1, before, shapes);
+        before = truth;
+        const auto is_between = [&](const oracle::Found& found) {
+            return counts[found.shape] != 0 && compare(found.hit, question.t_min) > 0 &&
+                   compare(found.hit, question.t_max) <= 0;
+        };
+        faults.crossings += is_right(answers.rows, i, sight, is_between) ? 0 : 1;
+        const Hits& hits = answers.hits;
+        faults.occlusion += answers.blocked[i] != (truth != nullptr ? 1 : 0) ? 1 : 0;
+        if (truth == nullptr) {
+            faults.shape += hits.is_none(i) && answers.t_double[i] == endless ? 0 : 1;
+            continue;
+        }
+        ++faults.hits;
+        if (hits.shape[i] != truth->shape) {
+            ++faults.shape;
+            continue;
+        }
+        faults.t += hits.t[i] != truth->t ? 1 : 0;
+        faults.t_double +=
+            answers.t_double[i] != oracle::rounded_to_double(truth->hit.root, truth->hit.t) ? 1 : 0;
+        faults.side += hits.entering[i] != (truth->hit.entering ? 1 : 0) ? 1 : 0;
+        faults.normal += core::Vec3f(hits.nx[i], hits.ny[i], hits.nz[i]) !=
+                                 sight.normal_of(*truth, shapes[truth->shape])
+                             ? 1
+                             : 0;
+    }
+}
+
+template void ask(const std::vector<AnyShape>&, const std::vector<core::Ray<double>>&,
+                  DoubleFaults&);
+template void ask(const std::vector<AnyShapeInDouble>&, const std::vector<core::Ray<double>>&,
+                  DoubleFaults&);
+
+} // namespace raylane::tests

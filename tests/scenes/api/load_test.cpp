@@ -1,0 +1,276 @@
+#include "raylane/raylane.hpp"
+#include "tests/places.hpp"
+#include "tests/scenes/files/message_of.hpp"
+#include "tests/scenes/files/temporary_directory.hpp"
+#include "tests/support/catch.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace raylane;
+
+namespace {
+
+std::string with_objects(const std::string& objects) {
+    return R"({"camera": {"from": [0, 0, 90], "at": [0, 0, 0]},
+        "lights": [{"type": "directional", "direction": [0, -1, 0]}], "materials": {"m": {}},
+        "objects": [)" +
+           objects + "]}";
+}
+
+std::string refusal_of(const auto& act) {
+    return tests::message_of<BadInput>(act);
+}
+
+} // namespace
+
+TEST_CASE("a scene is loaded from a file or refused with an error of one line") {
+    CHECK(load(RAYLANE_SOURCE_DIR "/scenes/sphere.json").shape_count() > 0);
+    const tests::TemporaryDirectory directory;
+    const auto message = [&](const std::string& name) {
+        return refusal_of([&] { load(directory.path() / name); });
+    };
+    const std::string folder = directory.path().string() + "/";
+    CHECK(message("none.json") == folder + "none.json: no such file");
+    CHECK(message("") == folder + ": must be a file, got a directory");
+    directory.write(
+        "a.json",
+        with_objects(R"({"type": "sphere", "material": "m", "center": [0, 0, 0], "radius": -1})"));
+    CHECK(message("a.json") == folder + "a.json:3:88: /objects/0/radius: must be positive, got -1");
+}
+
+TEST_CASE("each error of a file is available by itself") {
+    try {
+        parse(with_objects("3,\n {\"a\": 1}"), "x.json");
+        FAIL("must throw");
+    } catch (const BadInput& bad) {
+        REQUIRE(bad.errors().size() == 2);
+        const InputError& error = bad.errors()[1];
+        CHECK(error.file == "x.json");
+        CHECK(error.line == 4);
+        CHECK(error.column == 2);
+        CHECK(error.place == "/objects/1");
+        CHECK(error.message == "must have the key \"type\"");
+        CHECK(bad.what() == std::string("x.json:3:21: /objects/0: must be an object, got 3\n"
+                                        "x.json:4:2: /objects/1: must have the key \"type\""));
+    }
+    try {
+        load("/none.json");
+        FAIL("must throw");
+    } catch (const BadInput& bad) {
+        REQUIRE(bad.errors().size() == 1);
+        CHECK(bad.errors()[0].line == 0);
+        CHECK(bad.errors()[0].message == "no such file");
+    }
+}
+
+TEST_CASE("scenes are parsed from text") {
+    const std::string nff =
+        "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 8 9\n"
+        "l 0 9 9\nf 1 1 1 1 0 0 0 1\ns 0 0 0 1\n";
+    CHECK(parse(nff).shape_count() == 1);
+    CHECK(parse(nff, "x.nff").settings().height == 9);
+    const auto message = [](const std::string& text, const std::string& name) {
+        return refusal_of([&] { parse(text, name); });
+    };
+    CHECK(message("", "x") == "x: must be a scene or atoms, got an empty file");
+    CHECK(message("\xEF\xBB\xBF", "x") == "x: must be a scene or atoms, got an empty file");
+    CHECK(message(nff, "x.json").starts_with("x.json:1:1: "));
+    CHECK(message(nff + "s 0 0 0\n", "x").starts_with("x:11: "));
+    CHECK(message("{}", "x") ==
+          "x:1:1: must have the key \"camera\"\nx:1:1: must have the key \"objects\"");
+    CHECK(refusal_of([] { parse("\x01"); }) ==
+          "scene: must be a scene or atoms in a text format, got a binary file");
+    // Longer than the part that is examined to find the format.
+    const std::string blank(200'000, ' ');
+    CHECK(parse(blank + with_objects("") + blank, "x.json").shape_count() == 0);
+}
+
+TEST_CASE("atoms are read with or without the edges of their cell") {
+    const std::string atom = "1\nLattice=\"3 0 0 0 4 0 0 0 5\"\nC 1 1 1\n";
+    CHECK(parse_atoms(atom, "a.xyz", false).shape_count() == 1);
+    CHECK(parse_atoms(atom, "a.xyz", true).shape_count() == 1 + 8 + 12);
+    CHECK(refusal_of([] { parse_atoms("1\n\nC 1 1 1\n", "a.xyz", true); }) ==
+          "--cell: must have a cell to show, but a.xyz has none");
+}
+
+TEST_CASE("the pages contain the example program that is tested") {
+    const std::string program =
+        tests::content_of(RAYLANE_SOURCE_DIR "/scenes/api/examples/hits.cpp");
+    REQUIRE(!program.empty());
+    for (const char* const page : {"/README.md", "/scenes/api/cpp/README.md"}) {
+        CAPTURE(page);
+        const std::string text = tests::content_of(std::string(RAYLANE_SOURCE_DIR) + page);
+        CHECK(text.find("```cpp\n" + program + "```") != std::string::npos);
+    }
+}
+
+TEST_CASE("a saved scene is the same when it is loaded again") {
+    const tests::TemporaryDirectory directory;
+    const auto hits_of = [](const Scene& scene) {
+        const float origins[3][3] = {{0, 0, 9}, {0.5F, 0.25F, 9}, {3, 0.125F, 9}};
+        float x[3], y[3], z[3], zero[3] = {0, 0, 0}, back[3] = {-1, -1, -1};
+        for (int i = 0; i < 3; ++i) {
+            x[i] = origins[i][0];
+            y[i] = origins[i][1];
+            z[i] = origins[i][2];
+        }
+        const Tracer tracer(scene);
+        std::vector<float> t(3);
+        std::vector<ShapeId> shape(3);
+        RaySpan rays;
+        rays.origin_x = x;
+        rays.origin_y = y;
+        rays.origin_z = z;
+        rays.direction_x = rays.direction_y = zero;
+        rays.direction_z = back;
+        HitSpan hits;
+        hits.t = t;
+        hits.shape = shape;
+        tracer.intersect(rays, hits);
+        return std::pair(t, shape);
+    };
+    const std::string balls =
+        R"({"type": "sphere", "material": "m", "center": [0.1, 0, 0], "radius": 1},
+        {"type": "sphere", "material": "m", "center": [3, 0, 0], "radius": 0.3})";
+    const std::string solid = R"({"type": "difference", "material": "m", "objects": [
+        {"type": "sphere", "center": [0.1, 0, 0], "radius": 1},
+        {"type": "sphere", "center": [0, 0, 1], "radius": 0.5}]})";
+    const auto path = [&](const char* name) { return directory.path() / name; };
+    for (const std::string& objects : {balls, balls + "," + solid}) {
+        const Scene scene = parse(with_objects(objects), "x.json");
+        for (const char* name : {"a.json", "a.rl"}) {
+            CAPTURE(objects, name);
+            if (objects != balls && std::string(name) == "a.rl") {
+                CHECK(refusal_of([&] {
+                          save(scene, path(name));
+                      }).ends_with("cannot store constructed solids: use .json or .pov"));
+                continue;
+            }
+            save(scene, path(name), [](const std::string& remark) { FAIL(remark); });
+            const Scene again = load(path(name));
+            CHECK(again.shape_count() == scene.shape_count());
+            CHECK(hits_of(again) == hits_of(scene));
+            std::filesystem::remove(path(name));
+        }
+    }
+    const Scene scene = parse(
+        R"({"camera": {"type": "orthographic", "from": [0, 0, 9], "at": [0, 0, 0], "height": 4},
+        "fog": {"type": "linear", "start": 1, "end": 9}, "lights": [{"type": "point", "position": [1, 1, 1]}],
+        "materials": {"m": {}}, "objects": [)" +
+            balls + "]}",
+        "x.json");
+    std::vector<std::string> remarks;
+    save(scene, path("a.pov"), [&](const std::string& remark) { remarks.push_back(remark); });
+    REQUIRE(!remarks.empty());
+    CHECK(remarks[0].starts_with(path("a.pov").string() +
+                                 ": differs from the scene, because the format cannot express: "));
+    CHECK(refusal_of([&] {
+              save(scene, path("a.xyz"));
+          }).ends_with("must end in .json, .nff, .pov or .rl"));
+    CHECK(refusal_of([&] { save(scene, "-"); }).ends_with("must end in .json, .nff, .pov or .rl"));
+    CHECK_THROWS_AS(save(scene, path("none/a.json")), SystemRefused);
+    CHECK(directory.names() == std::vector<std::string>{"a.pov"});
+
+    SceneBuilder dark; // no lights: for rays alone
+    dark.add(Sphere{{0, 0, 0}, 1}, dark.add_material(Material()));
+    save(dark.build(), path("dark.json"));
+    CHECK(load(path("dark.json")).shape_count() == 1);
+}
+
+TEST_CASE("the library treats - as an ordinary file name") {
+    CHECK(refusal_of([] { load("-"); }) == "./-: no such file");
+}
+
+namespace {
+
+/// Sets RAYLANE_THREADS during its lifetime.
+class ThreadsInEnvironment {
+  public:
+    explicit ThreadsInEnvironment(const char* text) {
+        if (const char* before = std::getenv("RAYLANE_THREADS")) before_ = before;
+        ::setenv("RAYLANE_THREADS", text, 1);
+    }
+    ~ThreadsInEnvironment() {
+        if (before_)
+            ::setenv("RAYLANE_THREADS", before_->c_str(), 1);
+        else
+            ::unsetenv("RAYLANE_THREADS");
+    }
+    ThreadsInEnvironment(const ThreadsInEnvironment&) = delete;
+    ThreadsInEnvironment& operator=(const ThreadsInEnvironment&) = delete;
+
+  private:
+    std::optional<std::string> before_;
+};
+
+} // namespace
+
+TEST_CASE("an invalid RAYLANE_THREADS is an InvalidValue wherever it is used") {
+    const Scene scene = parse(with_objects(""));
+    SceneBuilder builder;
+    builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({}));
+    for (const char* text : {"abc", "0", "99999"}) {
+        const ThreadsInEnvironment environment(text);
+        const auto field_of = [](const auto& act) -> std::string {
+            try {
+                act();
+            } catch (const InvalidValue& invalid) {
+                return invalid.field;
+            }
+            return "";
+        };
+        CHECK(field_of([] { load(RAYLANE_SOURCE_DIR "/scenes/sphere.json"); }) ==
+              "RAYLANE_THREADS");
+        CHECK(field_of([] { parse(with_objects("")); }) == "RAYLANE_THREADS");
+        CHECK(field_of([&] { builder.build(); }) == "RAYLANE_THREADS");
+        CHECK(builder.shape_count() == 1); // the builder keeps its shape
+        CHECK(field_of([&] { render(scene); }) == "RAYLANE_THREADS");
+        CHECK(field_of([&] { Tracer asked(scene); }) == "RAYLANE_THREADS");
+        CHECK(field_of([&] {
+                  render(scene, {.threads = 1});
+                  Tracer asked(scene, {.threads = 1});
+              }).empty());
+    }
+    CHECK(builder.build().shape_count() == 1);
+}
+
+TEST_CASE("a scene of atoms that is saved as JSON has light from every view") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path path = directory.path() / "a.json";
+    const Scene scene = parse("3\n\nC 0 0 0\nO 2 1 -3\nN 0 3 1\n", "atoms.xyz");
+    save(scene, path, [](const std::string& remark) { FAIL(remark); });
+    const Scene again = load(path);
+    Settings settings = scene.settings();
+    settings.width = 40;
+    settings.height = 30;
+    const auto drawn = [&](const Scene& of) { return render(of, {.settings = settings}).rgb; };
+    CHECK(drawn(again) == drawn(scene));
+    for (const Vec3 direction : {Vec3{0, -1, 0}, Vec3{1, 2, -3}}) {
+        const Camera camera = scene.camera_on_all(direction);
+        const Scene seen = scene.seen_by(camera);
+        CHECK(drawn(again.seen_by(camera)) == drawn(seen));
+        std::vector<std::string> remarks;
+        save(seen, path, [&](const std::string& remark) { remarks.push_back(remark); });
+        REQUIRE(remarks.size() == 1);
+        CHECK(remarks[0].ends_with(": automatic fog"));
+        CHECK(drawn(load(path)) == drawn(seen));
+    }
+}
+
+TEST_CASE("parsing reports features of a file that the scene does not have") {
+    const std::string pov = "camera { location <0, 0, -5> look_at 0 }\n"
+                            "light_source { <1, 2, -3> color rgb 1 shadowless }\n"
+                            "sphere { 0, 1 pigment { color rgb 1 } }\n";
+    std::vector<std::string> remarks;
+    const Scene scene =
+        parse(pov, "a.pov", [&](const std::string& remark) { remarks.push_back(remark); });
+    CHECK(scene.shape_count() == 1);
+    CHECK(remarks ==
+          std::vector<std::string>{"a.pov:2:39: shadowless is ignored: the lights cast shadows"});
+    CHECK(parse(pov, "a.pov").shape_count() == 1);
+}

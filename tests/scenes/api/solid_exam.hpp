@@ -1,0 +1,34 @@
+#pragma once
+
+#include "tests/oracle/solid.hpp"
+#include "tests/scenes/api/ray_arrays.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Checks the library's answers for solids that are made of others against the oracle.
+namespace raylane::tests {
+
+struct SolidTally {
+    long rows = 0, hits = 0, blocked = 0, sides = 0, asked = 0, surfaces = 0;
+    std::string first, of;
+
+    long wrong() const { return rows + hits + blocked + sides; }
+    void blame(long& kind, const std::string& what) {
+        if (++kind == 1) first += what + "\n";
+    }
+};
+
+std::string described(const oracle::Expression& expression);
+/// Returns the parts in their order, and the clipping shapes.
+std::vector<AnyShapeInDouble> shapes_of(const oracle::Expression& expression);
+raylane::Solid solid_of(const oracle::Expression& expression);
+/// Returns a scene of the solid alone, or nothing if it has no bounds or a shape is invalid.
+std::optional<Scene> scene_of(const oracle::Expression& expression);
+
+/// Checks all answers of the library for rays and for their origins in the scene of a solid.
+void ask(const oracle::Expression& expression, const Scene& scene,
+         const std::vector<core::Ray<float>>& asked, SolidTally& wrong);
+
+} // namespace raylane::tests

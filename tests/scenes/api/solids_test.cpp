@@ -1,0 +1,184 @@
+#include "tests/scenes/api/solid_exam.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/ray_sets.hpp"
+#include "tests/support/rounds.hpp"
+
+#include <cmath>
+
+/// Tests of solids that are made of others against the oracle.
+using namespace raylane;
+using namespace raylane::tests;
+using oracle::Expression, oracle::Op;
+
+namespace {
+
+/// Returns a shape that may be a part. With `lattice` its numbers are small whole ones.
+AnyShapeInDouble any_part(Random& random, bool lattice) {
+    const auto made = [&]<class Shape>(std::type_identity<Shape>) {
+        return AnyShapeInDouble(core::to_doubles(ray_sets::Target<Shape>::make(random, lattice)));
+    };
+    switch (random.integer(0, 8)) {
+    case 0:
+        return made(std::type_identity<core::Plane>());
+    case 1:
+        return made(std::type_identity<core::Quadric>());
+    case 2:
+    case 3:
+        return made(std::type_identity<core::Box>());
+    case 4:
+        return made(std::type_identity<core::CappedCylinder>());
+    case 5:
+        return made(std::type_identity<core::CappedCone>());
+    case 6:
+        return made(std::type_identity<core::Ellipsoid>());
+    default:
+        return made(std::type_identity<core::Sphere>());
+    }
+}
+
+AnyShapeInDouble any_box(Random& random) {
+    const double size = 8.0 * random.integer(1, 3);
+    return core::BoxOf<double>{
+        {-size / 2, -size / 2, -size / 2}, {size, 0, 0}, {0, size, 0}, {0, 0, size}};
+}
+
+Expression any_expression(Random& random, bool lattice, int depth,
+                          std::vector<AnyShapeInDouble>& before) {
+    if (depth == 0 || random.integer(0, 3) == 0) {
+        // Repeats an earlier part or makes a new one.
+        if (!before.empty() && random.integer(0, 4) == 0)
+            return {Op::part, before[static_cast<std::size_t>(
+                                  random.integer(0, static_cast<int>(before.size()) - 1))]};
+        before.push_back(any_part(random, lattice));
+        return {Op::part, before.back()};
+    }
+    constexpr Op ops[] = {Op::unite, Op::intersect, Op::subtract, Op::clip};
+    Expression made{ops[random.integer(0, 3)]};
+    const int parts = made.op == Op::unite && random.integer(0, 5) == 0 ? 20 : random.integer(2, 3);
+    for (int i = 0; i < parts; ++i)
+        made.of.push_back(any_expression(random, lattice, depth - 1, before));
+    return made;
+}
+
+/// Returns a crowd, that is a union of balls and a few other shapes, cut by planes, boxes and
+/// balls.
+Expression any_cut_crowd(Random& random, bool lattice) {
+    const auto number = [&](double least, double most) {
+        const double any = random.uniform(least, most);
+        return lattice ? std::round(any) : any;
+    };
+    const auto point = [&] { return core::Vec3d(number(-3, 3), number(-3, 3), number(-3, 3)); };
+    Expression crowd{Op::unite};
+    for (int i = random.integer(25, 60); i > 0; --i) {
+        const core::Vec3d center = point();
+        const double radius = lattice ? 0.5 * random.integer(1, 3) : random.uniform(0.3, 1.2);
+        if (random.integer(0, 7) != 0)
+            crowd.of.push_back({Op::part, core::SphereOf<double>{center, radius}});
+        else if (random.integer(0, 1) != 0)
+            crowd.of.push_back({Op::part, core::CylinderOf<double, core::Ends::capped>{
+                                              center, {0, number(1, 3), 1}, radius}});
+        else
+            crowd.of.push_back(
+                {Op::part,
+                 core::BoxOf<double>{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}});
+    }
+    const auto plane = [&] {
+        core::Vec3d normal = point();
+        if (core::squared_length(normal) == 0.0) normal = {0, 0, 1};
+        return Expression{Op::part, core::PlaneOf<double>{point(), normal}};
+    };
+    Expression made{random.integer(0, 3) == 0 ? Op::clip : Op::subtract};
+    if (random.integer(0, 2) == 0) { // intersected with a box
+        Expression boxed{Op::intersect};
+        boxed.of.push_back(std::move(crowd));
+        boxed.of.push_back({Op::part, core::BoxOf<double>{point(),
+                                                          {number(2, 5), 0, 0},
+                                                          {0, number(2, 5), 0},
+                                                          {0, 0, number(2, 5)}}});
+        crowd = std::move(boxed);
+    }
+    made.of.push_back(std::move(crowd));
+    for (int i = random.integer(1, 3); i > 0; --i) {
+        switch (random.integer(0, 4)) {
+        case 0: {
+            Expression wedge{Op::intersect};
+            for (int k = random.integer(2, 3); k > 0; --k)
+                wedge.of.push_back(plane());
+            made.of.push_back(std::move(wedge));
+            break;
+        }
+        case 1:
+            made.of.push_back({Op::part, core::BoxOf<double>{point(),
+                                                             {number(1, 4), 0, 0},
+                                                             {0, number(1, 4), 0},
+                                                             {0, 0, number(1, 4)}}});
+            break;
+        case 2:
+            made.of.push_back({Op::part, core::SphereOf<double>{point(), number(1, 3)}});
+            break;
+        default:
+            made.of.push_back(plane());
+        }
+    }
+    if (random.integer(0, 2) != 0) return made;
+    // Beside another part.
+    Expression both{Op::unite};
+    both.of.push_back(std::move(made));
+    both.of.push_back({Op::part, core::SphereOf<double>{point(), 1.0}});
+    return both;
+}
+
+void ask(const Expression& expression, Random& random, bool lattice, int count, SolidTally& wrong) {
+    const std::optional<Scene> scene = scene_of(expression);
+    if (!scene) return; // a quadric without bounds
+    const std::vector<AnyShapeInDouble> shapes = shapes_of(expression);
+    std::vector<core::Ray<float>> rays;
+    for (int i = 0; i < count; ++i) {
+        const auto& aim = shapes[static_cast<std::size_t>(
+            random.integer(0, static_cast<int>(shapes.size()) - 1))];
+        rays.push_back(std::visit(
+            [&]<class Shape>(const Shape& shape) {
+                return ray_sets::make_ray(
+                    core::to_floats(shape),
+                    lattice ? ray_sets::Set::lattice : ray_sets::any_set(random), random);
+            },
+            aim));
+    }
+    ask(expression, *scene, rays, wrong);
+}
+
+void check(const SolidTally& wrong, bool lattice) {
+    CAPTURE(lattice, wrong.asked, wrong.surfaces, wrong.first, wrong.of);
+    CHECK(wrong.rows == 0);
+    CHECK(wrong.hits == 0);
+    CHECK(wrong.blocked == 0);
+    CHECK(wrong.sides == 0);
+    CHECK(wrong.surfaces > wrong.asked / 10);
+}
+
+} // namespace
+
+TEST_CASE("solids of any parts are crossed as in real arithmetic") {
+    const bool lattice = GENERATE(true, false);
+    Random random(seed(17));
+    SolidTally wrong;
+    const int scenes = rounds(50, 20, 120);
+    for (int i = 0; i < scenes; ++i) {
+        std::vector<AnyShapeInDouble> before;
+        Expression made{Op::intersect};
+        made.of.push_back(any_expression(random, lattice, 3, before));
+        if (random.integer(0, 3) != 0) made.of.push_back({Op::part, any_box(random)});
+        ask(made, random, lattice, 200, wrong);
+    }
+    check(wrong, lattice);
+}
+
+TEST_CASE("a crowd that is cut is crossed as in real arithmetic") {
+    const bool lattice = GENERATE(true, false);
+    Random random(seed(23));
+    SolidTally wrong;
+    const int scenes = rounds(30, 20, 60);
+    for (int i = 0; i < scenes; ++i)
+        ask(any_cut_crowd(random, lattice), random, lattice, 100, wrong);
+    check(wrong, lattice);
+}
