@@ -26,15 +26,6 @@ StreamRays from(StreamRays rays, std::size_t to) {
     return rays;
 }
 
-template <class Real>
-CallerRays<Real> as_kernels_have_them(const RayStream<Real>& rays) {
-    return {rays.count,
-            {rays.origin[0], rays.origin[1], rays.origin[2]},
-            {rays.direction[0], rays.direction[1], rays.direction[2]},
-            rays.t_min,
-            rays.t_max};
-}
-
 } // namespace
 
 void StreamIntake::take_from(Arena& arena) {
@@ -79,9 +70,9 @@ template <class Real>
 void StreamIntake::take(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
     std::size_t none = 0;
     if constexpr (std::is_same_v<Real, float>)
-        none = kernels().take(as_kernels_have_them(rays), from(taken_, to));
+        none = kernels().take(rays, from(taken_, to));
     else
-        none = kernels().take_doubles(as_kernels_have_them(rays), from(taken_, to));
+        none = kernels().take_doubles(rays, from(taken_, to));
     if (rays.origin_shape == nullptr)
         for (std::uint32_t* const column :
              {paths_.origin_first, paths_.origin_last, paths_.origin_slot})

@@ -3,42 +3,13 @@
 #include "core/numbers/vector.hpp"
 #include "core/shapes/ray.hpp"
 #include "core/shapes/shape.hpp"
+#include "simd/units/stream_kernels.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
 namespace raylane::simd {
-
-/// `count` rays, structure of arrays: the points origin + t direction with t_min < t <= t_max.
-/// Component a of ray i is origin[a][i]. Directions may have any length but zero. Doubles are 0 or
-/// of magnitude 2^-149 to 2^128, like floats. However, components of a direction may be as small as
-/// 2^-276 of its largest.
-template <class Real>
-struct RayStream {
-    std::size_t count = 0;
-    const Real* origin[3] = {};
-    const Real* direction[3] = {};
-    const Real* t_min = nullptr; ///< null: 0; negative values count as 0
-    const Real* t_max = nullptr; ///< null: infinity
-    /// Shapes that rays leave, or no_shape. Such a ray starts exactly on that surface, on the face
-    /// that HitStream::face reported. It goes to the inside (the back) if origin_inward is 1,
-    /// otherwise to the outside. Null: no ray leaves a shape; the face is the body; all go to the
-    /// outside.
-    const core::ShapeId* origin_shape = nullptr;
-    const std::uint8_t* origin_face = nullptr;
-    const std::uint8_t* origin_inward = nullptr;
-};
-
-/// Hits of rays, by ray. Null: not requested.
-struct HitStream {
-    float* t = nullptr;               ///< infinity: no hit
-    float* normal[3] = {};            ///< unit, on the outside (the front); 0: no hit
-    core::ShapeId* shape = nullptr;   ///< no_shape: no hit
-    std::uint8_t* entering = nullptr; ///< 1: from outside (the front); 0: from inside, or no hit
-    std::uint8_t* face = nullptr;     ///< for RayStream::origin_face
-    double* t_double = nullptr;       ///< the double nearest to the exact t; infinity: no hit
-};
 
 inline bool wants_normals(const HitStream& hits) {
     return hits.normal[0] != nullptr || hits.normal[1] != nullptr || hits.normal[2] != nullptr;

@@ -10,11 +10,6 @@ namespace raylane::simd {
 
 namespace {
 
-CallerHits as_kernels_have_them(const HitStream& hits) {
-    return {hits.t,     hits.t_double, {hits.normal[0], hits.normal[1], hits.normal[2]},
-            hits.shape, hits.entering, hits.face};
-}
-
 /// Converts a normal to float, without -0.
 core::Vec3f in_float(const core::Vec3d& normal) {
     return core::convert<float>(normal) + core::Vec3f(0.0F);
@@ -147,7 +142,7 @@ void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits
                          found.t,
                          found.error,
                          {found.normal[0], found.normal[1], found.normal[2]}},
-                        as_kernels_have_them(hits), left);
+                        hits, left);
     sharpen({unsharp_, left.unsharp_count}, hits);
     answer(rays, {doubtful_, left.doubtful_count}, hits);
 }

@@ -11,15 +11,25 @@ namespace raylane::simd {
 
 struct Coherence;
 
-/// A caller's rays, structure of arrays. Values beyond `count` must not be read. Float limits are
-/// compared with the float nearest to t, double limits with the exact t.
+/// `count` rays, structure of arrays: the points origin + t direction with t_min < t <= t_max.
+/// Component a of ray i is origin[a][i]. Directions may have any length but zero. Doubles are 0 or
+/// of magnitude 2^-149 to 2^128, like floats. However, components of a direction may be as small as
+/// 2^-276 of its largest. Values beyond `count` must not be read. Float limits are compared with
+/// the float nearest to t, double limits with the exact t.
 template <class Real>
-struct CallerRays {
-    std::size_t count;
-    const Real* origin[3];
-    const Real* direction[3]; ///< of any length
-    const Real* t_min;        ///< null: 0
-    const Real* t_max;        ///< null: infinity
+struct RayStream {
+    std::size_t count = 0;
+    const Real* origin[3] = {};
+    const Real* direction[3] = {};
+    const Real* t_min = nullptr; ///< null: 0; negative values count as 0
+    const Real* t_max = nullptr; ///< null: infinity
+    /// Ids of shapes that rays leave, or no_shape. Such a ray starts exactly on that surface, on
+    /// the face that HitStream::face reported. It goes to the inside (the back) if origin_inward is
+    /// 1, otherwise to the outside. Null: no ray leaves a shape; the face is the body; all go to
+    /// the outside.
+    const std::uint32_t* origin_shape = nullptr;
+    const std::uint8_t* origin_face = nullptr;
+    const std::uint8_t* origin_inward = nullptr;
 };
 
 /// Rays in the kernels' format, structure of arrays of whole packets of 16. The exact directions
@@ -44,14 +54,14 @@ struct StreamRays {
 /// Bit of StreamRays::bits: a crossing at t_after counts.
 inline constexpr std::uint32_t stream_tie_counts = 0x20000;
 
-/// The caller's arrays for hits. Null: not requested.
-struct CallerHits {
-    float* t;
-    double* t_double;
-    float* normal[3];
-    std::uint32_t* shape;
-    std::uint8_t* entering;
-    std::uint8_t* face;
+/// Hits of rays, by ray. Null: not requested.
+struct HitStream {
+    float* t = nullptr;               ///< infinity: no hit
+    float* normal[3] = {};            ///< unit, on the outside (the front); 0: no hit
+    std::uint32_t* shape = nullptr;   ///< the shape's id; no_shape: no hit
+    std::uint8_t* entering = nullptr; ///< 1: from outside (the front); 0: from inside, or no hit
+    std::uint8_t* face = nullptr;     ///< for RayStream::origin_face
+    double* t_double = nullptr;       ///< the double nearest to the exact t; infinity: no hit
 };
 
 /// Upper limits of hits. `t_max`, if not null: the caller's floats, compared with the float nearest
@@ -80,8 +90,8 @@ struct StreamHits {
 /// Kernels for streams of a caller's rays.
 struct StreamKernels {
     /// Takes rays in. Returns the number of invalid or empty ones.
-    std::size_t (*take)(const CallerRays<float>& rays, const StreamRays& taken);
-    std::size_t (*take_doubles)(const CallerRays<double>& rays, const StreamRays& taken);
+    std::size_t (*take)(const RayStream<float>& rays, const StreamRays& taken);
+    std::size_t (*take_doubles)(const RayStream<double>& rays, const StreamRays& taken);
 
     /// Finds a property that all of the first `count` rays share. Returns false if they share none.
     /// `radius`: of the scene.
@@ -91,7 +101,7 @@ struct StreamKernels {
     /// Hands the hits of the first `count` rays over to the caller, with t in the caller's units.
     /// Each list of `left` has capacity for `count` lanes.
     void (*hand_over)(const SceneView& scene, std::size_t count, const UpperLimits& limits,
-                      const StreamRays& taken, const StreamHits& found, const CallerHits& hits,
+                      const StreamRays& taken, const StreamHits& found, const HitStream& hits,
                       LeftOver& left);
 };
 

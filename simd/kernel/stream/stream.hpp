@@ -13,7 +13,7 @@ template <class Arch>
 class CallerStream {
   public:
     template <class Real>
-    static std::size_t take(const CallerRays<Real>& rays, const StreamRays& taken) {
+    static std::size_t take(const RayStream<Real>& rays, const StreamRays& taken) {
         std::size_t none = 0;
         for (std::size_t i = 0; i < rays.count; i += 16) {
             if (rays.count - i < 16) {
@@ -50,7 +50,7 @@ class CallerStream {
     }
 
     static void hand_over(const SceneView& scene, std::size_t count, const UpperLimits& limits,
-                          const StreamRays& taken, const StreamHits& found, const CallerHits& hits,
+                          const StreamRays& taken, const StreamHits& found, const HitStream& hits,
                           LeftOver& left) {
         left.doubtful_count = left.unsharp_count = 0;
         const TableView* table = scene.tables;
@@ -105,7 +105,7 @@ class CallerStream {
     static constexpr double max_turn = 0.25, max_move = 0.05;
 
     static std::size_t least(std::size_t a, std::size_t b) { return a < b ? a : b; }
-    static bool wants_normals(const CallerHits& hits) {
+    static bool wants_normals(const HitStream& hits) {
         return hits.normal[0] != nullptr || hits.normal[1] != nullptr || hits.normal[2] != nullptr;
     }
 
@@ -113,9 +113,9 @@ class CallerStream {
     template <class Real>
     struct PaddedRays {
         Real origin[3][16] = {}, direction[3][16] = {}, t_min[16] = {}, t_max[16] = {};
-        CallerRays<Real> rays;
+        RayStream<Real> rays;
 
-        PaddedRays(const CallerRays<Real>& from, std::size_t begin) : rays(from) {
+        PaddedRays(const RayStream<Real>& from, std::size_t begin) : rays(from) {
             const std::size_t bytes = (from.count - begin) * sizeof(Real);
             for (int axis = 0; axis < 3; ++axis) {
                 __builtin_memcpy(origin[axis], from.origin[axis] + begin, bytes);
@@ -143,7 +143,7 @@ class CallerStream {
     }
 
     /// Takes in the first `count` of 16 rays. Returns how many are invalid.
-    [[gnu::always_inline]] static std::size_t take_16(const CallerRays<float>& rays,
+    [[gnu::always_inline]] static std::size_t take_16(const RayStream<float>& rays,
                                                       std::size_t from, std::size_t count,
                                                       const StreamRays& taken, std::size_t to) {
         std::uint32_t none = 0;
@@ -184,7 +184,7 @@ class CallerStream {
         return static_cast<std::size_t>(__builtin_popcount(none & ((1U << count) - 1)));
     }
 
-    [[gnu::always_inline]] static std::size_t take_16(const CallerRays<double>& rays,
+    [[gnu::always_inline]] static std::size_t take_16(const RayStream<double>& rays,
                                                       std::size_t from, std::size_t count,
                                                       const StreamRays& taken, std::size_t to) {
         std::uint32_t none = 0;
@@ -404,9 +404,10 @@ class CallerStream {
         M hit;
         std::uint32_t hit_bits, doubtful;
     };
-    [[gnu::always_inline]] static Answers
-    answers_to(const UpperLimits& limits, const StreamRays& taken, const StreamHits& found,
-               const CallerHits& hits, std::size_t i, std::size_t here) {
+    [[gnu::always_inline]] static Answers answers_to(const UpperLimits& limits,
+                                                     const StreamRays& taken,
+                                                     const StreamHits& found, const HitStream& hits,
+                                                     std::size_t i, std::size_t here) {
         double first[F::size], last[F::size];
         for (std::size_t k = 0; k < F::size; k += half) {
             const Number per_unit = Number::load_unaligned(taken.per_unit + i + k);
