@@ -156,7 +156,7 @@ Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
     if (surface.material.is_transparent()) {
         // Each surface on a straight line has the fog that it would have as the only one.
         const Real opacity =
-            path.passed < settings_.max_see_through ? Real(surface.material.opacity) : Real(0);
+            path.passed < settings_.max_transparent ? Real(surface.material.opacity) : Real(0);
         pass(path, surface, (Real(1) - opacity) * before);
         if (opacity == Real(0)) return Vector(0);
         before = opacity * before;

@@ -352,10 +352,10 @@ constexpr void for_each_field(const Visit& visit, Of&... of) {
     visit(Field("min_weight", fraction, "A path ends when its largest possible contribution",
                 in("limits")),
           of.min_weight...);
-    visit(Field("max_see_through", count(1, 1'000'000),
+    visit(Field("max_transparent", count(1, 1'000'000),
                 "Maximum number of surfaces of opacity below 1 that are visible",
                 in("limits", true)),
-          of.max_see_through...);
+          of.max_transparent...);
     visit(
         Field("outline", several, "Lines where one surface is in front of another", in("outline")),
         of.outline...);

@@ -93,7 +93,7 @@ struct Settings {
     float min_weight = 0.001F; ///< paths end below this largest throughput, in [0, 1]
     /// Maximum number of transparent surfaces, one behind the other, that a path shows, at least 1;
     /// further ones are ignored.
-    int max_see_through = transparent_limit;
+    int max_transparent = transparent_limit;
     Outline outline;
 
     static constexpr int max_size = 65535;                ///< pixels on a side

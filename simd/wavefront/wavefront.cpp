@@ -344,7 +344,7 @@ void Wavefront::trace_wave(int depth, const Coherence& coherence) {
         if (is_first) first_shape_[paths_.sample[lane]] = reference_.first_hit().shape;
     }
     sorted_.sort(finder_.hits().slot, paths_.count, finder_.at_contacts(), paths_.passed,
-                 static_cast<std::uint32_t>(settings_.max_see_through));
+                 static_cast<std::uint32_t>(settings_.max_transparent));
     see_background(depth);
     shade(depth);
 }

@@ -53,10 +53,10 @@ TEST_CASE("transparent surfaces blend in their order along the ray") {
     }
 }
 
-TEST_CASE("at most max_see_through transparent surfaces are seen") {
+TEST_CASE("at most max_transparent transparent surfaces are seen") {
     for (const int most : {1, 2, 3}) {
         Builder builder;
-        builder.settings.max_see_through = most;
+        builder.settings.max_transparent = most;
         builder.background = Color(16.0F);
         for (int i = 0; i < 4; ++i)
             builder.add_shape(disc_at(static_cast<float>(-i)), pane(0.5F, 1.0F));
@@ -239,10 +239,10 @@ TEST_CASE("light into a transparent union passes only its outer walls") {
     CHECK(lit > 1000);
 }
 
-TEST_CASE("opacities outside of 0 to 1 and max_see_through below 1 are refused") {
+TEST_CASE("opacities outside of 0 to 1 and max_transparent below 1 are refused") {
     Builder builder;
     CHECK_THROWS_AS(builder.add_material(pane(1.5F)), InvalidValue);
     CHECK_THROWS_AS(builder.add_material(pane(-0.5F)), InvalidValue);
-    builder.settings.max_see_through = 0;
+    builder.settings.max_transparent = 0;
     CHECK_THROWS_AS(builder.finish(), InvalidValue);
 }

@@ -175,7 +175,7 @@ raylane_settings any_settings(Bytes& bytes) {
     settings.filter = enumerator(bytes, 3);
     settings.max_depth = bytes.below(4);
     settings.light_samples = 1 + bytes.below(2);
-    settings.max_see_through = 1 + bytes.below(4);
+    settings.max_transparent = 1 + bytes.below(4);
     if (bytes.below(8) == 0) settings.grid = any_of(1);
     if (bytes.below(8) == 0) settings.quality = bytes.flag() ? 25.0F : bytes.any_float();
     if (settings.quality > 30.0F) settings.quality = 30.0F;

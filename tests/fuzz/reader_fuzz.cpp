@@ -33,7 +33,7 @@ void draw(const core::Scene& scene) {
     settings.quality = 0.0F;
     settings.light_samples = 1;
     settings.max_depth = 2;
-    settings.max_see_through = 2;
+    settings.max_transparent = 2;
     simd::render(scene, settings, {.threads = 1});
 }
 

@@ -279,6 +279,6 @@ TEST_CASE("the limits of the settings are those of the fields") {
     CHECK(most(Settings{}, "grid") == Settings::max_grid);
     CHECK(most(Settings{}, "light_samples") == Settings::max_light_samples);
     CHECK(most(Settings{}, "max_depth") == Settings::depth_limit);
-    CHECK(most(Settings{}, "max_see_through") == Settings::transparent_limit);
+    CHECK(most(Settings{}, "max_transparent") == Settings::transparent_limit);
     CHECK(most(core::Outline{}, "width") == static_cast<double>(core::Outline::max_width));
 }

@@ -142,7 +142,7 @@ core::Scene Reader::build() {
         if (fog_ && shading_.quality_or_full() != TachyonShading::Quality::flat)
             set_fog(builder_, *fog_, camera_, shading_.planar_fog.value_or(false), words_);
         if (shading_.max_transparent_surfaces)
-            builder_.settings.max_see_through = std::clamp(*shading_.max_transparent_surfaces, 1,
+            builder_.settings.max_transparent = std::clamp(*shading_.max_transparent_surfaces, 1,
                                                            core::Settings::transparent_limit);
         return std::move(builder_).build();
     } catch (const InvalidValue& invalid) {

@@ -69,7 +69,7 @@ Json info_of(const std::string& name, const core::Scene& scene) {
             {"quality", as_printed(settings.quality)},
             {"max_depth", settings.max_depth},
             {"min_weight", as_printed(settings.min_weight)},
-            {"max_see_through", settings.max_see_through},
+            {"max_transparent", settings.max_transparent},
             {"transfer", settings.transfer == core::Transfer::srgb ? "srgb" : "linear"},
             {"hierarchy_nodes", scene.hierarchy().nodes.size()},
             {"needed", names_where(features, true)},
@@ -118,10 +118,10 @@ void print(const Json& info) {
                       (info["quality"] == 0 ? number("samples_per_pixel") + " samples each, "
                                             : number("quality") + " dB, ") +
                       info["transfer"].get<std::string>() + " transfer");
-    const bool has_limit = info["max_see_through"] < core::Settings::transparent_limit;
+    const bool has_limit = info["max_transparent"] < core::Settings::transparent_limit;
     line("limits",
          "depth " + number("max_depth") + ", weight " + number("min_weight") +
-             (has_limit ? ", " + number("max_see_through") + " transparent surfaces" : ""));
+             (has_limit ? ", " + number("max_transparent") + " transparent surfaces" : ""));
     line("needs", joined(info["needed"]));
     line("left out", joined(info["left_out"]));
     const std::string doubles =

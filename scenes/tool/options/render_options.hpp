@@ -159,10 +159,10 @@ struct RenderArguments : OptionTable {
         *this, "--max-depth",
         whole(0, core::Settings::depth_limit).replacing(&core::Settings::max_depth),
         "Maximum number of reflections and refractions along a path."};
-    Option<int> max_see_through = {
-        *this, "--max-see-through",
+    Option<int> max_transparent = {
+        *this, "--max-transparent",
         whole(1, core::Settings::transparent_limit)
-            .replacing_rarely(&core::Settings::max_see_through)
+            .replacing_rarely(&core::Settings::max_transparent)
             .otherwise(as_in_file, "all"),
         "Maximum number of transparent surfaces shown one behind the other; further ones "
         "are omitted."};

@@ -179,7 +179,7 @@ TEST_CASE("C has the defaults of C++") {
     CHECK(raylane_default_camera().focus_distance == Camera{}.focus_distance);
     CHECK(raylane_default_settings().light_samples == Settings{}.light_samples);
     CHECK(raylane_default_settings().max_depth == Settings{}.max_depth);
-    CHECK(raylane_default_settings().max_see_through == Settings{}.max_see_through);
+    CHECK(raylane_default_settings().max_transparent == Settings{}.max_transparent);
     CHECK(raylane_default_settings().outline.creases == Settings{}.outline.creases);
     CHECK(raylane_default_material().opacity == Material{}.opacity);
 }

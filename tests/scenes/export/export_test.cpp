@@ -100,7 +100,7 @@ TEST_CASE("JSON export writes every value of a scene") {
         "image": {"width": 30, "height": 20, "transfer": "linear", "alpha": true},
         "sampling": {"grid": 3, "pattern": "stratified", "quality": 41, "filter": "blackman-harris",
                      "light_samples": 3},
-        "limits": {"max_depth": 3, "min_weight": 0.03, "max_see_through": 7},
+        "limits": {"max_depth": 3, "min_weight": 0.03, "max_transparent": 7},
         "outline": {"width": 1.5, "color": [0.1, 0.2, 0.3], "creases": 30},
         "background": [0.1, 0.2, 0.3],
         "fog": {"type": "exponential", "density": 0.05, "color": [1, 0, 0.5]},
@@ -161,7 +161,7 @@ TEST_CASE("JSON export writes every value of a scene") {
                              R"("density": 0.05)",
                              R"("absorption": [0.1, 0.2, 0.3])",
                              R"("opacity": 0.6)",
-                             R"("max_see_through": 7)",
+                             R"("max_transparent": 7)",
                              R"("direction": [1, -2, 0.1])"}) {
         CAPTURE(part);
         CHECK(text_of(copy).find(part) != std::string::npos);

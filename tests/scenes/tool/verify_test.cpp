@@ -215,14 +215,14 @@ TEST_CASE("verify detects a changed pixel and a changed scene") {
 TEST_CASE("an image records options that override its scene and the precision") {
     std::string scene = ball;
     scene.insert(1, R"("outline": {"width": 2, "color": [0.2003, 0.5, 7]},
-                       "limits": {"max_see_through": 1},)");
+                       "limits": {"max_transparent": 1},)");
     scene.insert(scene.find(R"("height": 12)"), R"("transfer": "linear", )");
     const ToolFixture fixture(scene);
     for (const Options& options : {Options{},
                                    {"--outline", "0"},
                                    {"--transfer", "srgb"},
                                    {"--outline-color", "#00ff00"},
-                                   {"--max-see-through", "1000"},
+                                   {"--max-transparent", "1000"},
                                    {"--precision", "double"},
                                    {"--precision", "robust"}}) {
         CAPTURE(options);

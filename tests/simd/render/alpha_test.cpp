@@ -70,7 +70,7 @@ TEST_CASE("an image with alpha over a background equals the image without alpha"
         for (const int most : {1, 3, Settings::transparent_limit})
             for (const bool in_fog : {false, true}) {
                 Cloud cloud(/*with_mirrors=*/false);
-                cloud.settings.max_see_through = most;
+                cloud.settings.max_transparent = most;
                 // Everything at infinity is hidden by the fog.
                 cloud.background = in_fog ? Color(9.0F) : background;
                 if (in_fog)

@@ -22,7 +22,7 @@ Scene cloud(Projection projection, bool in_fog, int most) {
     builder.settings.grid = 2;
     builder.settings.max_depth = 3;
     builder.settings.min_weight = 0.001F;
-    builder.settings.max_see_through = most;
+    builder.settings.max_transparent = most;
     builder.background = {0.2F, 0.4F, 0.8F};
     builder.camera = {.projection = projection, .from = {1, 2, 7}, .at = {0, 0, 0}, .height = 5};
     if (in_fog)

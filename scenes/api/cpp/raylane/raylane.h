@@ -161,7 +161,7 @@ typedef struct raylane_settings {
     float min_weight, quality;
     uint8_t filter;
     int light_samples;
-    int max_see_through;
+    int max_transparent;
     raylane_outline outline;
 } raylane_settings;
 

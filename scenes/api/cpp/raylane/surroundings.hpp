@@ -117,7 +117,7 @@ struct Settings {
     float min_weight = 0.001F; ///< [0, 1]; a path ends when its largest throughput falls below this
     /// Maximum number of surfaces of opacity below 1 that one path shows, 1 to 1000000. The path
     /// ignores further ones, as if they were not there.
-    int max_see_through = 1'000'000;
+    int max_transparent = 1'000'000;
     Outline outline;
 };
 

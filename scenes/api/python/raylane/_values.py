@@ -163,7 +163,7 @@ class Settings(Fields):
 
     ``width`` and ``height``: pixels, 1 to 65535, at most 2^28 pixels in all. ``samples``: regular is the centre of each
     cell of the grid, stratified a point in each cell. ``max_depth``: reflections and refractions on one path, 0 to
-    1000. ``min_weight``: 0 to 1; a path ends when its largest throughput falls below it. ``max_see_through``: surfaces
+    1000. ``min_weight``: 0 to 1; a path ends when its largest throughput falls below it. ``max_transparent``: surfaces
     of opacity below 1 that a path shows behind each other, 1 to 1000000.
     """
 
@@ -185,5 +185,5 @@ class Settings(Fields):
     surfaces of opacity below 1."""
     max_depth: int = 8
     min_weight: float = 0.001
-    max_see_through: int = 1_000_000
+    max_transparent: int = 1_000_000
     outline: Outline = field(default_factory=Outline)

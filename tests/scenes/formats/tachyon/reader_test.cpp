@@ -148,7 +148,7 @@ TEST_CASE("a Tachyon surface is as transparent as its mode says") {
     CHECK(material("TRANS_MAX_SURFACES 0", "0.5").opacity == 0.0F);
 
     const auto most = [](const std::string& mode) {
-        return scene_of("SHADER_MODE FULL " + mode + " END_SHADER_MODE").settings().max_see_through;
+        return scene_of("SHADER_MODE FULL " + mode + " END_SHADER_MODE").settings().max_transparent;
     };
     CHECK(most("") == core::Settings::transparent_limit);
     CHECK(most("TRANS_MAX_SURFACES 3") == 3);
