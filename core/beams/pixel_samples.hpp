@@ -25,13 +25,9 @@ struct Sample {
 /// Returns the number of rays to lights from each surface that a path meets.
 double light_rays_of(const Scene& scene, const Settings& settings);
 
-/// Number of the sample at the middle of a pixel. The other samples are points of a sequence,
-/// numbered from 0.
-inline constexpr int middle_sample = -1;
-
-/// Returns the position of sample `number` in pixel (x, y), relative to the upper left corner,
-/// before the filter is applied.
-SamplePoint place_in_pixel(int x, int y, int number);
+/// Returns the position of a sample in its pixel, relative to the upper left corner, before the
+/// filter is applied. The samples of the first grid are at the centres of its cells.
+SamplePoint place_in_pixel(const SampleName& sample);
 
 /// A sample in roughly the scale of the film: square roots of the components, at most 1, and of the
 /// share of the background, which counts as white.

@@ -35,19 +35,16 @@ void RegionSamples::begin(const Region& region) {
     width_ = static_cast<std::size_t>(region.x1 - region.x0);
     is_first_round_ = true;
     Pixel pixel;
-    pixel.wanted = takes_middles() ? 1 : survey_.first_samples();
+    pixel.wanted = common();
     states_.assign(static_cast<std::size_t>(region.pixels()), pixel);
+    shown_.resize(states_.size());
 }
 
 bool RegionSamples::end_round() {
-    if (is_first_round_) {
-        shown_.clear();
-        for (const Pixel& pixel : states_)
-            shown_.emplace_back(pixel.first);
+    if (is_first_round_)
         for (int y = region_.y0; y < region_.y1; y += square_size)
             for (int x = region_.x0; x < region_.x1; x += square_size)
                 look_at(Region{x, y, x + square_size, y + square_size}.within(region_));
-    }
     std::size_t number = 0;
     for (int y = region_.y0; y < region_.y1; ++y)
         for (int x = region_.x0; x < region_.x1; ++x)
@@ -63,22 +60,24 @@ void RegionSamples::look_at(const Region& square) {
     for (int y = square.y0; y < square.y1; ++y)
         for (int x = square.x0; x < square.x1; ++x) {
             Pixel& pixel = states_[number_of(x, y)];
+            pixel.may_hide = may_hide;
+            if (!survey_.asks_for_variance()) continue;
             std::size_t count = 0;
             for_each_around(x, y, square, [&](int column, int row) {
                 around[count++] = shown_[number_of(column, row)];
             });
             pixel.around = variance_around({around.data(), count});
-            pixel.may_hide = may_hide;
         }
 }
 
 void RegionSamples::look_closer(Pixel& pixel, int x, int y) {
     if (pixel.wanted == 0) return;
-    const int count = pixel.samples.count();
+    const int count = takes_grid() ? 0 : pixel.samples.count();
     const double squares = count != 0 ? pixel.samples.squares_shown(settings_.transfer) : 0.0;
     const bool is_done = count >= max_samples ||
                          (survey_.is_done({pixel.around, squares, count}) && !hides(pixel, x, y));
     pixel.wanted = is_done ? 0 : count != 0 ? count : survey_.first_samples();
+    if (!is_done && takes_grid()) pixel.samples = {};
 }
 
 /// Returns true if a thin shape may show in a pixel, no sample has hit it, and the samples are
@@ -104,9 +103,11 @@ bool RegionSamples::hides(Pixel& pixel, int x, int y) {
             beams_.keep_shown(square, in_pixel_, look.halvings, look.min_parts, pixel.hidden);
         }
     }
-    std::erase_if(pixel.hidden, [&](ShapeId id) {
-        return pixel.samples.has_seen(id) || (count == 0 && id == pixel.first.shape);
-    });
+    const auto is_seen = [&](ShapeId id) { return pixel.samples.has_seen(id); };
+    if (!takes_grid())
+        std::erase_if(pixel.hidden, is_seen);
+    else if (std::all_of(pixel.hidden.begin(), pixel.hidden.end(), is_seen))
+        pixel.hidden.clear(); // otherwise the pixel starts again and needs to see them all again
     pixel.may_hide = !pixel.hidden.empty() && count < max_unseen_;
     return pixel.may_hide;
 }

@@ -11,8 +11,8 @@ namespace raylane::core {
 /// Chooses the samples of a region's pixels in an image of a given quality (Settings::quality). In
 /// each round every pixel gets all the samples that it wants, in order, until no pixel wants more:
 ///
-/// 1. Each pixel gets one sample at its middle, if the survey expects this to be enough for some
-///    pixels: for those whose neighbours are about equal.
+/// 1. Each pixel gets the samples of a regular grid, if the survey expects them to be enough: one
+///    sample at the pixel's middle, for pixels whose neighbours are about equal; or more, for all.
 /// 2. The other pixels start again with points of a sequence. They double their samples until the
 ///    image's survey finds them sufficient. Pixels in which beams find that a shape far thinner
 ///    than a pixel may show continue until a sample hits the shape, or until the shape would be too
@@ -33,31 +33,24 @@ class RegionSamples {
     /// Pixels are numbered row by row.
     int wanted(std::size_t pixel) const { return states_[pixel].wanted; }
     int taken(std::size_t pixel) const { return std::max(1, states_[pixel].samples.count()); }
-    /// The number of the next sample.
+    /// The number of the next sample, and SampleName::common of all samples of the round.
     int next(std::size_t pixel) const {
-        return takes_middles() ? middle_sample : states_[pixel].samples.count();
+        return states_[pixel].samples.count() - (takes_grid() ? survey_.grid() : 0);
     }
+    int common() const { return takes_grid() ? survey_.grid() : survey_.first_samples(); }
     void add(std::size_t pixel, const Sample& sample) {
         Pixel& at = states_[pixel];
-        if (is_first_round_ && at.samples.count() == 0) at.first = sample;
-        if (!takes_middles()) at.samples.add(sample);
+        if (is_first_round_ && at.samples.count() == 0) shown_[pixel] = Shown(sample);
+        at.samples.add(sample);
     }
     /// Ends a round. Returns false if no pixel wants more samples.
     bool end_round();
-    Color mean(std::size_t pixel) const {
-        const Pixel& at = states_[pixel];
-        return at.samples.count() == 0 ? convert<float>(at.first.color) : at.samples.mean();
-    }
-    float alpha(std::size_t pixel) const {
-        const Pixel& at = states_[pixel];
-        return at.samples.count() == 0 ? static_cast<float>(1.0 - at.first.transmittance)
-                                       : at.samples.alpha();
-    }
+    Color mean(std::size_t pixel) const { return states_[pixel].samples.mean(); }
+    float alpha(std::size_t pixel) const { return states_[pixel].samples.alpha(); }
 
   private:
     struct Pixel {
         PixelSamples samples;
-        Sample first; ///< its middle, if the first round takes middles
         int wanted = 0;
         double around = 0.0; ///< variance
         bool may_hide = false;
@@ -65,7 +58,7 @@ class RegionSamples {
         std::vector<ShapeId> hidden; ///< thin shapes that may show
     };
 
-    bool takes_middles() const { return is_first_round_ && survey_.has_middles(); }
+    bool takes_grid() const { return is_first_round_ && survey_.grid() != 0; }
     void look_at(const Region& square);
     void look_closer(Pixel& pixel, int x, int y);
     bool hides(Pixel& pixel, int x, int y);
@@ -84,7 +77,7 @@ class RegionSamples {
     std::size_t width_ = 0;
     bool is_first_round_ = false;
     std::vector<Pixel> states_;
-    std::vector<Shown> shown_; // by pixel, from the first round
+    std::vector<Shown> shown_; // by pixel, its first sample
     std::vector<BeamCandidate> in_pixel_;
 };
 

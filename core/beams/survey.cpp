@@ -5,7 +5,9 @@
 #include "core/numbers/infinity.hpp"
 #include "core/scene/transfer.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace raylane::core {
 
@@ -42,6 +44,9 @@ constexpr double scattered = 1.7;
 constexpr double margin = 1.0;
 /// Decibels beyond these that a policy may have, as the result should have at most 2 in all.
 constexpr double excess = 0.6;
+/// Decibels above the quality that a regular grid may have. Its steps are large, so that the range
+/// is wider.
+constexpr double least_of_grid = 0.3, most_of_grid = 1.7;
 
 std::size_t pixels_of(const Settings& settings) {
     return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
@@ -75,6 +80,12 @@ Survey::Survey(const Settings& settings) : settings_(settings) {
         places_.push_back({static_cast<int>(point.x * static_cast<float>(settings.width)),
                            static_cast<int>(point.y * static_cast<float>(settings.height))});
     }
+    // Rays of a batch share work if they are near each other.
+    constexpr int tile = 64;
+    std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+        return std::tuple(a.y / tile, a.x / tile, a.y, a.x) <
+               std::tuple(b.y / tile, b.x / tile, b.y, b.x);
+    });
 }
 
 std::size_t Survey::batches(Pass pass) const {
@@ -92,21 +103,22 @@ Survey::Samples::Samples(Survey& survey, Pass pass, std::size_t batch)
         for (std::size_t number = begin; number < end; ++number)
             for_each_around(survey.places_[number].x, survey.places_[number].y, picture,
                             [&](int x, int y) {
-                                pixels_.push_back({x, y, number, middle_sample, 1});
+                                pixels_.push_back({x, y, number, -1, 1});
                             });
         return;
     }
     const std::size_t end = std::min(begin + batch_places, survey.records_.size());
     for (std::size_t number = begin; number < end; ++number) {
         const Place& place = survey.places_[survey.records_[number].place];
-        pixels_.push_back({place.x, place.y, number, middle_sample, 1});
+        pixels_.push_back({place.x, place.y, number, -1, 1});
     }
 }
 
 void Survey::Samples::add(std::size_t pixel, const Sample& sample) {
     Pixel& at = pixels_[pixel];
     at.cost += sample.cost;
-    if (at.next++ != middle_sample) return at.samples.add(sample);
+    if (at.next++ >= 0) return at.samples.add(sample);
+    if (round_ == 1) return at.in_grid.add(sample);
     at.means[0] = {sample.color, sample.transmittance};
     if (pass_ == Pass::sample) return;
     Place& place = survey_.places_[at.number];
@@ -115,6 +127,13 @@ void Survey::Samples::add(std::size_t pixel, const Sample& sample) {
 
 bool Survey::Samples::end_round() {
     if (pass_ == Pass::look) return false;
+    if (++round_ == 1) {
+        for (Pixel& pixel : pixels_) {
+            pixel.next = -measured_grid;
+            pixel.wanted = measured_grid;
+        }
+        return true;
+    }
     bool is_any = false;
     for (Pixel& pixel : pixels_)
         if (end_stage(pixel)) is_any = true;
@@ -134,10 +153,12 @@ bool Survey::Samples::end_stage(Pixel& pixel) const {
         return true;
     }
     pixel.wanted = 0;
-    record.cost = pixel.cost / (1.0 + count);
+    record.cost = pixel.cost / (1.0 + measured_grid + count);
     for (std::size_t measured = 0; measured < measured_stages; ++measured)
         record.squared_error[measured] =
             squared_distance(pixel.means[measured], pixel.samples.exact_mean(), transfer);
+    record.squared_error_of_grid =
+        squared_distance(pixel.in_grid.exact_mean(), pixel.samples.exact_mean(), transfer);
     return false;
 }
 
@@ -182,19 +203,21 @@ double Survey::likely_variance(const Known& pixel) {
 
 bool Survey::is_done(const Known& pixel, const Policy& policy) {
     if (policy.spares_alike && pixel.count == 0 && pixel.around == 0.0) return true;
-    const double n = std::max(1, pixel.count);
+    const double n = pixel.count == 0 ? policy.grid : pixel.count;
     return n >= policy.fewest && likely_variance(pixel) <= policy.limit * n * n;
 }
 
 /// The squared error of n samples is E(n) = c r^log2(n) times the variance. The mean of n samples
 /// differs from the mean of 64 by E(n) - E(64), because the n are a part of the 64. The differences
-/// at 8 and 32 samples give r and c.
+/// at 8 and 32 samples give r and c. A grid is no part of the 64, so its difference is the sum.
 void Survey::fit_errors() {
-    double variance = 0.0, of_8 = 0.0, of_32 = 0.0;
+    double variance = 0.0, of_8 = 0.0, of_32 = 0.0, of_grid = 0.0, weights = 0.0;
     for (const Record& record : records_) {
         variance += record.weight * record.squares[stages - 1] / (samples_at(stages - 1) - 1.0);
         of_8 += record.weight * record.squared_error[2];
         of_32 += record.weight * record.squared_error[4];
+        of_grid += record.weight * record.squared_error_of_grid;
+        weights += record.weight;
     }
     // (r^3 - r^6) / (r^5 - r^6) = (1 + r + r^2) / r^2
     const double more = of_8 / of_32 - 1.0;
@@ -206,6 +229,15 @@ void Survey::fit_errors() {
     for (std::size_t stage = 0; left_.empty() || samples_at(stage - 1) < RegionSamples::max_samples;
          ++stage)
         left_.push_back(c * core::pow(r, static_cast<double>(stage + (stage > 0 ? 1 : 0))));
+
+    const double exponent = core::log(r) / core::log(2.0);
+    const double as_sequence = variance * c * core::pow(double{measured_grid}, exponent);
+    const double in_grid = of_grid - variance * left_[stages - 1];
+    const double ratio = as_sequence > 0.0 ? std::clamp(in_grid / as_sequence, 0.5, 2.0) : 1.0;
+    grid_errors_.clear();
+    for (int side = 2; side * side <= RegionSamples::max_samples; ++side)
+        grid_errors_.push_back(ratio * variance / weights * c *
+                               core::pow(static_cast<double>(side * side), exponent));
 }
 
 double Survey::squared_error_at(const Record& record, std::size_t stage) const {
@@ -245,18 +277,22 @@ double Survey::mean_cost() const {
 
 /// Returns the number of a pixel's samples as if all were of the first round.
 double Survey::weighted_samples(int samples, const Policy& policy) {
-    const int first = policy.has_middles() ? 1 : std::max(policy.fewest, samples_at(1));
+    const int first = policy.grid != 0 ? policy.grid : std::max(policy.fewest, samples_at(1));
     if (samples <= first) return first;
-    return first + scattered * (policy.has_middles() ? samples : samples - first);
+    return first + scattered * (policy.grid != 0 ? samples : samples - first);
+}
+
+/// Returns the squared error of an image whose quality exceeds that of the settings by so much.
+double Survey::squared_error_of(double excess_decibels) const {
+    return core::pow(10.0, -(static_cast<double>(settings_.quality) + excess_decibels) / 10.0);
 }
 
 /// Finds the largest limit of each policy that reaches the quality, by bisection, as the error
 /// grows with the limit. Chooses the cheapest policy of those that do not exceed the quality by
-/// much, if there are any.
+/// much, if there are any. Last, compares it with the same grid in all pixels.
 void Survey::choose_policy() {
     fit_errors();
-    const double asked = core::pow(10.0, -(static_cast<double>(settings_.quality) + margin) / 10.0);
-    const double too_good = asked * core::pow(10.0, -excess / 10.0);
+    const double asked = squared_error_of(margin), too_good = squared_error_of(margin + excess);
     const double max_cost = RegionSamples::max_samples * mean_cost();
     double least = infinity<double>;
     bool is_too_good = true;
@@ -281,6 +317,16 @@ void Survey::choose_policy() {
                 policy_ = policy;
             }
         }
+    for (int side = 2; side * side <= RegionSamples::max_samples; ++side) {
+        const double error = grid_errors_[static_cast<std::size_t>(side) - 2];
+        const int count = side * side;
+        const double cost = count * mean_cost();
+        if (error <= squared_error_of(least_of_grid) && error >= squared_error_of(most_of_grid) &&
+            cost < least) {
+            least = cost;
+            policy_ = {count, false, infinity<double>, count};
+        }
+    }
 }
 
 } // namespace raylane::core

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/beams/pixel_samples.hpp"
+#include "core/numbers/infinity.hpp"
 
 #include <bit>
 #include <cstddef>
@@ -45,10 +46,16 @@ class Survey {
         int count; ///< of these samples
     };
     bool is_done(const Known& pixel) const { return is_done(pixel, policy_); }
-    /// Returns whether pixels begin with one sample at their middle, which is enough for some.
-    bool has_middles() const { return policy_.has_middles(); }
-    /// Returns how many samples a pixel gets first if its middle is not enough.
-    int first_samples() const { return std::max(policy_.fewest, samples_at(1)); }
+    /// Returns false if is_done() is true for all pixels.
+    bool asks_for_variance() const { return policy_.limit < infinity<double>; }
+    /// Returns how many samples the regular grid has with which pixels begin: a square number, or 0
+    /// if they begin with the sequence. The grid is enough for some pixels.
+    int grid() const { return policy_.grid; }
+    /// Returns how many samples a pixel gets first if it has no grid or its grid is not enough.
+    int first_samples() const {
+        return std::max(static_cast<int>(std::bit_ceil(static_cast<unsigned>(policy_.fewest))),
+                        samples_at(1));
+    }
 
     /// Collects the samples of a batch, with the interface of RegionSamples. For use by one thread.
     class Samples {
@@ -58,6 +65,7 @@ class Survey {
         int x(std::size_t pixel) const { return pixels_[pixel].x; }
         int y(std::size_t pixel) const { return pixels_[pixel].y; }
         int next(std::size_t pixel) const { return pixels_[pixel].next; }
+        int common() const { return round_ == 0 ? 1 : round_ == 1 ? measured_grid : 0; }
         int wanted(std::size_t pixel) const { return pixels_[pixel].wanted; }
         void add(std::size_t pixel, const Sample& sample);
         bool end_round();
@@ -67,7 +75,7 @@ class Survey {
             int x, y;
             std::size_t number; ///< of its place or record
             int next, wanted;
-            PixelSamples samples{};
+            PixelSamples samples{}, in_grid{};
             double cost = 0.0;
             Mean means[measured_stages]{};
         };
@@ -76,6 +84,7 @@ class Survey {
 
         Survey& survey_;
         Pass pass_;
+        int round_ = 0; ///< 0: middles, 1: grids, then stages of the sequence
         std::vector<Pixel> pixels_;
     };
 
@@ -92,13 +101,14 @@ class Survey {
         double cost = 0.0;                       ///< of a sample
         double squares[stages]{};                ///< 0 for the middle
         double squared_error[measured_stages]{}; ///< relative to the mean of all 64 samples
+        double squared_error_of_grid = 0.0;      ///< likewise, of measured_grid samples
     };
+    static constexpr int measured_grid = 4;
     struct Policy {
         int fewest = 1;
         bool spares_alike = true; ///< one sample is enough where all neighbours are equal
         double limit = 0.0;
-
-        bool has_middles() const { return spares_alike || fewest == 1; }
+        int grid = spares_alike || fewest == 1 ? 1 : 0;
     };
     struct Outcome {
         double squared_error = 0.0, cost = 0.0; ///< mean over pixels
@@ -113,12 +123,15 @@ class Survey {
     double squared_error_at(const Record& record, std::size_t stage) const;
     Outcome outcome_of(const Policy& policy) const;
     double mean_cost() const;
+    double squared_error_of(double excess_decibels) const;
 
     Settings settings_;
     std::vector<Place> places_;
     std::vector<Record> records_;
     /// The squared error of that many samples, divided by the variance of one sample, by stage.
     std::vector<double> left_;
+    /// The image's squared error with a regular grid in each pixel, by side of the grid, from 2 on.
+    std::vector<double> grid_errors_;
     Policy policy_;
 };
 

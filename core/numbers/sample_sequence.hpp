@@ -14,9 +14,11 @@ struct SamplePoint {
 
 /// A sample of a pixel.
 struct SampleName {
-    int x, y;       ///< the pixel
-    int number;     ///< index of the sample; negative for the pixel's middle
-    int common = 0; ///< the number of samples, from index 0 on, that all pixels have; 0: unknown
+    int x, y;   ///< the pixel
+    int number; ///< in the pixel's sequence, from 0; or in its first grid, from -common to -1
+    /// The number of samples of the first grid or, for samples of the sequence, the number that all
+    /// pixels have. 0: unknown.
+    int common = 0;
 };
 
 namespace detail {
@@ -105,13 +107,13 @@ inline PointRange points_on_light(const SampleName& sample, std::uint32_t count,
                                   std::uint32_t light, std::uint32_t lights) {
     constexpr std::uint32_t side_bits = 8, most = 1U << (32 - 2 * side_bits);
     const auto x = static_cast<std::uint32_t>(sample.x), y = static_cast<std::uint32_t>(sample.y),
-               number = static_cast<std::uint32_t>(sample.number);
-    const bool is_middle = sample.number < 0;
-    const std::uint32_t common = is_middle ? 1U : static_cast<std::uint32_t>(sample.common);
+               common = static_cast<std::uint32_t>(sample.common);
+    const bool is_in_grid = sample.number < 0;
+    const std::uint32_t number =
+        static_cast<std::uint32_t>(sample.number) + (is_in_grid ? common : 0U);
     const std::uint32_t use =
         SequenceUse::on_first_light + static_cast<std::uint32_t>(depth) * lights + light;
-    if ((!is_middle && number >= common) || common > most / count)
-        return {sequence_key(x, y, use), number * count};
+    if (number >= common || common > most / count) return {sequence_key(x, y, use), number * count};
 
     const auto spread = [](std::uint32_t coordinate) {
         std::uint32_t bits = 0;
@@ -120,10 +122,10 @@ inline PointRange points_on_light(const SampleName& sample, std::uint32_t count,
         return bits;
     };
     const std::uint32_t pixel = spread(x) | spread(y) << 1;
-    constexpr std::uint32_t of_middles = 1U << 30, of_others = 2U << 30;
+    constexpr std::uint32_t of_grid = 1U << 30, of_sequence = 2U << 30;
     return {
-        sequence_key(x >> side_bits, y >> side_bits, use + (is_middle ? of_middles : of_others)),
-        pixel * std::bit_ceil(common * count) + (is_middle ? 0U : number * count)};
+        sequence_key(x >> side_bits, y >> side_bits, use + (is_in_grid ? of_grid : of_sequence)),
+        pixel * std::bit_ceil(common * count) + number * count};
 }
 
 } // namespace raylane::core

@@ -38,7 +38,7 @@ ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& setti
 template <class Real>
 Sample ReferenceTracer<Real>::taken(const SampleName& name) {
     sample_ = name;
-    const SamplePoint place = place_in_pixel(name.x, name.y, name.number);
+    const SamplePoint place = place_in_pixel(name);
     const double cost_before = cost_;
     const Vector color =
         trace(camera_rays_.ray(name, camera_rays_.filtered({Real(place.x), Real(place.y)})));
@@ -52,8 +52,8 @@ void ReferenceTracer<Real>::survey(Survey::Pass pass, std::size_t batch) {
     do {
         for (std::size_t pixel = 0; pixel < samples.pixels(); ++pixel)
             for (int wanted = samples.wanted(pixel); wanted > 0; --wanted)
-                samples.add(pixel,
-                            taken({samples.x(pixel), samples.y(pixel), samples.next(pixel)}));
+                samples.add(pixel, taken({samples.x(pixel), samples.y(pixel), samples.next(pixel),
+                                          samples.common()}));
     } while (samples.end_round());
 }
 
@@ -69,7 +69,6 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
         return;
     }
     RegionSamples& samples = *to_quality_;
-    const int common = survey_->first_samples();
     const auto for_each_pixel = [&](const auto& visit) {
         std::size_t number = 0;
         for (int y = region.y0; y < region.y1; ++y)
@@ -80,7 +79,7 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
     do {
         for_each_pixel([&](int x, int y, std::size_t pixel) {
             for (int wanted = samples.wanted(pixel); wanted > 0; --wanted)
-                samples.add(pixel, taken({x, y, samples.next(pixel), common}));
+                samples.add(pixel, taken({x, y, samples.next(pixel), samples.common()}));
         });
     } while (samples.end_round());
     for_each_pixel([&](int x, int y, std::size_t pixel) {

@@ -177,6 +177,7 @@ void Wavefront::survey(core::Survey::Pass pass, std::size_t batch) {
     const auto add = adder_to(pixels);
     is_surveying_ = true;
     do {
+        common_samples_ = pixels.common();
         for (std::size_t pixel = 0; pixel < pixels.pixels(); ++pixel)
             take(
                 {pixels.x(pixel), pixels.y(pixel), pixel, pixels.next(pixel), pixels.wanted(pixel)},
@@ -190,9 +191,9 @@ void Wavefront::survey(core::Survey::Pass pass, std::size_t batch) {
 void Wavefront::render_to_quality(const core::Region& region, core::Film& film) {
     core::RegionSamples& pixels = *to_quality_;
     const auto add = adder_to(pixels);
-    common_samples_ = survey_->first_samples();
     pixels.begin(region);
     do {
+        common_samples_ = pixels.common();
         for_each_pixel(region, [&](int x, int y, std::size_t pixel) {
             take({x, y, pixel, pixels.next(pixel), pixels.wanted(pixel)}, add);
         });
@@ -251,7 +252,8 @@ void Wavefront::flush(const Add& add) {
 
 core::CameraRays<double>::InPixel Wavefront::in_pixel(const Samples& some, int number) const {
     if (to_quality_) {
-        const core::SamplePoint place = core::place_in_pixel(some.x, some.y, number);
+        const core::SamplePoint place =
+            core::place_in_pixel({some.x, some.y, number, common_samples_});
         return camera_rays_.filtered({static_cast<double>(place.x), static_cast<double>(place.y)});
     }
     return camera_rays_.regular() ? cells_[static_cast<std::size_t>(number)]

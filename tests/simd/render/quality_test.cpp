@@ -5,6 +5,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/sanitized.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -148,6 +149,46 @@ TEST_CASE("an image with details everywhere is sampled without middles of pixels
     };
     CHECK_FALSE(has_middles(floor_of_cells(0.02F)));
     CHECK(has_middles(floor_of_cells(1.0F)));
+}
+
+TEST_CASE("an image with details everywhere may have the same grid in each pixel") {
+    Builder builder;
+    constexpr int size = 96;
+    constexpr double pixel = 2.0 / size; // the camera's height is 2
+    builder.settings.width = builder.settings.height = size;
+    builder.camera.projection = Projection::orthographic;
+    builder.camera.from = {0, 5, 0};
+    builder.camera.up = {0.3F, 0, 1};
+    Material floor = luminous(Color(0.9F));
+    floor.pattern.kind = PatternKind::checker;
+    floor.pattern.colors[1] = Color(0.1F);
+    floor.pattern.size = 0.02F;
+    builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, floor);
+    // Pairs of thin sticks that shine: a grid may hit one of two.
+    Random random(5);
+    for (int i = 0; i < 20; ++i) {
+        const Vec3d place = random.cube(0.7), along = pixel * Vec3d(6, 0, random.uniform(-6, 6));
+        for (const double aside : {0.0, 0.4 * pixel})
+            builder.add_shape(CappedCylinder{rounded(Vec3d(place.x, 1, place.z + aside)),
+                                             rounded(along), rounded(pixel / 20.0)},
+                              luminous(Color(100.0F)));
+    }
+    const Scene scene = builder.finish();
+    const simd::Rendering rendering = rendered(scene, 26.0F, {.layers = true});
+    const Film truth = converged(scene);
+    CHECK(psnr(rendering.film, truth) >= 25.5);
+    const auto& samples = rendering.layers.samples;
+    CHECK(std::count(samples.begin(), samples.end(), 9U) > size * size * 9 / 10);
+    // Pixels in which the grid misses a stick continue.
+    CHECK(*std::min_element(samples.begin(), samples.end()) == 9);
+    int visible = 0, lost = 0;
+    for (std::size_t i = 0; i < truth.pixels().size(); ++i) {
+        if (truth.pixels()[i].x < 6.0F) continue;
+        ++visible;
+        lost += rendering.film.pixels()[i].x > 0.9F ? 0 : 1;
+    }
+    CHECK(visible > 100);
+    CHECK(lost == 0);
 }
 
 TEST_CASE("an image of a quality does not depend on threads or tiles or instruction sets",
