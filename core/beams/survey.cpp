@@ -103,14 +103,14 @@ Survey::Samples::Samples(Survey& survey, Pass pass, std::size_t batch)
         for (std::size_t number = begin; number < end; ++number)
             for_each_around(survey.places_[number].x, survey.places_[number].y, picture,
                             [&](int x, int y) {
-                                pixels_.push_back({x, y, number, -1, 1});
+                                pixels_.push_back({x, y, number});
                             });
         return;
     }
     const std::size_t end = std::min(begin + batch_places, survey.records_.size());
     for (std::size_t number = begin; number < end; ++number) {
         const Place& place = survey.places_[survey.records_[number].place];
-        pixels_.push_back({place.x, place.y, number, -1, 1});
+        pixels_.push_back({place.x, place.y, number});
     }
 }
 
@@ -234,10 +234,7 @@ void Survey::fit_errors() {
     const double as_sequence = variance * c * core::pow(double{measured_grid}, exponent);
     const double in_grid = of_grid - variance * left_[stages - 1];
     const double ratio = as_sequence > 0.0 ? std::clamp(in_grid / as_sequence, 0.5, 2.0) : 1.0;
-    grid_errors_.clear();
-    for (int side = 2; side * side <= RegionSamples::max_samples; ++side)
-        grid_errors_.push_back(ratio * variance / weights * c *
-                               core::pow(static_cast<double>(side * side), exponent));
+    grid_error_ = {ratio * variance / weights * c, exponent};
 }
 
 double Survey::squared_error_at(const Record& record, std::size_t stage) const {
@@ -293,7 +290,8 @@ double Survey::squared_error_of(double excess_decibels) const {
 void Survey::choose_policy() {
     fit_errors();
     const double asked = squared_error_of(margin), too_good = squared_error_of(margin + excess);
-    const double max_cost = RegionSamples::max_samples * mean_cost();
+    const double sample_cost = mean_cost();
+    const double max_cost = RegionSamples::max_samples * sample_cost;
     double least = infinity<double>;
     bool is_too_good = true;
     for (const bool spares_alike : {true, false})
@@ -318,9 +316,10 @@ void Survey::choose_policy() {
             }
         }
     for (int side = 2; side * side <= RegionSamples::max_samples; ++side) {
-        const double error = grid_errors_[static_cast<std::size_t>(side) - 2];
         const int count = side * side;
-        const double cost = count * mean_cost();
+        const double error =
+            grid_error_.scale * core::pow(static_cast<double>(count), grid_error_.exponent);
+        const double cost = count * sample_cost;
         if (error <= squared_error_of(least_of_grid) && error >= squared_error_of(most_of_grid) &&
             cost < least) {
             least = cost;

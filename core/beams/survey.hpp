@@ -73,8 +73,8 @@ class Survey {
       private:
         struct Pixel {
             int x, y;
-            std::size_t number; ///< of its place or record
-            int next, wanted;
+            std::size_t number;        ///< of its place or record
+            int next = -1, wanted = 1; ///< first its middle, the grid of one sample
             PixelSamples samples{}, in_grid{};
             double cost = 0.0;
             Mean means[measured_stages]{};
@@ -130,8 +130,11 @@ class Survey {
     std::vector<Record> records_;
     /// The squared error of that many samples, divided by the variance of one sample, by stage.
     std::vector<double> left_;
-    /// The image's squared error with a regular grid in each pixel, by side of the grid, from 2 on.
-    std::vector<double> grid_errors_;
+    /// The image's squared error with a regular grid of n samples in each pixel: this multiple of n
+    /// to the power `exponent`.
+    struct GridError {
+        double scale, exponent;
+    } grid_error_{};
     Policy policy_;
 };
 
