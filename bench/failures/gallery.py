@@ -38,8 +38,8 @@ The rows of a table are:
   shape. The rows are the median, the 99th percentile and the maximum.
 
 Tests check the exact images. `tests/report` compares hits of these spheres with rational arithmetic.
-`tests/simd/render/field_failures_test.cpp` and `tests/simd/render/field_epsilons_test.cpp` compare similar scenes of all shapes with
-an oracle.
+`tests/simd/render/field_failures_test.cpp` and `tests/simd/render/field_epsilons_test.cpp` compare similar scenes of
+all shapes with an oracle.
 
 `bench/report.py` makes a page that compares any two of these images by a slider. `gallery.py` generates
 this page.
