@@ -19,6 +19,15 @@ using raylane::tests::shown;
 
 namespace {
 
+/// Returns a material of light and dark squares.
+Material checkered(const Color& dark, float size = Pattern{}.size) {
+    Material material = luminous(Color(0.9F));
+    material.pattern.kind = PatternKind::checker;
+    material.pattern.colors[1] = dark;
+    material.pattern.size = size;
+    return material;
+}
+
 /// Returns balls and sticks on a checkered floor, some of them mirrors, some of glass.
 Scene fixture(std::pair<int, int> size = {96, 64}) {
     Builder builder;
@@ -28,9 +37,7 @@ Scene fixture(std::pair<int, int> size = {96, 64}) {
     builder.background = {0.7F, 0.8F, 1.0F};
     builder.camera.from = {1, 2, 9};
     builder.camera.field_of_view = 40.0F;
-    Material floor = luminous(Color(0.9F));
-    floor.pattern.kind = PatternKind::checker;
-    floor.pattern.colors[1] = Color(0.2F);
+    Material floor = checkered(Color(0.2F));
     floor.ambient = 0.2F;
     floor.diffuse = 0.7F;
     builder.add_shape(Plane{{0, -1.5F, 0}, {0, 1, 0}}, floor);
@@ -131,11 +138,7 @@ TEST_CASE("an image with details everywhere is sampled without middles of pixels
         builder.settings.width = builder.settings.height = 64;
         builder.camera.from = {0, 5, 0};
         builder.camera.up = {0, 0, 1};
-        Material material = luminous(Color(0.9F));
-        material.pattern.kind = PatternKind::checker;
-        material.pattern.colors[1] = Color(0.1F);
-        material.pattern.size = size;
-        builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, material);
+        builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, checkered(Color(0.1F), size));
         return builder.finish();
     };
     const auto has_middles = [](const Scene& scene) {
@@ -159,11 +162,7 @@ TEST_CASE("an image with details everywhere may have the same grid in each pixel
     builder.camera.projection = Projection::orthographic;
     builder.camera.from = {0, 5, 0};
     builder.camera.up = {0.3F, 0, 1};
-    Material floor = luminous(Color(0.9F));
-    floor.pattern.kind = PatternKind::checker;
-    floor.pattern.colors[1] = Color(0.1F);
-    floor.pattern.size = 0.02F;
-    builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, floor);
+    builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, checkered(Color(0.1F), 0.02F));
     // Pairs of thin sticks that shine: a grid may hit one of two.
     Random random(5);
     for (int i = 0; i < 20; ++i) {
