@@ -20,20 +20,20 @@ void draw(benchmark::State& state, const core::Scene& scene, const simd::RenderO
         seconds += std::chrono::duration<double>(Clock::now() - start).count();
     }
     using benchmark::Counter;
-    const auto pictures = static_cast<double>(state.iterations());
-    const auto per_picture = [&](std::uint64_t count) {
-        return Counter(static_cast<double>(count) / pictures);
+    const auto images = static_cast<double>(state.iterations());
+    const auto per_image = [&](std::uint64_t count) {
+        return Counter(static_cast<double>(count) / images);
     };
-    state.counters["seconds"] = seconds / pictures;
+    state.counters["seconds"] = seconds / images;
     // Rates use the thread's processor time, which other work on the machine disturbs less.
     state.counters["rays/s"] = Counter(static_cast<double>(counters.rays()), Counter::kIsRate);
     state.counters["per_primary"] =
         Counter(static_cast<double>(counters.primary), Counter::kIsRate | Counter::kInvert);
-    state.counters["primary"] = per_picture(counters.primary);
-    state.counters["reflected"] = per_picture(counters.reflected);
-    state.counters["refracted"] = per_picture(counters.refracted);
-    state.counters["passed"] = per_picture(counters.passed);
-    state.counters["shadow"] = per_picture(counters.shadow);
+    state.counters["primary"] = per_image(counters.primary);
+    state.counters["reflected"] = per_image(counters.reflected);
+    state.counters["refracted"] = per_image(counters.refracted);
+    state.counters["passed"] = per_image(counters.passed);
+    state.counters["shadow"] = per_image(counters.shadow);
 }
 
 void add(const std::string& name, const MakeScene& make_scene, simd::RenderOptions options) {

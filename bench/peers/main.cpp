@@ -70,7 +70,7 @@ void measure(const std::string& name, const std::vector<std::string>& wanted, co
     };
     if (wants("crossings")) report(measure_crossings(data, how));
     if (wants("build")) report(measure_building(scene, how));
-    if (wants("picture")) report(measure_picture(data, how));
+    if (wants("picture")) report(measure_image(data, how));
 }
 
 /// Measures all scenes. Returns true if all of raylane's answers are right.

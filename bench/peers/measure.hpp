@@ -76,7 +76,7 @@ Row measure_building(const core::Scene& scene, const Measuring& how);
 std::optional<TimedRun> embree_building(const core::Scene& scene, simd::Isa isa);
 
 /// Measures a whole image: by raylane, and by its wavefront with another traversal.
-Row measure_picture(const simd::SceneData& scene, const Measuring& how);
+Row measure_image(const simd::SceneData& scene, const Measuring& how);
 
 struct Drawing {
     std::string name;

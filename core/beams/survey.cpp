@@ -95,13 +95,13 @@ std::size_t Survey::batches(Pass pass) const {
 
 Survey::Samples::Samples(Survey& survey, Pass pass, std::size_t batch)
     : survey_(survey), pass_(pass) {
-    const Region picture{0, 0, survey.settings_.width, survey.settings_.height};
+    const Region image{0, 0, survey.settings_.width, survey.settings_.height};
     const std::size_t begin = batch * batch_places;
     if (pass == Pass::look) {
         const std::size_t end = std::min(begin + batch_places, survey.places_.size());
         pixels_.reserve(9 * (end - begin));
         for (std::size_t number = begin; number < end; ++number)
-            for_each_around(survey.places_[number].x, survey.places_[number].y, picture,
+            for_each_around(survey.places_[number].x, survey.places_[number].y, image,
                             [&](int x, int y) {
                                 pixels_.push_back({x, y, number});
                             });

@@ -81,11 +81,11 @@ class CameraRays {
     }
 
     /// A point in the image, from the middle to the right and upwards, in halves of a pixel.
-    struct PicturePoint {
+    struct ImagePoint {
         Real across;
         Real upward;
     };
-    PicturePoint point_at(int x, int y, const InPixel& in_pixel) const {
+    ImagePoint point_at(int x, int y, const InPixel& in_pixel) const {
         return {Real(2) * (Real(x) + in_pixel.column) - Real(width_),
                 Real(height_) - Real(2) * (Real(y) + in_pixel.row)};
     }
@@ -110,7 +110,7 @@ class CameraRays {
         return ray({x, y, sample}, in_pixel(x, y, sample));
     }
     Ray<Real> ray(const SampleName& sample, const InPixel& in_pixel) const {
-        const PicturePoint at = point_at(sample.x, sample.y, in_pixel);
+        const ImagePoint at = point_at(sample.x, sample.y, in_pixel);
         const Vec3<Real> offset = mul_add(at.across, right_, Vec3<Real>(at.upward * up_));
         const Vec3<Real> start = orthographic_ ? from_ + offset : from_;
         if (!has_lens())

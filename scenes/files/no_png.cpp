@@ -1,6 +1,6 @@
 #include "scenes/files/errors.hpp"
 #include "scenes/files/inflater.hpp"
-#include "scenes/images/float_pictures.hpp"
+#include "scenes/images/float_images.hpp"
 #include "scenes/images/png.hpp"
 
 /// Implements png.hpp and inflater.hpp without libpng and zlib.

@@ -44,7 +44,7 @@ double difference(float a, float b) {
     return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
 }
 
-/// The differences between the components of two pictures.
+/// The differences between the components of two images.
 class Differences {
   public:
     Differences(const Image& a, const Image& b)

@@ -7,14 +7,14 @@
 
 namespace raylane::scenes {
 
-/// The difference between two pictures. The difference between two components is its absolute
+/// The difference between two images. The difference between two components is its absolute
 /// value. It is 0 for equal infinities and for two NaNs. It is infinite if only one component is
-/// NaN, or if an infinity differs from the other component. If at least one of the pictures has an
+/// NaN, or if an infinity differs from the other component. If at least one of the images has an
 /// alpha, alpha is a component, too, and colours are multiplied by alpha before they are compared:
 /// differences that cannot be seen do not count.
 struct Comparison {
     double rmse = 0.0;          ///< root of the mean square difference of all components
-    double psnr = 0.0;          ///< dB, for a peak of 1; infinite if the pictures are equal
+    double psnr = 0.0;          ///< dB, for a peak of 1; infinite if the images are equal
     double largest = 0.0;       ///< largest difference of any component
     int x = 0;                  ///< column of the first pixel that has it, from the left
     int y = 0;                  ///< row of that pixel, from the top
@@ -22,7 +22,7 @@ struct Comparison {
     std::int64_t pixels = 0;    ///< all pixels
 };
 
-/// Throws BadInput with b's name if the pictures differ in size or in kind (integer codes or linear
+/// Throws BadInput with b's name if the images differ in size or in kind (integer codes or linear
 /// floats).
 Comparison compare(const Image& a, const Image& b, float tolerance);
 

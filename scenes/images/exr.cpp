@@ -2,7 +2,7 @@
 
 #include "scenes/files/errors.hpp"
 #include "scenes/files/number.hpp"
-#include "scenes/images/float_pictures.hpp"
+#include "scenes/images/float_images.hpp"
 
 namespace raylane::scenes {
 
@@ -273,7 +273,7 @@ void read_pixels(Imf::InputFile& file, Image& image) {
     image.alpha = Components(std::move(alpha));
 }
 
-/// Reads channels into arrays of the picture's size.
+/// Reads channels into arrays of the image's size.
 class ChannelReader {
   public:
     ChannelReader(Imf::InputFile& file, int width) : file_(file), width_(width) {}
@@ -331,16 +331,15 @@ ExrImage read_own(Imf::InputFile& file) {
     check_size(width, height);
     require_channels(file.header(), {"R", "G", "B"});
     ChannelReader reader(file, width);
-    ExrImage picture;
-    picture.film = core::Film(width, height, reader.has("A"));
+    ExrImage image;
+    image.film = core::Film(width, height, reader.has("A"));
     const char* const colors[] = {"R", "G", "B"};
     for (int channel = 0; channel < 3; ++channel)
-        reader.add(colors[channel], Imf::FLOAT, &picture.film.at(0, 0)[channel],
-                   sizeof(core::Color));
-    if (picture.film.has_alpha())
-        reader.add("A", Imf::FLOAT, &picture.film.alpha_at(0, 0), sizeof(float));
+        reader.add(colors[channel], Imf::FLOAT, &image.film.at(0, 0)[channel], sizeof(core::Color));
+    if (image.film.has_alpha())
+        reader.add("A", Imf::FLOAT, &image.film.alpha_at(0, 0), sizeof(float));
     if (reader.has("id.shape")) {
-        core::Layers& layers = picture.layers.emplace(width, height);
+        core::Layers& layers = image.layers.emplace(width, height);
         reader.add("Z", Imf::FLOAT, layers.depth.data(), sizeof(float));
         const char* const axes[] = {"N.X", "N.Y", "N.Z"};
         for (int axis = 0; axis < 3; ++axis)
@@ -350,8 +349,8 @@ ExrImage read_own(Imf::InputFile& file) {
         reader.add("samples", Imf::UINT, layers.samples.data(), sizeof(std::uint32_t));
     }
     reader.read(height);
-    picture.texts = texts_of(file.header());
-    return picture;
+    image.texts = texts_of(file.header());
+    return image;
 }
 
 } // namespace

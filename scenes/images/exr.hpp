@@ -2,8 +2,8 @@
 
 #include "core/scene/film.hpp"
 #include "core/scene/layers.hpp"
-#include "scenes/images/float_pictures.hpp"
-#include "scenes/images/picture_options.hpp"
+#include "scenes/images/float_images.hpp"
+#include "scenes/images/image_options.hpp"
 #include "scenes/images/reader.hpp"
 
 #include <filesystem>

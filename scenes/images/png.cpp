@@ -2,7 +2,7 @@
 
 #include "core/scene/transfer.hpp"
 #include "scenes/files/errors.hpp"
-#include "scenes/images/float_pictures.hpp"
+#include "scenes/images/float_images.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -2,8 +2,8 @@
 
 #include "core/scene/film.hpp"
 #include "scenes/files/atomic_file.hpp"
-#include "scenes/images/float_pictures.hpp"
-#include "scenes/images/picture_options.hpp"
+#include "scenes/images/float_images.hpp"
+#include "scenes/images/image_options.hpp"
 
 #include <string>
 #include <string_view>
@@ -12,7 +12,7 @@ namespace raylane::scenes {
 
 /// Reads PNG by libpng: all variants of the format, with all checksums verified. Grey becomes RGB;
 /// colour profiles are ignored. Throws MalformedImage, also for data after the end of the
-/// picture, and std::bad_alloc.
+/// image, and std::bad_alloc.
 void read_png(ByteSource& source, Image& image);
 
 /// Returns the type of the first chunk that raylane never writes, such as gAMA, or an empty text.
@@ -22,7 +22,7 @@ void read_png(ByteSource& source, Image& image);
 std::string foreign_chunk(std::string_view bytes);
 
 /// Writes PNG by libpng as RGB, or as RGBA if the film has an alpha; PNG's colours are not
-/// multiplied by alpha. The same picture and options give the same bytes. Throws SystemRefused.
+/// multiplied by alpha. The same image and options give the same bytes. Throws SystemRefused.
 void write_png(AtomicFile& file, const core::Film& film, const ImageOptions& options);
 
 } // namespace raylane::scenes

@@ -2,7 +2,7 @@
 
 #include "scenes/files/errors.hpp"
 #include "scenes/images/exr.hpp"
-#include "scenes/images/float_pictures.hpp"
+#include "scenes/images/float_images.hpp"
 #include "scenes/images/png.hpp"
 
 #include <cerrno>

@@ -13,7 +13,7 @@
 
 namespace raylane::scenes {
 
-/// The components of a picture's pixels in one sequence: floats, or codes of 8 or 16 bits. A code
+/// The components of an image's pixels in one sequence: floats, or codes of 8 or 16 bits. A code
 /// stands for its fraction of the largest code. Codes are stored in the size that they have in the
 /// file.
 class Components {
@@ -59,7 +59,7 @@ class Components {
         components_;
 };
 
-/// A picture with the components that its file has.
+/// An image with the components that its file has.
 struct Image {
     int width = 0;
     int height = 0;
@@ -74,8 +74,8 @@ struct Image {
     int bits = 0; ///< per component in the file: 8 or 16 (PNG), 16 or 32 (EXR), 0 (others)
 };
 
-/// Reads a PNG, EXR, HDR or PFM picture; the content decides which. Grey becomes RGB. Throws
-/// BadInput for other formats and for malformed or excessively large pictures, and SystemRefused.
+/// Reads a PNG, EXR, HDR or PFM image; the content decides which. Grey becomes RGB. Throws
+/// BadInput for other formats and for malformed or excessively large images, and SystemRefused.
 Image read_image(const std::filesystem::path& path);
 Image read_image(InputFile& file);
 

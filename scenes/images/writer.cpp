@@ -58,7 +58,7 @@ float radiance_component(float value) {
 
 } // namespace
 
-ImageFormat picture_format_of(const std::filesystem::path& path, bool with_exr) {
+ImageFormat image_format_of(const std::filesystem::path& path, bool with_exr) {
     if (path == "-") return ImageFormat::png;
     const std::string ending = ending_of(path);
     static constexpr std::pair<std::string_view, ImageFormat> endings[] = {
@@ -77,7 +77,7 @@ ImageFormat picture_format_of(const std::filesystem::path& path, bool with_exr) 
 }
 
 OutputFile::OutputFile(const std::filesystem::path& path, EncodeExr encode_exr)
-    : OutputFile(path, picture_format_of(path, encode_exr != nullptr), encode_exr) {}
+    : OutputFile(path, image_format_of(path, encode_exr != nullptr), encode_exr) {}
 
 OutputFile::OutputFile(const std::filesystem::path& path, ImageFormat format, EncodeExr encode_exr)
     : encode_exr_(encode_exr), format_(format), file_(path) {}

@@ -3,11 +3,11 @@
 #include "core/scene/film.hpp"
 #include "core/scene/layers.hpp"
 #include "scenes/files/atomic_file.hpp"
-#include "scenes/images/picture_options.hpp"
+#include "scenes/images/image_options.hpp"
 
 namespace raylane::scenes {
 
-/// The encoding of a picture:
+/// The encoding of an image:
 /// - PNG: 8 or 16 bits through the transfer curve
 /// - Targa, BMP, PPM: 8 bits through the transfer curve, uncompressed
 /// - EXR (OpenEXR): linear, halves or floats
@@ -17,14 +17,14 @@ enum class ImageFormat : std::uint8_t { png, exr, hdr, pfm, tga, bmp, ppm };
 
 /// Returns the format for a file name's extension: .png, .exr, ... "-" is standard output, in PNG.
 /// Throws BadInput if the extension is unknown, or .exr without `with_exr`.
-ImageFormat picture_format_of(const std::filesystem::path& path, bool with_exr);
+ImageFormat image_format_of(const std::filesystem::path& path, bool with_exr);
 
 /// Returns the bytes of an OpenEXR file (scenes/images/exr.hpp). A function pointer, because the
 /// library is built without OpenEXR. `layers` may be null.
 using EncodeExr = std::string (*)(const core::Film& film, const core::Layers* layers,
                                   const ImageOptions& options);
 
-/// The file of a picture. PNG and EXR store a film's alpha; in other formats the picture lies over
+/// The file of an image. PNG and EXR store a film's alpha; in other formats the image lies over
 /// black.
 class OutputFile {
   public:
@@ -37,7 +37,7 @@ class OutputFile {
 
     ImageFormat format() const { return format_; }
 
-    /// Reserves as much of the disk space that a picture of this size takes as is known. Throws
+    /// Reserves as much of the disk space that an image of this size takes as is known. Throws
     /// SystemRefused if there is not enough.
     void reserve(int width, int height);
 
@@ -45,7 +45,7 @@ class OutputFile {
     /// loss of power. This takes milliseconds.
     void be_durable() { file_.be_durable(); }
 
-    /// Writes the picture, and in EXR also the layers, unless null. Call it once. Throws
+    /// Writes the image, and in EXR also the layers, unless null. Call it once. Throws
     /// SystemRefused; then there is no new file, and the call may be repeated.
     void commit(const core::Film& film, const ImageOptions& options,
                 const core::Layers* layers = nullptr);

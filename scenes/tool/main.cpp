@@ -75,7 +75,7 @@ int run(int argc, const char* const* argv) {
 }
 
 /// If a standard stream is closed, the next opened file would take its descriptor, and messages
-/// would be written into a picture. So /dev/null takes the descriptor, opened such that reading
+/// would be written into an image. So /dev/null takes the descriptor, opened such that reading
 /// standard input, or writing the others, still fails.
 void hold_places_of_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

@@ -2,7 +2,7 @@
 #include <cstdint>
 
 /// Replacements of fma and fmaf. WebAssembly has no fused multiply-add, and the C library's, which
-/// uses integers, takes a fifth of a picture's time. The linker substitutes these (--wrap=fma,
+/// uses integers, takes a fifth of an image's time. The linker substitutes these (--wrap=fma,
 /// --wrap=fmaf).
 extern "C" {
 double __wrap_fma(double a, double b, double c);

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-/// The functions that engine.js calls. There is one scene, and the last picture of it. Functions
+/// The functions that engine.js calls. There is one scene, and the last image of it. Functions
 /// that can fail return true on success; web_error() returns the reason of a failure.
 namespace {
 
@@ -114,7 +114,7 @@ EMSCRIPTEN_KEEPALIVE bool web_look() {
     });
 }
 
-/// Draws rows of a picture from `first` on, with grid x grid samples, or as the scene requests if
+/// Draws rows of an image from `first` on, with grid x grid samples, or as the scene requests if
 /// `grid` is 0.
 EMSCRIPTEN_KEEPALIVE bool web_render(int width, int height, int grid, int first, int rows) {
     return attempt([&] {

@@ -65,20 +65,20 @@ void note_samples(const Tracer& tracer, const core::Region& tile, const core::Re
 /// One survey for each wavelength, or a single one. Empty if the image has no quality.
 using Surveys = std::vector<core::Survey>;
 
-core::Survey* survey_of(Surveys& surveys, std::size_t picture) {
-    return surveys.empty() ? nullptr : &surveys[picture];
+core::Survey* survey_of(Surveys& surveys, std::size_t image) {
+    return surveys.empty() ? nullptr : &surveys[image];
 }
 
 /// `scene`: null if nothing needs first hits.
 template <class Tracer>
 Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
                     const core::Settings& settings, const RenderOptions& options,
-                    const SceneData* scene, std::size_t pictures = 1) {
+                    const SceneData* scene, std::size_t images = 1) {
     const TileGrid grid = grid_of(settings, options);
     const core::Region part = grid.part(), crop = options.crop.value_or(part);
     Rendering rendering{core::Film(part, settings.alpha), {}, {}};
     if (options.layers) rendering.layers = {crop.x1 - crop.x0, crop.y1 - crop.y0};
-    Surveys surveys(settings.quality != 0.0F ? pictures : 0, core::Survey(settings));
+    Surveys surveys(settings.quality != 0.0F ? images : 0, core::Survey(settings));
     PerThread<Tracer> tracers([&] { return make_tracer(surveys); });
     PerThread<FirstHitPasses> passes(
         [&] { return FirstHitPasses(*scene, settings, kernels_of(options.isa)); });

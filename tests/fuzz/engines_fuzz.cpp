@@ -76,7 +76,7 @@ std::optional<core::Scene> any_scene(Bytes& bytes, bool plain) {
     }
 }
 
-std::vector<core::Color> picture(const core::Scene& scene, const simd::RenderOptions& options) {
+std::vector<core::Color> image(const core::Scene& scene, const simd::RenderOptions& options) {
     const simd::Rendering rendering = simd::render(scene, scene.settings(), options);
     if (!rendering.complete) found("not complete");
     return rendering.film.pixels();
@@ -100,14 +100,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!scene) return 0;
     simd::RenderOptions options;
     options.threads = 1;
-    const std::vector<core::Color> by_best = picture(*scene, options);
+    const std::vector<core::Color> by_best = image(*scene, options);
     for (const core::Color& color : by_best)
         if (!(color.x >= 0.0F && color.y >= 0.0F && color.z >= 0.0F)) found("no colour");
     options.isa = simd::narrowest_isa();
     options.tile = 8;
-    check_same(by_best, picture(*scene, options), "by another instruction set");
+    check_same(by_best, image(*scene, options), "by another instruction set");
     options.engine = simd::Engine::reference;
-    const std::vector<core::Color> by_reference = picture(*scene, options);
+    const std::vector<core::Color> by_reference = image(*scene, options);
     if (plain) check_same(by_best, by_reference, "by the reference");
     return 0;
 }

@@ -23,8 +23,8 @@ core::Settings test_settings(const core::Scene& scene) {
     return settings;
 }
 
-core::Film picture_of(const core::Scene& scene, const core::Settings& settings,
-                      const simd::RenderOptions& options) {
+core::Film image_of(const core::Scene& scene, const core::Settings& settings,
+                    const simd::RenderOptions& options) {
     return simd::render(scene, settings, options).film;
 }
 
@@ -52,8 +52,8 @@ void check(const std::filesystem::path& path) {
     const core::Settings settings = test_settings(scene);
 
     const simd::RenderOptions reference{.engine = simd::Engine::reference};
-    const core::Film expected = picture_of(scene, settings, reference);
-    const core::Film film = picture_of(scene, settings, {});
+    const core::Film expected = image_of(scene, settings, reference);
+    const core::Film film = image_of(scene, settings, {});
 
     int differing = 0;
     for (int y = 0; y < settings.height; ++y)
@@ -68,12 +68,12 @@ void check(const std::filesystem::path& path) {
     for (const simd::Isa isa : simd::available_isas()) {
         const simd::RenderOptions options{.isa = isa, .threads = 1};
         CAPTURE(simd::name_of(isa));
-        CHECK(picture_of(scene, settings, options).pixels() == film.pixels());
+        CHECK(image_of(scene, settings, options).pixels() == film.pixels());
     }
     for (const int tile : {8, 23, 64}) {
         const simd::RenderOptions options{.tile = tile, .threads = 2};
         CAPTURE(tile);
-        CHECK(picture_of(scene, settings, options).pixels() == film.pixels());
+        CHECK(image_of(scene, settings, options).pixels() == film.pixels());
     }
 }
 

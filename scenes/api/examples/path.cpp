@@ -1,7 +1,7 @@
-// Traces a picture with calls of the library only: rays bounce between mirrors and glass, and
+// Traces an image with calls of the library only: rays bounce between mirrors and glass, and
 // shadows fall through glass. No epsilon is used: each ray names the surface that it leaves.
 //
-// The picture is that of raylane::render, with two differences. Normals are floats, which bends
+// The image is that of raylane::render, with two differences. Normals are floats, which bends
 // reflected and refracted rays by up to 1e-7. Light is added up in another order. Neither can be
 // seen: hardly any pixel of path.png differs by one step of 255.
 

@@ -110,9 +110,9 @@ auto by_keywords(const Call& call) {
     }
 }
 
-py::object render_picture(const Scene& scene, const py::object& settings, const py::object& threads,
-                          const py::object& precision, const py::object& crop,
-                          const py::object& layers, const py::object& progress) {
+py::object render_image(const Scene& scene, const py::object& settings, const py::object& threads,
+                        const py::object& precision, const py::object& crop,
+                        const py::object& layers, const py::object& progress) {
     RenderOptions options{.settings = settings_from(settings),
                           .threads = threads_from(threads),
                           .precision = precision_from(precision),
@@ -148,8 +148,8 @@ py::object render_picture(const Scene& scene, const py::object& settings, const 
     return arrays_of(std::move(image));
 }
 
-void write_picture(const std::filesystem::path& path, const py::object& rgb,
-                   const py::object& alpha, const py::object& transfer) {
+void write_arrays(const std::filesystem::path& path, const py::object& rgb, const py::object& alpha,
+                  const py::object& transfer) {
     const Transfer by = transfer_from(transfer);
     const py::array_t<float, py::array::c_style | py::array::forcecast> colors(
         array_of<float>(rgb, "rgb"));
@@ -181,10 +181,10 @@ void bind_image(py::module_& module) {
                             const py::object& crop, const py::object& layers,
                             const py::object& progress) {
         return by_keywords([&] {
-            return render_picture(scene, settings, threads, precision, crop, layers, progress);
+            return render_image(scene, settings, threads, precision, crop, layers, progress);
         });
     });
-    module.def("write_image", &write_picture);
+    module.def("write_image", &write_arrays);
 }
 
 } // namespace raylane::python

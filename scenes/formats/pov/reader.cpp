@@ -70,7 +70,7 @@ class Reader {
                 fail(light.place, invalid.what());
             }
         }
-        set_picture();
+        set_image();
         try {
             return std::move(builder_).build();
         } catch (const core::InvalidValue& invalid) {
@@ -142,8 +142,8 @@ class Reader {
         waiting_.clear();
     }
 
-    void set_picture() {
-        core::Settings& picture = builder_.settings;
+    void set_image() {
+        core::Settings& image = builder_.settings;
         for (int channel = 0; channel < 3; ++channel)
             builder_.background[channel] = static_cast<float>(
                 std::max(background_.at[static_cast<std::size_t>(channel)], 0.0));
@@ -155,14 +155,14 @@ class Reader {
         const auto pixels = [](double size) {
             return static_cast<int>(std::clamp(std::round(size), 1.0, 65535.0));
         };
-        picture.width = pixels(wide);
-        picture.height = pixels(wide / aspect_);
-        picture.grid = 3;
-        picture.max_depth = settings_.max_trace_level - 1;
-        picture.min_weight = static_cast<float>(settings_.adc_bailout);
+        image.width = pixels(wide);
+        image.height = pixels(wide / aspect_);
+        image.grid = 3;
+        image.max_depth = settings_.max_trace_level - 1;
+        image.min_weight = static_cast<float>(settings_.adc_bailout);
         const double gamma = tokens_.gamma();
         constexpr double in_between = 1.6;
-        picture.transfer =
+        image.transfer =
             gamma > 0.0 && gamma < in_between ? core::Transfer::srgb : core::Transfer::linear;
         if (gamma != 0.0 && gamma != 1.0 && std::abs(gamma - 2.2) > 0.01)
             tokens_.remark(

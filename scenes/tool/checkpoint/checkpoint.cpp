@@ -128,20 +128,20 @@ bool is_whole(std::span<const char> record, std::size_t size, std::uint64_t seed
 constexpr std::string_view ending = ".part";
 constexpr std::size_t digits_of_seed = 16;
 
-std::filesystem::path shared_name(const std::filesystem::path& picture) {
-    return picture.string().append(ending);
+std::filesystem::path shared_name(const std::filesystem::path& image) {
+    return image.string().append(ending);
 }
 
 /// Returns the name of a checkpoint if another subject has the output's shared name.
-std::filesystem::path own_name(const std::filesystem::path& picture, std::uint64_t seed) {
+std::filesystem::path own_name(const std::filesystem::path& image, std::uint64_t seed) {
     char digits[digits_of_seed + 1];
     std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(seed));
-    return (picture.string() + '.' + digits).append(ending);
+    return (image.string() + '.' + digits).append(ending);
 }
 
-bool is_name_of_checkpoint(std::string_view name, std::string_view picture) {
-    if (!name.starts_with(picture) || !name.ends_with(ending)) return false;
-    name.remove_prefix(picture.size());
+bool is_name_of_checkpoint(std::string_view name, std::string_view image) {
+    if (!name.starts_with(image) || !name.ends_with(ending)) return false;
+    name.remove_prefix(image.size());
     if (name == ending) return true;
     return name.size() == 1 + digits_of_seed + ending.size() && name.front() == '.' &&
            name.substr(1, digits_of_seed).find_first_not_of("0123456789abcdef") == name.npos;
@@ -174,9 +174,9 @@ bool is_at(const std::filesystem::path& path, int descriptor) {
 
 } // namespace
 
-Checkpoint::Checkpoint(std::filesystem::path picture, const CheckpointSubject& subject,
+Checkpoint::Checkpoint(std::filesystem::path image, const CheckpointSubject& subject,
                        TileRecords records, std::function<void(const std::string&)> tell)
-    : picture_(std::move(picture)), records_(records), head_(head_of(subject)),
+    : image_(std::move(image)), records_(records), head_(head_of(subject)),
       seed_(checksum_of(head_, 0)), places_(records_.grid().count(), -1), tell_(std::move(tell)) {
     open();
     if (descriptor_ < 0) next_try_ = start_ + begin_after;
@@ -194,14 +194,14 @@ Checkpoint::~Checkpoint() {
 
 /// Opens the checkpoint of this subject under either name, or chooses the name of a new one.
 void Checkpoint::open() {
-    path_ = found_at_ = own_name(picture_, seed_);
+    path_ = found_at_ = own_name(image_, seed_);
     const Found own = look_at(path_);
     const auto is_others = [](Found found) {
         return found == Found::other_scene || found == Found::other_options;
     };
     found_ = is_others(own) ? Found::none_of_ours : own;
     if (own == Found::nothing || own == Found::named_too_long) {
-        const std::filesystem::path shared = shared_name(picture_);
+        const std::filesystem::path shared = shared_name(image_);
         const Found found = look_at(shared);
         if (!is_others(found)) path_ = shared;
         if (!is_others(found) || own == Found::nothing) {
@@ -374,11 +374,11 @@ void Checkpoint::keep_up() {
 
 /// Makes the file. Where the system supports it, the file is complete before it has a name. So a
 /// named file is always identifiable and contains the waiting records. It is as private as an
-/// existing picture. Returns false after an error, which it reports.
+/// existing image. Returns false after an error, which it reports.
 bool Checkpoint::make() {
-    struct stat picture {};
-    const bool is_there = ::stat(picture_.c_str(), &picture) == 0;
-    const mode_t mode = is_there ? picture.st_mode & 0666 : 0666;
+    struct stat image {};
+    const bool is_there = ::stat(image_.c_str(), &image) == 0;
+    const mode_t mode = is_there ? image.st_mode & 0666 : 0666;
     const std::filesystem::path folder = path_.parent_path();
     std::optional<std::int64_t> end;
     int made = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
@@ -483,7 +483,7 @@ void Checkpoint::remove() {
     give_up(); // otherwise waiting records would make a new file
     if (!is_ours_ && found_ == Found::nothing) return;
     std::error_code unknown;
-    const std::filesystem::path target = std::filesystem::canonical(picture_, unknown);
+    const std::filesystem::path target = std::filesystem::canonical(image_, unknown);
     const int written = ::open(target.c_str(), O_RDONLY | O_CLOEXEC);
     const bool is_safe = written >= 0 && (::fsync(written) == 0 || errno == EINVAL);
     if (written >= 0) ::close(written);
@@ -498,7 +498,7 @@ void Checkpoint::remove_others() const {
     const std::filesystem::path folder = path_.parent_path();
     std::filesystem::directory_iterator file(folder.empty() ? "." : folder, end);
     for (; !end && file != std::filesystem::directory_iterator(); file.increment(end)) {
-        if (!is_name_of_checkpoint(file->path().filename().string(), picture_.filename().string()))
+        if (!is_name_of_checkpoint(file->path().filename().string(), image_.filename().string()))
             continue;
         const int descriptor = open_checkpoint(file->path());
         if (descriptor < 0) continue;

@@ -18,14 +18,14 @@
 
 namespace raylane::scenes {
 
-/// The picture that a checkpoint belongs to: a scene with the options of its rendering. A rendering
+/// The image that a checkpoint belongs to: a scene with the options of its rendering. A rendering
 /// resumes only from a checkpoint of its own subject.
 struct CheckpointSubject {
     std::string scene;   ///< fingerprint_of() the scene
-    std::string options; ///< one line with everything else that the picture depends on
+    std::string options; ///< one line with everything else that the image depends on
 };
 
-/// A checkpoint: the finished tiles of a picture that is being rendered, in a file beside the
+/// A checkpoint: the finished tiles of an image that is being rendered, in a file beside the
 /// output. Another process can resume from it, however this process ends.
 ///
 /// A new file is made only `begin_after` seconds after the start, with the tiles that are finished
@@ -36,7 +36,7 @@ struct CheckpointSubject {
 ///
 /// Each subject, that is, each scene with its options, has a separate checkpoint beside the output.
 /// The one made first is "OUTPUT.part". The others are "OUTPUT.CHECKSUM.part", with 16 hexadecimal
-/// digits computed from the subject. When the picture is complete, remove() deletes all these files
+/// digits computed from the subject. When the image is complete, remove() deletes all these files
 /// except those that another process uses.
 ///
 /// A lock on the file ensures that one process uses it at a time. Errors of the file do not end the
@@ -59,9 +59,9 @@ class Checkpoint {
         named_too_long, ///< its name would be too long: as for none_of_ours
     };
 
-    /// `picture`: the output. `tell` receives the first problem() as soon as it occurs, in the
+    /// `image`: the output. `tell` receives the first problem() as soon as it occurs, in the
     /// thread in which it occurs.
-    Checkpoint(std::filesystem::path picture, const CheckpointSubject& subject, TileRecords records,
+    Checkpoint(std::filesystem::path image, const CheckpointSubject& subject, TileRecords records,
                std::function<void(const std::string&)> tell = {});
     ~Checkpoint();
     Checkpoint(const Checkpoint&) = delete;
@@ -85,11 +85,11 @@ class Checkpoint {
 
     /// Writes all waiting records, because the rendering ends early. Returns false if that fails.
     bool keep();
-    /// Frees the file's space for a complete picture of `bytes` bytes, for which the disk has no
+    /// Frees the file's space for a complete image of `bytes` bytes, for which the disk has no
     /// space. Returns false, and keeps the file, if the freed space would not be enough.
     bool give_room(std::size_t bytes);
-    /// Removes this checkpoint and those of other subjects after the picture is written, once the
-    /// picture is certain to survive on the disk.
+    /// Removes this checkpoint and those of other subjects after the image is written, once the
+    /// image is certain to survive on the disk.
     void remove();
     /// Returns the last problem in one line, as long as something is not written that should be.
     /// Otherwise returns an empty text.
@@ -115,7 +115,7 @@ class Checkpoint {
                found_ == Found::named_too_long;
     }
 
-    std::filesystem::path picture_, path_, found_at_;
+    std::filesystem::path image_, path_, found_at_;
     TileRecords records_;
     std::string head_;
     std::uint64_t seed_; // of the checksums, so that records of other checkpoints are invalid here
@@ -125,7 +125,7 @@ class Checkpoint {
 
     std::mutex mutex_; // protects the members below
     int descriptor_ = -1;
-    bool is_ours_ = false; // the file has this picture's tiles
+    bool is_ours_ = false; // the file has this image's tiles
     bool is_given_up_ = false;
     std::deque<std::string> waiting_; // records that are not written yet
     std::size_t waiting_bytes_ = 0;

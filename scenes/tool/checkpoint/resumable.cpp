@@ -196,7 +196,7 @@ void ResumableRendering::write(OutputFile& output, const core::Film& film,
     } catch (const SystemRefused& refused) {
         const bool is_full = refused.error_number == ENOSPC || refused.error_number == EDQUOT;
         if (!is_full || !checkpoint_) throw;
-        // Measures the picture in memory first, to give the checkpoint up only if that helps.
+        // Measures the image in memory first, to give the checkpoint up only if that helps.
         const MemoryFile memory("raylane picture");
         OutputFile(memory.path(), output.format(), exr_of).commit(film, options, layers);
         if (!checkpoint_->give_room(memory.bytes())) throw;

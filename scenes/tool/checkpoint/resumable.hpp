@@ -16,7 +16,7 @@
 
 namespace raylane::scenes {
 
-/// A signal has stopped the drawing of a picture. Exit code 128 + signal.
+/// A signal has stopped the drawing of an image. Exit code 128 + signal.
 struct Stopped : std::exception {
     int signal;
     std::string text; ///< how to resume, or why that is impossible
@@ -24,27 +24,27 @@ struct Stopped : std::exception {
     const char* what() const noexcept override { return text.c_str(); }
 };
 
-/// The drawing of a picture. It resumes where an earlier process ended, if that process left a
+/// The drawing of an image. It resumes where an earlier process ended, if that process left a
 /// checkpoint of the same scene and options beside the output. It keeps a checkpoint itself.
 class ResumableRendering {
   public:
-    /// `output`: the file of the picture. There is no checkpoint for "-", for other files that are
+    /// `output`: the file of the image. There is no checkpoint for "-", for other files that are
     /// not regular, or if `wanted` is false.
     ResumableRendering(const std::string& output, bool wanted, const core::Scene& scene,
                        const std::string& fingerprint, const core::Settings& settings,
                        simd::RenderOptions options, const std::optional<ImagePart>& part,
                        Verbosity verbosity);
 
-    /// Draws the picture, and reports a checkpoint that was found on standard error. Throws
+    /// Draws the image, and reports a checkpoint that was found on standard error. Throws
     /// Stopped. With a job of several ranks, this is collective, and the ranks part at its end;
-    /// rank 0 has the picture. With a checkpoint, the first signal does not end the process from
+    /// rank 0 has the image. With a checkpoint, the first signal does not end the process from
     /// here until end_if_signalled().
     simd::Rendering draw(simd::Progress& progress, Job* job = nullptr);
-    /// Writes the picture. If the disk is full, it takes the space of the checkpoint. Throws
+    /// Writes the image. If the disk is full, it takes the space of the checkpoint. Throws
     /// SystemRefused.
     void write(OutputFile& output, const core::Film& film, const ImageOptions& options,
                const core::Layers* layers);
-    /// Removes the checkpoint. Call it when the picture is written.
+    /// Removes the checkpoint. Call it when the image is written.
     void finished();
     /// Throws Stopped if a signal has arrived since the last tiles were begun. Call it after
     /// finished().

@@ -8,8 +8,8 @@
 
 namespace raylane::scenes {
 
-/// Converts single tiles of a picture to bytes: the counters; three floats for each pixel, row by
-/// row; the alphas, if the picture has any; and, if it has layers, those of the pixels in the crop.
+/// Converts single tiles of an image to bytes: the counters; three floats for each pixel, row by
+/// row; the alphas, if the image has any; and, if it has layers, those of the pixels in the crop.
 /// The byte order is that of this machine, and of all machines that raylane runs on.
 class TileRecords {
   public:

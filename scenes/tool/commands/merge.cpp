@@ -24,50 +24,50 @@ struct MergeArguments : OptionTable {
     EncodingArguments encoding{*this, "8 (PNG), 32 (EXR), same as the parts"};
 };
 
-/// Combines the parts of one picture, one after the other.
+/// Combines the parts of one image, one after the other.
 class Merger {
   public:
     explicit Merger(ImageFormat output) : output_(output) {}
 
     void add(const std::string& name) {
-        ExrImage picture = read_own_exr(name);
-        const ImagePart part = part_of(name, picture.texts);
-        if (text_in(name, picture.texts, "Pixels") != fingerprint_of(picture.film))
+        ExrImage image = read_own_exr(name);
+        const ImagePart part = part_of(name, image.texts);
+        if (text_in(name, image.texts, "Pixels") != fingerprint_of(image.film))
             throw BadInput(name, "", "has pixels that differ from its Pixels attribute");
-        if (!first_) begin(name, picture);
+        if (!first_) begin(name, image);
         const ExrImage& first = *first_;
         for (const char* key : {"Scene", "Comment", "Software"})
-            if (text_in(name, picture.texts, key) != text_in(first_name_, first.texts, key))
+            if (text_in(name, image.texts, key) != text_in(first_name_, first.texts, key))
                 throw BadInput(name, "",
                                std::string("belongs to another image than ") + first_name_ + ": " +
                                    key + " differs");
-        if (optional_text("Options", picture.texts) != optional_text("Options", first.texts))
+        if (optional_text("Options", image.texts) != optional_text("Options", first.texts))
             throw BadInput(name, "",
                            "belongs to another image than " + first_name_ + ": Options differs");
-        if (optional_text("Film", picture.texts) != optional_text("Film", first.texts))
+        if (optional_text("Film", image.texts) != optional_text("Film", first.texts))
             throw BadInput(name, "", "belongs to another image of a sequence than " + first_name_);
-        if (part.count != has_.size() || tile_of(picture.texts) != tile_of(first.texts) ||
-            picture.film.width() != first.film.width() ||
-            picture.film.height() != first.film.height() ||
-            picture.film.has_alpha() != first.film.has_alpha())
+        if (part.count != has_.size() || tile_of(image.texts) != tile_of(first.texts) ||
+            image.film.width() != first.film.width() ||
+            image.film.height() != first.film.height() ||
+            image.film.has_alpha() != first.film.has_alpha())
             throw BadInput(name, "", "belongs to another division into parts than " + first_name_);
-        if (picture.layers.has_value() != first.layers.has_value())
+        if (image.layers.has_value() != first.layers.has_value())
             throw BadInput(name, "",
-                           picture.layers ? "has layers, but " + first_name_ + " has none"
-                                          : "has no layers, but " + first_name_ + " has some");
+                           image.layers ? "has layers, but " + first_name_ + " has none"
+                                        : "has no layers, but " + first_name_ + " has some");
         if (has_[part.number - 1]) throw BadInput(name, "", "repeats part " + part.text());
         has_[part.number - 1] = true;
-        const std::optional<RayTiers> rays = ray_tiers_of(text_in(name, picture.texts, "Rays"));
+        const std::optional<RayTiers> rays = ray_tiers_of(text_in(name, image.texts, "Rays"));
         if (!rays) throw BadInput(name, "", "has a malformed \"Rays\" attribute");
         rays_ += *rays;
         // Parts may name the scene differently. Part 1's name is used, whatever the order of the
         // arguments.
-        if (part.number == 1) texts_ = picture.texts;
+        if (part.number == 1) texts_ = image.texts;
         for (std::size_t number = 0; number < grid_->count(); ++number)
-            if (part.has(number)) copy(picture, grid_->tile(number).within(crop_));
+            if (part.has(number)) copy(image, grid_->tile(number).within(crop_));
     }
 
-    /// Returns the complete picture. Throws BadInput if parts are missing.
+    /// Returns the complete image. Throws BadInput if parts are missing.
     ExrImage take() {
         std::string missing;
         for (std::size_t i = 0; i < has_.size(); ++i)
@@ -110,9 +110,9 @@ class Merger {
 
     /// Throws BadInput if the output's format cannot store the layers or the alpha that the parts
     /// were drawn with.
-    void require_fit(const std::string& name, const ExrImage& picture, bool alpha) const {
+    void require_fit(const std::string& name, const ExrImage& image, bool alpha) const {
         const bool is_exr = output_ == ImageFormat::exr;
-        if (picture.layers && !is_exr)
+        if (image.layers && !is_exr)
             throw BadInput(
                 name, "",
                 "was rendered with --layers, which goes with an output that ends in .exr");
@@ -120,22 +120,21 @@ class Merger {
             throw BadInput(name, "", "was rendered with --alpha, which goes with PNG or EXR");
     }
 
-    void begin(const std::string& name, const ExrImage& picture) {
-        const auto arguments = recorded_arguments(name, picture.texts, name);
+    void begin(const std::string& name, const ExrImage& image) {
+        const auto arguments = recorded_arguments(name, image.texts, name);
         settings_ = arguments->settings_of({});
-        require_fit(name, picture, arguments->picture.alpha.is_given());
+        require_fit(name, image, arguments->image.alpha.is_given());
         // Nothing is rendered here, and parts may come from other processors.
         simd::RenderOptions options = arguments->render_options(/*with_isa=*/false);
-        arguments->picture.apply_to(options, settings_);
-        options.tile = tile_of(picture.texts);
-        options.layers = picture.layers.has_value();
+        arguments->image.apply_to(options, settings_);
+        options.tile = tile_of(image.texts);
+        options.layers = image.layers.has_value();
         crop_ = options.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
-        if (crop_.x1 - crop_.x0 != picture.film.width() ||
-            crop_.y1 - crop_.y0 != picture.film.height())
+        if (crop_.x1 - crop_.x0 != image.film.width() || crop_.y1 - crop_.y0 != image.film.height())
             throw BadInput(name, "", "has another size than its Comment states");
         grid_.emplace(simd::grid_of(settings_, options));
-        has_.assign(part_of(name, picture.texts).count, false);
-        first_ = picture;
+        has_.assign(part_of(name, image.texts).count, false);
+        first_ = image;
         first_name_ = name;
     }
 
@@ -180,9 +179,9 @@ int merge(const MergeArguments& arguments) {
     for (const std::string& part : *arguments.parts)
         merger.add(part);
     const core::Transfer transfer = merger.transfer();
-    const ExrImage picture = merger.take();
-    output.commit(picture.film, {transfer, bits, arguments.encoding.dpi.value(), picture.texts},
-                  picture.layers ? &*picture.layers : nullptr);
+    const ExrImage image = merger.take();
+    output.commit(image.film, {transfer, bits, arguments.encoding.dpi.value(), image.texts},
+                  image.layers ? &*image.layers : nullptr);
     return 0;
 }
 

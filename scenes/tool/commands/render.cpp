@@ -78,7 +78,7 @@ struct Work {
 std::string checked_output(const RenderArguments& arguments) {
     const std::string& scene = *arguments.scene;
     const std::string output = arguments.frames.is_one()
-                                   ? picture_names(scene, arguments.output.value(), true)(0)
+                                   ? image_names(scene, arguments.output.value(), true)(0)
                                    : arguments.output.value_or(default_output(scene, ".png"));
     require_other_than_scene("--output", output, scene);
     if (arguments.stats) {
@@ -92,7 +92,7 @@ Plan::Plan(const RenderArguments& all)
     : arguments(all), options(all.render_options()), output(checked_output(all)),
       load_options(all.scene_arguments.load_options()),
       verbosity(job.is_first() ? all.scene_arguments.verbosity.verbosity() : Verbosity::quiet),
-      threads_to_load(options.threads), bits(all.picture.encoding.bits.value_or(0)) {
+      threads_to_load(options.threads), bits(all.image.encoding.bits.value_or(0)) {
     if (!all.threads) options.threads = job.share_of_threads(options.threads);
     if (*all.scene == "-") job.share_standard_input();
     job.together([&] {
@@ -104,7 +104,7 @@ Plan::Plan(const RenderArguments& all)
                 "goes with a single image, without --turn, ranges of --frames and sweeps of --set");
         const OutputFile writable(sequence->name(0),
                                   exr_of); // throws at once if it cannot be written
-        all.picture.require_fit(writable.format());
+        all.image.require_fit(writable.format());
     });
     if (sequence) {
         // The ranks of a part take turns, as the parts do.
@@ -121,7 +121,7 @@ Plan::Plan(const RenderArguments& all)
 Target target_of(Plan& plan, const core::Scene& scene, const std::string& name,
                  std::optional<std::size_t> place) {
     const core::Settings settings = plan.arguments.settings_of(scene.settings());
-    plan.arguments.picture.apply_to(plan.options, settings);
+    plan.arguments.image.apply_to(plan.options, settings);
     return {scene, settings, name, place, fingerprint_of(scene)};
 }
 
@@ -134,11 +134,11 @@ std::string comment_of(const Plan& plan, const Target& image) {
 }
 
 /// Returns the encoding and the texts of the image.
-ImageOptions picture_options(const Plan& plan, const Target& image,
-                             const simd::Rendering& rendering, const std::string& pixels) {
+ImageOptions image_options(const Plan& plan, const Target& image, const simd::Rendering& rendering,
+                           const std::string& pixels) {
     const std::filesystem::path scene = *plan.arguments.scene;
     ImageOptions options{
-        image.settings.transfer, plan.bits, plan.arguments.picture.encoding.dpi.value(), {}};
+        image.settings.transfer, plan.bits, plan.arguments.image.encoding.dpi.value(), {}};
     const auto add = [&](const char* key, const std::string& text) {
         options.texts.emplace_back(key, text);
     };
@@ -167,7 +167,7 @@ ResumableRendering resumable(const Plan& plan, const Target& image) {
 std::string write(const Plan& plan, const Target& image, ResumableRendering& drawing,
                   const simd::Rendering& rendering, OutputFile& output) {
     std::string pixels = fingerprint_of(rendering.film);
-    drawing.write(output, rendering.film, picture_options(plan, image, rendering, pixels),
+    drawing.write(output, rendering.film, image_options(plan, image, rendering, pixels),
                   plan.options.layers ? &rendering.layers : nullptr);
     drawing.finished();
     return pixels;
@@ -204,7 +204,7 @@ void open_outputs(Outputs& outputs, Plan& plan) {
             throw BadInput("--part", "", "goes with an output that ends in .exr");
         // A part must keep the floats of the whole image.
         if (plan.tiles && plan.bits != 32) throw BadInput("--part", "", "goes with --bits 32");
-        plan.arguments.picture.require_fit(format);
+        plan.arguments.image.require_fit(format);
         if (plan.arguments.stats) outputs.stats.emplace(*plan.arguments.stats);
     });
 }

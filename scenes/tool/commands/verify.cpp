@@ -26,8 +26,8 @@ namespace raylane::scenes {
 namespace {
 
 struct VerifyArguments : OptionTable {
-    Option<std::string> picture = {*this, "PICTURE", file_argument(),
-                                   "PNG or EXR rendered by raylane. It names its options."};
+    Option<std::string> image = {*this, "IMAGE", file_argument(),
+                                 "PNG or EXR rendered by raylane. It names its options."};
     Option<std::string> scene = {*this, "SCENE", file_argument(),
                                  "Scene that the image was rendered from."};
     Option<int> pixels = {*this, "--pixels", scenes::whole(1, 100'000'000).initially(1000),
@@ -41,7 +41,7 @@ struct VerifyArguments : OptionTable {
     VerbosityArguments verbosity{*this};
 };
 
-/// Compares components of a picture with the expected ones.
+/// Compares components of an image with the expected ones.
 class Tolerance {
   public:
     explicit Tolerance(const Image& image) : is_float_(image.linear_float), bits_(image.bits) {}
@@ -74,8 +74,8 @@ bool has_same_bits(const core::Layers& a, const core::Layers& b) {
            has_same_bits(a.samples, b.samples);
 }
 
-/// Reads the picture, and throws BadInput for unsuitable ones before the scene is loaded.
-Image whole_picture(const std::string& name, const std::string& bytes) {
+/// Reads the image, and throws BadInput for unsuitable ones before the scene is loaded.
+Image whole_image(const std::string& name, const std::string& bytes) {
     InputFile file(name, bytes);
     Image image = read_image(file);
     if (has_text(image.texts, "Part"))
@@ -108,15 +108,15 @@ class Verifier {
     explicit Verifier(const VerifyArguments& arguments)
         : verbosity_(arguments.verbosity.verbosity()), count_(*arguments.pixels),
           seed_(arguments.seed ? static_cast<unsigned>(*arguments.seed) : std::random_device()()),
-          threads_(arguments.threads.count()), name_(*arguments.picture),
-          bytes_(InputFile(name_).read_all()), image_(whole_picture(shown_name(), bytes_)),
+          threads_(arguments.threads.count()), name_(*arguments.image),
+          bytes_(InputFile(name_).read_all()), image_(whole_image(shown_name(), bytes_)),
           render_(recorded_arguments(image_.name, image_.texts, *arguments.scene)),
           scene_(has_text(image_.texts, "Film") ? seen_scene_of_film() : seen_scene()) {
         // Another instruction set gives the same pixels, but may give other numbers of rays.
         const bool with_isa =
             arguments.whole || (render_->isa && simd::is_available(*render_->isa));
         options_ = render_->render_options(with_isa);
-        render_->picture.apply_to(options_, settings_);
+        render_->image.apply_to(options_, settings_);
         options_.threads = threads_;
         part_ = options_.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
         if (part_.x1 - part_.x0 != image_.width || part_.y1 - part_.y0 != image_.height)
@@ -127,7 +127,7 @@ class Verifier {
         return fingerprint_of(scene_) == text_in(image_.name, image_.texts, "Scene");
     }
 
-    /// Returns nothing for pictures drawn by older versions, which have no Options.
+    /// Returns nothing for images drawn by older versions, which have no Options.
     std::optional<bool> options_are_the_same() const {
         if (!has_text(image_.texts, "Options")) return std::nullopt;
         simd::RenderOptions options = options_;
@@ -136,11 +136,11 @@ class Verifier {
                text_in(image_.name, image_.texts, "Options");
     }
 
-    /// Returns true if the reference's exact arithmetic can verify the picture; pictures of other
+    /// Returns true if the reference's exact arithmetic can verify the image; images of other
     /// precisions differ from it.
     bool is_exact() const { return options_.precision == core::Precision::exact; }
 
-    /// Draws some pixels by the reference, or by the picture's precision if that is not exact, and
+    /// Draws some pixels by the reference, or by the image's precision if that is not exact, and
     /// compares.
     Verdict sample() {
         simd::RenderOptions options = options_;
@@ -160,10 +160,10 @@ class Verifier {
 
     struct Whole {
         bool has_its_bits;
-        bool has_its_tiers; ///< each tier decided as many rays as the picture states
+        bool has_its_tiers; ///< each tier decided as many rays as the image states
     };
-    /// Draws and writes the whole picture again in the way it was drawn. `has_its_bits` is true if
-    /// the film has the bits that the picture states, and if the file holds exactly the components
+    /// Draws and writes the whole image again in the way it was drawn. `has_its_bits` is true if
+    /// the film has the bits that the image states, and if the file holds exactly the components
     /// that are written for it.
     Whole again() {
         std::optional<core::Layers> layers;
@@ -210,7 +210,7 @@ class Verifier {
         return read_image(memory.path());
     }
 
-    /// Compares some pixels of the picture with those of a film.
+    /// Compares some pixels of the image with those of a film.
     Verdict compared(const core::Film& film, const std::vector<std::size_t>& pixels) const {
         Verdict verdict;
         const Image expected = as_written(film);
@@ -246,7 +246,7 @@ class Verifier {
         return seen(std::move(scene), how.view.change(), settings_);
     }
 
-    /// Returns the scene of one picture of a film.
+    /// Returns the scene of one image of a film.
     core::Scene seen_scene_of_film() {
         const std::optional<int> place = to_int(text_in(image_.name, image_.texts, "Film"));
         std::optional<FrameSequence> sequence =
@@ -307,7 +307,7 @@ class Verifier {
     int count_;
     unsigned seed_;
     int threads_;
-    std::string name_, bytes_; // of the picture
+    std::string name_, bytes_; // of the image
     Image image_;
     std::unique_ptr<RenderArguments> render_; // as the image records them
     core::Settings settings_;                 // before scene_, whose initializer sets it
@@ -327,7 +327,7 @@ int verify(const VerifyArguments& arguments) {
         std::printf("options    %s\n", *are_same_options
                                            ? "same as the image names"
                                            : "differ from those that the image names");
-    std::fflush(stdout); // the rest may take as long as the picture
+    std::fflush(stdout); // the rest may take as long as the image
     const Verdict verdict = verifier.sample();
     std::printf(
         "pixels     %zu rendered again by %s: %zu equal, %zu within one step, %zu different\n",

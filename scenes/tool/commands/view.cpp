@@ -83,7 +83,7 @@ class Viewer {
         while (!is_closed_) {
             act(window_->wait(longest_wait));
             maker_->rethrow();
-            if (std::optional<ImageMaker::Picture> picture = maker_->take()) show(picture->film);
+            if (std::optional<ImageMaker::Image> image = maker_->take()) show(image->film);
             reload_if_written();
             if (is_moved_) begin();
         }

@@ -135,10 +135,10 @@ core::Settings RenderArguments::settings_of(const core::Settings& own) const {
     if (draft) settings.grid = 1;
     if (draft) settings.light_samples = core::Settings::hard_light;
     if (print) settings.quality = 50.0F;
-    if (picture.alpha) settings.alpha = true;
-    if (settings.outline.any() || picture.outline) return settings;
-    for (const AnyOption* option : {static_cast<const AnyOption*>(&picture.outline_color),
-                                    static_cast<const AnyOption*>(&picture.outline_creases)})
+    if (image.alpha) settings.alpha = true;
+    if (settings.outline.any() || image.outline) return settings;
+    for (const AnyOption* option : {static_cast<const AnyOption*>(&image.outline_color),
+                                    static_cast<const AnyOption*>(&image.outline_creases)})
         if (option->is_given()) throw BadInput(option->name(), "", "goes with --outline");
     return settings;
 }

@@ -215,7 +215,7 @@ struct RenderArguments : OptionTable {
         *this, "--part", image_parts(),
         "Render part K of N, for N processes or machines: some tiles of an image, in an "
         "EXR for merge; of a sequence, every N-th image from the K-th on."};
-    ImageArguments picture{*this};
+    ImageArguments image{*this};
     FrameArguments frames{*this};
     SceneArguments scene_arguments{*this, true};
 };

@@ -12,8 +12,8 @@
 
 namespace raylane::scenes {
 
-/// The tiles of a picture that the ranks of a job draw together. Rank 0 has the whole picture, and
-/// receives the tiles of other ranks as they arrive. The pictures of other ranks have only the
+/// The tiles of an image that the ranks of a job draw together. Rank 0 has the whole image, and
+/// receives the tiles of other ranks as they arrive. The images of other ranks have only the
 /// tiles that these draw.
 class RankedTiles : public simd::TileSource {
   public:

@@ -21,8 +21,8 @@ namespace {
     throw BadInput("--frames", "", "must select at least one frame, got none");
 }
 
-/// A picture to draw.
-struct Picture {
+/// An image of the sequence.
+struct Frame {
     std::size_t place;
     std::string name;
     std::optional<core::Scene> scene; ///< empty if the file exists already
@@ -42,17 +42,17 @@ class Stage {
         return is_still() && sequence_.turn ? sequence_.turn->count : sequence_.source->count();
     }
 
-    /// Returns true if there were any pictures, including those of other processes.
+    /// Returns true if there were any images, including those of other processes.
     bool has_any() const { return made_ > 0; }
 
-    /// Returns the scene and the file name of the first picture.
+    /// Returns the scene and the file name of the first image.
     SequenceFrame first() {
         const std::optional<std::size_t> number = sequence_.source->next();
         if (!number) refuse_none();
         return {scene(made_++), sequence_.name(is_still() && sequence_.turn ? 0 : *number)};
     }
 
-    std::optional<Picture> next() {
+    std::optional<Frame> next() {
         for (;;) {
             if (sequence_.only && made_ > *sequence_.only) return std::nullopt;
             if (is_still() && made_ > 0) {
@@ -67,24 +67,24 @@ class Stage {
                 number_ = *number;
             }
             const std::size_t place = made_++;
-            // The source may not know the number of pictures before its end.
+            // The source may not know the number of images before its end.
             if (sequence_.turn && made_ > sequence_.turn->count)
                 refuse_turn(*sequence_.turn, "at least " + std::to_string(made_));
             const bool is_ours = sequence_.only
                                      ? place == *sequence_.only
                                      : place % sequence_.share.of == sequence_.share.number;
-            Picture picture{place, sequence_.name(is_still() && sequence_.turn ? place : number_),
-                            std::nullopt};
-            if (is_ours && is_wanted(picture.name)) picture.scene = scene(place);
-            // The view of the first picture fixes that of the others, so its scene is needed in any
+            Frame image{place, sequence_.name(is_still() && sequence_.turn ? place : number_),
+                        std::nullopt};
+            if (is_ours && is_wanted(image.name)) image.scene = scene(place);
+            // The view of the first image fixes that of the others, so its scene is needed in any
             // case.
             else if (place == 0 && sequence_.fit_to == FitTo::first && !is_still())
                 static_cast<void>(scene(place));
-            if (is_ours) return picture;
+            if (is_ours) return image;
         }
     }
 
-    /// Takes back a scene that has been drawn. If it is the only scene, the next picture reuses it.
+    /// Takes back a scene that has been drawn. If it is the only scene, the next image reuses it.
     void take_back(core::Scene scene) {
         if (is_still()) still_ = std::move(scene);
     }
@@ -95,7 +95,7 @@ class Stage {
             refuse_turn(*sequence_.turn, std::to_string(count));
     }
 
-    /// Returns true if the picture must be drawn. A loss of power may leave an empty file, which
+    /// Returns true if the image must be drawn. A loss of power may leave an empty file, which
     /// does not count.
     bool is_wanted(const std::string& name) const {
         std::error_code unknown;
@@ -162,12 +162,12 @@ class Stage {
     std::size_t made_ = 0, number_ = 0;
 };
 
-/// Progress over all pictures. Another thread may read it.
+/// Progress over all images. Another thread may read it.
 class StripProgress {
   public:
     explicit StripProgress(std::size_t count) : count_(count) {}
 
-    simd::Progress& of_picture(const core::Settings& settings) {
+    simd::Progress& of_image(const core::Settings& settings) {
         rays_ += progress_.rays.exchange(0);
         progress_.pixels = 0;
         pixels_ = std::int64_t{settings.width} * settings.height;
@@ -284,40 +284,40 @@ void draw(const FrameSequence& sequence) {
     const auto [number, of] = sequence.share;
     StripProgress progress((stage.count() + of - 1 - number) / of);
     const auto start = std::chrono::steady_clock::now();
-    std::size_t pictures = 0;
+    std::size_t images = 0;
     {
         const ProgressLine line(sequence.verbosity, [&] { return progress.text(); });
         const auto make_next = [&] { return stage.next(); };
-        std::optional<Picture> picture = stage.next();
-        while (picture) {
-            ++pictures;
-            std::future<std::optional<Picture>> next;
-            // If there is only one scene, the next picture reuses it after this one is drawn.
+        std::optional<Frame> image = stage.next();
+        while (image) {
+            ++images;
+            std::future<std::optional<Frame>> next;
+            // If there is only one scene, the next image reuses it after this one is rendered.
             if (!stage.is_still()) next = std::async(std::launch::async, make_next);
-            if (picture->scene) {
-                sequence.draw(*picture->scene, picture->place, picture->name,
-                              progress.of_picture(sequence.settings(picture->scene->settings())));
+            if (image->scene) {
+                sequence.draw(*image->scene, image->place, image->name,
+                              progress.of_image(sequence.settings(image->scene->settings())));
                 progress.drawn();
-                stage.take_back(*std::move(picture->scene));
+                stage.take_back(*std::move(image->scene));
             } else {
                 progress.kept();
             }
-            picture = next.valid() ? next.get() : stage.next();
+            image = next.valid() ? next.get() : stage.next();
         }
     }
     if (!stage.has_any()) refuse_none();
     const std::size_t kept = progress.kept_count();
     if (sequence.verbosity == Verbosity::verbose ||
         (sequence.verbosity == Verbosity::normal && is_terminal()))
-        std::fprintf(stderr, "%zu images rendered in %s\n", pictures - kept,
+        std::fprintf(stderr, "%zu images rendered in %s\n", images - kept,
                      duration_text(seconds_since(start)).c_str());
     if (kept > 0 && sequence.verbosity != Verbosity::quiet)
         std::fprintf(stderr, "%zu of %zu images exist already; --overwrite renders them again\n",
-                     kept, pictures);
+                     kept, images);
 }
 
 std::function<std::string(std::size_t)>
-picture_names(const std::string& scene, const std::optional<std::string>& output, bool is_one) {
+image_names(const std::string& scene, const std::optional<std::string>& output, bool is_one) {
     const std::string standard =
         with_percents_doubled(default_output(scene, "")) + (is_one ? ".png" : "-%05d.png");
     const NumberedName name("--output", output.value_or(standard), !is_one);
@@ -355,7 +355,7 @@ std::optional<FrameSequence> requested_sequence(const RenderArguments& arguments
     const std::size_t count = sequence.source->count();
     if (sequence.turn && count > 1 && count != sequence.turn->count)
         refuse_turn(*sequence.turn, std::to_string(count));
-    sequence.name = picture_names(*arguments.scene, arguments.output.value(), frames.is_one());
+    sequence.name = image_names(*arguments.scene, arguments.output.value(), frames.is_one());
     sequence.overwrites = frames.overwrite || frames.is_one();
     sequence.settings = [&](const core::Settings& own) { return arguments.settings_of(own); };
     return sequence;

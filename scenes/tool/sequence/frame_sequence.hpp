@@ -12,56 +12,56 @@
 
 namespace raylane::scenes {
 
-/// Several pictures that belong together: frames of atoms, values of parameters, views of a turn.
+/// Several images that belong together: frames of atoms, values of parameters, views of a turn.
 struct FrameSequence {
     std::shared_ptr<core::Workers> workers; ///< used by `source`
     std::unique_ptr<SceneSource> source;
-    std::function<std::string(std::size_t)> name; ///< the file name for a picture's number
+    std::function<std::string(std::size_t)> name; ///< the file name for an image's number
     ViewChange view;
     FitTo fit_to = FitTo::first;
     std::optional<Turn> turn;
-    bool overwrites = true; ///< draw pictures whose files exist already
+    bool overwrites = true; ///< draw images whose files exist already
     /// The share of this process: its number, from 0, and the number of processes, which take the
-    /// pictures in turn.
+    /// images in turn.
     struct Share {
         std::size_t number = 0, of = 1;
     } share;
-    std::optional<std::size_t> only; ///< draw only the picture at this place, regardless of `share`
+    std::optional<std::size_t> only; ///< draw only the image at this place, regardless of `share`
     Verbosity verbosity = Verbosity::normal;
     /// Returns the settings to use for a scene, given the scene's own.
     std::function<core::Settings(const core::Settings&)> settings;
-    /// Draws the scene of the picture at a place, from 0, into a file.
+    /// Draws the scene of the image at a place, from 0, into a file.
     std::function<void(const core::Scene&, std::size_t place, const std::string& name,
                        simd::Progress&)>
         draw;
 };
 
-/// Throws BadInput. `otherwise`: the number of pictures without the turn.
+/// Throws BadInput. `otherwise`: the number of images without the turn.
 [[noreturn]] void refuse_turn(const Turn& turn, const std::string& otherwise);
 
-/// The scene of a picture and the name of its file.
+/// The scene of an image and the name of its file.
 struct SequenceFrame {
     core::Scene scene;
     std::string name;
 };
 
-/// Returns the scene and file name of the first picture, whether or not that file exists. The
+/// Returns the scene and file name of the first image, whether or not that file exists. The
 /// caller draws it. Exceptions of the source propagate.
 SequenceFrame first_frame(const FrameSequence& sequence);
 
-/// Draws all pictures. The scene of the next one is made while one is drawn. Exceptions of the
-/// source and of `sequence.draw` propagate after the previous pictures are drawn. Throws BadInput
-/// if the turn has another number of pictures than the source: before the first picture too many,
+/// Draws all images. The scene of the next one is made while one is drawn. Exceptions of the
+/// source and of `sequence.draw` propagate after the previous images are drawn. Throws BadInput
+/// if the turn has another number of images than the source: before the first image too many,
 /// or after the last one.
 void draw(const FrameSequence& sequence);
 
-/// Returns a function from the number of a picture to the name of its file, according to --output.
-/// `is_one`: there is a single picture, whose name needs no number. Both functions throw BadInput
+/// Returns a function from the number of an image to the name of its file, according to --output.
+/// `is_one`: there is a single image, whose name needs no number. Both functions throw BadInput
 /// for the name of the scene's file.
 std::function<std::string(std::size_t)>
-picture_names(const std::string& scene, const std::optional<std::string>& output, bool is_one);
+image_names(const std::string& scene, const std::optional<std::string>& output, bool is_one);
 
-/// Returns the pictures that the command line requests, if there may be several. The caller sets
+/// Returns the images that the command line requests, if there may be several. The caller sets
 /// how they are drawn. Scenes are made with `threads` threads. `arguments` must outlive the result.
 /// Throws BadInput.
 std::optional<FrameSequence> requested_sequence(const RenderArguments& arguments, int threads,

@@ -10,7 +10,7 @@
 
 namespace raylane::scenes {
 
-/// The scenes of several pictures, one after the other. Functions throw BadInput and SystemRefused.
+/// The scenes of several images, one after the other. Functions throw BadInput and SystemRefused.
 class SceneSource {
   public:
     SceneSource() = default;
@@ -18,7 +18,7 @@ class SceneSource {
     SceneSource(const SceneSource&) = delete;
     SceneSource& operator=(const SceneSource&) = delete;
 
-    /// Advances to the next scene and returns the number in its picture's name, or nothing at the
+    /// Advances to the next scene and returns the number in its image's name, or nothing at the
     /// end.
     virtual std::optional<std::size_t> next() = 0;
     /// Returns the current scene.

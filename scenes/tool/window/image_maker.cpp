@@ -9,7 +9,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// The time limit for the first picture. Stopping the previous one, and showing this one, may take
+/// The time limit for the first image. Stopping the previous one, and showing this one, may take
 /// as long again.
 constexpr double soon = 0.02; // seconds
 
@@ -20,8 +20,8 @@ double samples_of(const core::Settings& settings) {
 } // namespace
 
 ImageMaker::ImageMaker(core::Scene scene, simd::RenderOptions options,
-                       std::function<void()> on_picture)
-    : options_(std::move(options)), on_picture_(std::move(on_picture)), scene_(std::move(scene)) {
+                       std::function<void()> on_image)
+    : options_(std::move(options)), on_image_(std::move(on_image)), scene_(std::move(scene)) {
     options_.progress = &progress_;
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -52,9 +52,9 @@ void ImageMaker::replace(core::Scene scene) {
     scene_ = std::move(scene);
 }
 
-std::optional<ImageMaker::Picture> ImageMaker::take() {
+std::optional<ImageMaker::Image> ImageMaker::take() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(picture_, std::nullopt);
+    return std::exchange(image_, std::nullopt);
 }
 
 void ImageMaker::with_scene(const std::function<void(const core::Scene&)>& use) {
@@ -88,7 +88,7 @@ void ImageMaker::run(const std::stop_token& stop) {
         const std::lock_guard lock(mutex_);
         failure_ = std::current_exception();
     }
-    on_picture_();
+    on_image_();
 }
 
 void ImageMaker::draw(const std::stop_token& stop, const core::Settings& settings) {
@@ -104,7 +104,7 @@ void ImageMaker::draw(const std::stop_token& stop, const core::Settings& setting
         result.height = (settings.height + of.step - 1) / of.step;
         return result;
     };
-    // The first picture is the finest one that is expected within this time limit.
+    // The first image is the finest one that is expected within this time limit.
     while (seconds_per_sample_ > 0.0 && level + 1 < levels.size() - 1 &&
            samples_of(settings_of(levels[level + 1])) * seconds_per_sample_ < soon)
         ++level;
@@ -119,9 +119,9 @@ void ImageMaker::draw(const std::stop_token& stop, const core::Settings& setting
             const std::lock_guard lock(mutex_);
             if (stop.stop_requested() || is_interrupted_ || !rendering.complete) return;
             if (of_level.quality == 0.0F) seconds_per_sample_ = seconds / samples_of(of_level);
-            picture_ = Picture{std::move(rendering.film), is_last};
+            image_ = Image{std::move(rendering.film), is_last};
         }
-        on_picture_();
+        on_image_();
     }
 }
 

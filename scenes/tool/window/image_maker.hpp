@@ -14,23 +14,23 @@ namespace raylane::scenes {
 /// Draws a scene on a separate thread, coarse to fine, and starts again whenever the view changes.
 class ImageMaker {
   public:
-    struct Picture {
+    struct Image {
         core::Film film; ///< at first with fewer pixels than the settings request
         bool is_last;    ///< with the quality that the settings request
     };
 
-    /// The thread calls `on_picture` whenever a picture can be taken.
-    ImageMaker(core::Scene scene, simd::RenderOptions options, std::function<void()> on_picture);
+    /// The thread calls `on_picture` whenever an image can be taken.
+    ImageMaker(core::Scene scene, simd::RenderOptions options, std::function<void()> on_image);
     ~ImageMaker();
     ImageMaker(const ImageMaker&) = delete;
     ImageMaker& operator=(const ImageMaker&) = delete;
 
-    /// Starts again with this view. The last picture has these settings.
+    /// Starts again with this view. The last image has these settings.
     void show(core::View view, const core::Settings& settings);
     /// Stops drawing and replaces the scene. Call show() afterwards with the view.
     void replace(core::Scene scene);
-    /// Returns the newest picture since the last call, if any.
-    std::optional<Picture> take();
+    /// Returns the newest image since the last call, if any.
+    std::optional<Image> take();
     /// Stops drawing and calls `use` with the scene in its current view. Call show() to draw again.
     void with_scene(const std::function<void(const core::Scene&)>& use);
     /// Rethrows the exception that ended the drawing, if any.
@@ -41,9 +41,9 @@ class ImageMaker {
         core::View view;
         core::Settings settings;
     };
-    /// One of several pictures of increasing resolution.
+    /// One of several images of increasing resolution.
     struct Level {
-        int step; ///< pixels of the window per pixel of the picture, along a side
+        int step; ///< pixels of the window per pixel of the image, along a side
         int grid; ///< 0: as in the settings
     };
 
@@ -52,7 +52,7 @@ class ImageMaker {
     void interrupt();
 
     simd::RenderOptions options_;
-    std::function<void()> on_picture_;
+    std::function<void()> on_image_;
 
     std::mutex scene_mutex_; // held while the scene is drawn or changed
     core::Scene scene_;
@@ -60,12 +60,12 @@ class ImageMaker {
     std::mutex mutex_; // protects the next five members
     std::condition_variable_any wake_;
     std::optional<Wish> wish_;
-    std::optional<Picture> picture_;
+    std::optional<Image> image_;
     std::exception_ptr failure_;
     bool is_interrupted_ = false;
 
     simd::Progress progress_;
-    double seconds_per_sample_ = 0.0; // of the last picture; used by the thread only
+    double seconds_per_sample_ = 0.0; // of the last image; used by the thread only
     std::jthread thread_;             // last, because it uses the other members
 };
 

@@ -26,7 +26,7 @@ Vec3d right_of(const core::Camera& camera) {
     return core::normalized(core::cross(core::convert<double>(camera.up), arm_of(camera)));
 }
 
-double picture_height(const core::Camera& camera) {
+double image_height(const core::Camera& camera) {
     if (camera.projection == core::Projection::orthographic)
         return static_cast<double>(camera.height);
     return 2.0 * core::length(arm_of(camera)) * core::slope_of_view(camera.field_of_view);
@@ -54,7 +54,7 @@ void Orbit::turn(double to_the_right, double upwards) {
 void Orbit::pan(double to_the_right, double upwards) {
     const core::Camera now = view().camera;
     const Vec3d right = right_of(now), up = core::normalized(core::cross(arm_of(now), right));
-    const Vec3d step = picture_height(now) * (to_the_right * right + upwards * up);
+    const Vec3d step = image_height(now) * (to_the_right * right + upwards * up);
     const auto moved = [&](Vec3f& point) {
         point = core::convert<float>(core::convert<double>(point) + step);
     };

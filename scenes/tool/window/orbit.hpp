@@ -5,7 +5,7 @@
 namespace raylane::scenes {
 
 /// A view that the user moves by hand: around the point that the camera looks at, parallel to the
-/// picture, nearer. Lights and fog that came with the camera move along.
+/// image, nearer. Lights and fog that came with the camera move along.
 class Orbit {
   public:
     explicit Orbit(core::View start);
@@ -13,7 +13,7 @@ class Orbit {
     core::View view() const;
     /// Turns the camera around that point, in degrees. It never passes over the poles.
     void turn(double to_the_right, double upwards);
-    /// Moves the camera and its target, in heights of the picture. The image moves the opposite
+    /// Moves the camera and its target, in heights of the image. The image moves the opposite
     /// way, so to the left and down for positive values.
     void pan(double to_the_right, double upwards);
     /// Makes the point that the camera looks at appear `times` as large.

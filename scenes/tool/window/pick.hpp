@@ -7,7 +7,7 @@
 
 namespace raylane::scenes {
 
-/// Returns one line about the shape that a camera sees through the middle of a pixel, in a picture
+/// Returns one line about the shape that a camera sees through the middle of a pixel, in an image
 /// of the settings' size: its atom in the legend, the shape, the number and name of its material,
 /// the point, and the exact distance, rounded.
 std::string what_is_at(const core::Scene& scene, const core::Settings& settings, int x, int y,

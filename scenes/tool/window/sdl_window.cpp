@@ -17,7 +17,7 @@ class SdlWindow final : public Window {
   public:
     explicit SdlWindow(SDL_Window* window) : window_(window) {}
     ~SdlWindow() override {
-        SDL_FreeSurface(picture_);
+        SDL_FreeSurface(image_);
         SDL_DestroyWindow(window_);
         SDL_Quit();
     }
@@ -35,14 +35,14 @@ class SdlWindow final : public Window {
     void set_title(const char* title) override { SDL_SetWindowTitle(window_, title); }
 
     void show(const std::uint32_t* pixels, int width, int height) override {
-        SDL_FreeSurface(picture_);
-        picture_ = SDL_CreateRGBSurfaceWithFormat(0, width, height, 32, SDL_PIXELFORMAT_RGB888);
-        if (picture_ == nullptr) return; // out of memory: no picture is shown
+        SDL_FreeSurface(image_);
+        image_ = SDL_CreateRGBSurfaceWithFormat(0, width, height, 32, SDL_PIXELFORMAT_RGB888);
+        if (image_ == nullptr) return; // out of memory: no image is shown
         for (int y = 0; y < height; ++y)
             std::copy_n(
                 pixels + static_cast<std::ptrdiff_t>(y) * width, width,
-                reinterpret_cast<std::uint32_t*>(static_cast<std::uint8_t*>(picture_->pixels) +
-                                                 static_cast<std::ptrdiff_t>(y) * picture_->pitch));
+                reinterpret_cast<std::uint32_t*>(static_cast<std::uint8_t*>(image_->pixels) +
+                                                 static_cast<std::ptrdiff_t>(y) * image_->pitch));
         draw();
     }
 
@@ -63,11 +63,11 @@ class SdlWindow final : public Window {
 
     void draw() const {
         SDL_Surface* surface = SDL_GetWindowSurface(window_);
-        if (surface == nullptr || picture_ == nullptr) return;
-        if (picture_->w == surface->w && picture_->h == surface->h)
-            SDL_BlitSurface(picture_, nullptr, surface, nullptr);
+        if (surface == nullptr || image_ == nullptr) return;
+        if (image_->w == surface->w && image_->h == surface->h)
+            SDL_BlitSurface(image_, nullptr, surface, nullptr);
         else
-            SDL_BlitScaled(picture_, nullptr, surface, nullptr);
+            SDL_BlitScaled(image_, nullptr, surface, nullptr);
         SDL_UpdateWindowSurface(window_);
     }
 
@@ -119,8 +119,8 @@ class SdlWindow final : public Window {
     }
 
     SDL_Window* window_;
-    SDL_Surface* picture_ = nullptr; // shown last
-    int from_x_ = 0, from_y_ = 0;    // where the button was pressed
+    SDL_Surface* image_ = nullptr; // shown last
+    int from_x_ = 0, from_y_ = 0;  // where the button was pressed
     bool is_dragged_ = false;
 };
 

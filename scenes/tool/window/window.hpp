@@ -23,7 +23,7 @@ struct WindowEvent {
     char key = '\0';
 };
 
-/// A window that shows pictures. Only the thread that opened it may use it, except for wake().
+/// A window that shows images. Only the thread that opened it may use it, except for wake().
 class Window {
   public:
     Window() = default;

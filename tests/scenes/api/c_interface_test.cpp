@@ -155,15 +155,15 @@ TEST_CASE("C renders a scene with alpha over black with or without explicit sett
     REQUIRE(raylane_parse(text.data(), text.size(), "a.json", &made) == RAYLANE_OK);
     const SceneHandle scene(made);
     const raylane_settings own = raylane_scene_settings(scene.get());
-    std::vector<float> pictures[2];
+    std::vector<float> images[2];
     for (const raylane_settings* settings : {static_cast<const raylane_settings*>(nullptr), &own}) {
-        std::vector<float>& rgb = pictures[settings != nullptr ? 1 : 0];
+        std::vector<float>& rgb = images[settings != nullptr ? 1 : 0];
         rgb.resize(std::size_t{16} * 12 * 3);
         CHECK(raylane_render(scene.get(), settings, 1, RAYLANE_EXACT, nullptr, nullptr,
                              rgb.data()) == RAYLANE_OK);
     }
-    CHECK(pictures[0] == pictures[1]);
-    CHECK(pictures[0][0] == 0.0F); // the background is black
+    CHECK(images[0] == images[1]);
+    CHECK(images[0][0] == 0.0F); // the background is black
 }
 
 TEST_CASE("C has the defaults of C++") {

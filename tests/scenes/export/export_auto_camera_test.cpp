@@ -11,7 +11,7 @@
 
 using namespace raylane;
 using namespace raylane::scenes;
-using tests::picture_of;
+using tests::image_of;
 
 namespace {
 
@@ -116,7 +116,7 @@ TEST_CASE("JSON keeps to the bit the camera's framing and the lights and fog tha
               scenes[i].auto_camera().fit_camera.has_value());
         CHECK(again.auto_camera().lights == scenes[i].auto_camera().lights);
         CHECK(again.auto_camera().depth_cue == scenes[i].auto_camera().depth_cue);
-        CHECK(picture_of(again) == picture_of(scenes[i]));
+        CHECK(image_of(again) == image_of(scenes[i]));
         CHECK(view_of(seen_by(again, aside)) == view_of(seen_by(scenes[i], aside)));
         for (const core::Vec3f& direction : directions) {
             // A change of the view and an export give the same in either order.
@@ -124,8 +124,8 @@ TEST_CASE("JSON keeps to the bit the camera's framing and the lights and fog tha
             CHECK(view_of(seen_from(again, direction)) == view_of(seen));
             CHECK(view_of(written(seen)) == view_of(seen));
         }
-        CHECK(picture_of(seen_from(again, directions[2])) ==
-              picture_of(seen_from(scenes[i], directions[2])));
+        CHECK(image_of(seen_from(again, directions[2])) ==
+              image_of(seen_from(scenes[i], directions[2])));
     }
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("JSON export reports lost camera features and keeps the image") {
         CHECK(told == expected);
         core::Scene again = load_scene(directory.path() / "a.json");
         CHECK(view_of(again) == view_of(seen));
-        CHECK(picture_of(again) == picture_of(seen));
+        CHECK(image_of(again) == image_of(seen));
         return again;
     };
     const std::string place = "automatic camera", fog = "automatic fog",

@@ -12,7 +12,7 @@
 using namespace raylane;
 using namespace raylane::scenes;
 using tests::complaint;
-using tests::picture_of;
+using tests::image_of;
 
 TEST_CASE("export accepts solids exactly as deep as the readers do") {
     const tests::TemporaryDirectory directory;
@@ -78,7 +78,7 @@ TEST_CASE("an exported solid reads back with the same nodes and image") {
     export_scene(path, scene);
     const core::Scene again = load_scene(path);
     CHECK(again.solids().nodes().size() == scene.solids().nodes().size());
-    CHECK(picture_of(again) == picture_of(scene));
+    CHECK(image_of(again) == image_of(scene));
     const std::string once = tests::content_of(path);
     export_scene(path, again);
     CHECK(tests::content_of(path) == once);
@@ -251,7 +251,7 @@ TEST_CASE("export keeps the order of a solid's parts and clips by any form of so
             if (path.extension() == ".pov") continue; // describes lights and shading differently
             CHECK(parts_of(again) == parts_of(scene));
             CHECK(again.solids().nodes().size() == scene.solids().nodes().size());
-            CHECK((picture_of(again) == picture_of(scene)));
+            CHECK((image_of(again) == image_of(scene)));
         }
     }
 }

@@ -20,7 +20,7 @@
 using namespace raylane;
 using namespace raylane::scenes;
 using tests::complaint;
-using tests::picture_of;
+using tests::image_of;
 
 namespace {
 
@@ -72,7 +72,7 @@ TEST_CASE("a scene survives a JSON export unchanged") {
         CHECK(again.settings().filter == scene.settings().filter);
         CHECK(again.settings().max_depth == scene.settings().max_depth);
         CHECK(again.settings().min_weight == scene.settings().min_weight);
-        CHECK(picture_of(again) == picture_of(scene));
+        CHECK(image_of(again) == image_of(scene));
     }
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("JSON export writes every value of a scene") {
     CHECK(export_scene(copy, scene).empty());
     const core::Scene again = load_scene(copy);
     CHECK(floats_in(again) == floats_in(scene));
-    CHECK(picture_of(again) == picture_of(scene));
+    CHECK(image_of(again) == image_of(scene));
     // A second export would show a value that was lost in the first.
     const std::filesystem::path twice = directory.path() / "twice.json";
     export_scene(twice, again);

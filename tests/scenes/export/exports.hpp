@@ -12,7 +12,7 @@
 namespace raylane::tests {
 
 /// Returns the pixels of a small image of a scene, by the scene's settings.
-inline std::vector<core::Color> picture_of(const core::Scene& scene) {
+inline std::vector<core::Color> image_of(const core::Scene& scene) {
     core::Settings settings = scene.settings();
     settings.height = 48 * settings.height / settings.width;
     settings.width = 48;

@@ -37,7 +37,7 @@ unsigned mode_of(const std::filesystem::path& path) {
     return status.st_mode & 07777;
 }
 
-bool is_picture(const std::filesystem::path& path) {
+bool is_image(const std::filesystem::path& path) {
     return scenes::read_image(path).width == 4;
 }
 
@@ -93,12 +93,12 @@ TEST_CASE("an output file appears whole or not at all") {
     CHECK(content_of(path) == "old");
     CHECK(directory.file_count() == 1);
     write(path);
-    CHECK(is_picture(path));
+    CHECK(is_image(path));
     CHECK(directory.file_count() == 1);
     // The longest file name that the system accepts.
     const auto longest = directory.path() / (std::string(251, 'a') + ".png");
     write(longest);
-    CHECK(is_picture(longest));
+    CHECK(is_image(longest));
 }
 
 TEST_CASE("a temporary with a name stands beside the output until it is committed") {
@@ -195,13 +195,13 @@ TEST_CASE("a symbolic link stays a link and its target is replaced") {
     write(link);
     CHECK(std::filesystem::is_symlink(link));
     CHECK(std::filesystem::is_symlink(directory.path() / "far/second.png"));
-    CHECK(is_picture(target));
+    CHECK(is_image(target));
     // A link whose target does not exist yet.
     const auto dangling = directory.path() / "dangling.png";
     std::filesystem::create_symlink(directory.path() / "far/new.png", dangling);
     write(dangling);
     CHECK(std::filesystem::is_symlink(dangling));
-    CHECK(is_picture(directory.path() / "far/new.png"));
+    CHECK(is_image(directory.path() / "far/new.png"));
 }
 
 TEST_CASE("a new file has the umask's permissions and a replaced one keeps its own") {
@@ -326,7 +326,7 @@ TEST_CASE("a dash is standard output") {
         return true;
     }));
     std::filesystem::rename(path, directory.path() / "out.png");
-    CHECK(is_picture(directory.path() / "out.png"));
+    CHECK(is_image(directory.path() / "out.png"));
     CHECK(directory.file_count() == 1);
 }
 
@@ -342,7 +342,7 @@ TEST_CASE("a replaced file keeps its owner and permissions") {
     std::filesystem::permissions(path, std::filesystem::perms(0640));
     const auto owner = owner_of(path);
     write(path);
-    CHECK(is_picture(path));
+    CHECK(is_image(path));
     CHECK(owner_of(path) == owner);
     CHECK(mode_of(path) == 0640);
 
@@ -356,7 +356,7 @@ TEST_CASE("a replaced file keeps its owner and permissions") {
         write(shared);
         return true;
     }));
-    CHECK(is_picture(shared));
+    CHECK(is_image(shared));
     CHECK(owner_of(shared) == first_owner);
     CHECK(mode_of(shared) == 0666);
     CHECK(directory.file_count() == 2);

@@ -303,12 +303,12 @@ TEST_CASE("a scene without objects renders the background") {
     CHECK(outcome.code == 0);
     CHECK(outcome.err.find("has no objects: the image shows only the background") !=
           std::string::npos);
-    const scenes::Image picture = scenes::read_image(fixture.output() / "picture.pfm");
-    REQUIRE(picture.width == 3);
-    REQUIRE(picture.height == 2);
-    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
-        CHECK(picture.rgb[i] == 0.25F);
-        CHECK(picture.rgb[i + 1] == 0.5F);
-        CHECK(picture.rgb[i + 2] == 1.0F);
+    const scenes::Image image = scenes::read_image(fixture.output() / "picture.pfm");
+    REQUIRE(image.width == 3);
+    REQUIRE(image.height == 2);
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+        CHECK(image.rgb[i] == 0.25F);
+        CHECK(image.rgb[i + 1] == 0.5F);
+        CHECK(image.rgb[i + 2] == 1.0F);
     }
 }

@@ -284,7 +284,7 @@ TEST_CASE("Checkpoints of other options or scenes or versions stay until the ima
     };
     CHECK(files() == 3);
 
-    // A complete picture leaves checkpoints of other outputs, and files of other programs.
+    // A complete image leaves checkpoints of other outputs, and files of other programs.
     for (const char* name : {"pictures.part", "picture.0123456789abcdeX.part", "picture.png.part"})
         notes.directory.write(name, first);
     notes.directory.write("picture.0123456789abcdef.part", "mine");

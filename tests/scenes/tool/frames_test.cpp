@@ -31,7 +31,7 @@ const std::string growing = R"({
     "objects": [{"type": "sphere", "material": "red", "center": ["$x", 0, 0], "radius": "$r"}]
 })";
 
-std::string picture(const ToolFixture& fixture, const std::string& name) {
+std::string image(const ToolFixture& fixture, const std::string& name) {
     return content_of(fixture.path() / name);
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("the frames of a range are drawn with their numbers") {
               .code == 0);
     CHECK(fixture.run(joined({"render", "move.xyz", "-o", "out/alone.pfm", "--frames", "-4"}, each))
               .code == 0);
-    CHECK(picture(fixture, "out/e3.pfm") == picture(fixture, "out/alone.pfm"));
+    CHECK(image(fixture, "out/e3.pfm") == image(fixture, "out/alone.pfm"));
 }
 
 TEST_CASE("a camera fits the first frame or all frames or each frame") {
@@ -87,7 +87,7 @@ TEST_CASE("a camera fits the first frame or all frames or each frame") {
                                "--camera-from", fit},
                               small))
                   .code == 0);
-        return Options{picture(fixture, fit + "0.pfm"), picture(fixture, fit + "2.pfm")};
+        return Options{image(fixture, fit + "0.pfm"), image(fixture, fit + "2.pfm")};
     };
     const Options first = draw("first"), all = draw("all"), each = draw("each");
     CHECK(first[0] == each[0]);
@@ -106,12 +106,12 @@ TEST_CASE("parameters can be swept alone and together") {
     render("s%d.pfm", {"--set", "r=1:2:3", "--set", "x=0:0.5:3", "--camera-from", "each"});
     CHECK(!std::filesystem::exists(fixture.path() / "s3.pfm"));
     render("one.pfm", {"--set", "r=1.5", "--set", "x=0.25"});
-    CHECK(picture(fixture, "s1.pfm") == picture(fixture, "one.pfm"));
+    CHECK(image(fixture, "s1.pfm") == image(fixture, "one.pfm"));
     render("last.pfm", {"--set=r=2", "--set=x=0.5"});
-    CHECK(picture(fixture, "s2.pfm") == picture(fixture, "last.pfm"));
+    CHECK(image(fixture, "s2.pfm") == image(fixture, "last.pfm"));
     // The camera of the first image shows that the ball grows.
     render("g%d.pfm", {"--set", "r=1:2:2"});
-    CHECK(picture(fixture, "g0.pfm") != picture(fixture, "g1.pfm"));
+    CHECK(image(fixture, "g0.pfm") != image(fixture, "g1.pfm"));
     // Other commands accept --set, too.
     const Outcome converted = fixture.run({"convert", "scene.json", "-", "--set", "r=3"});
     CHECK(nlohmann::json::parse(converted.out)["objects"][0]["radius"] == 3);
@@ -123,14 +123,14 @@ TEST_CASE("a sweep of one value makes a numbered image") {
         std::filesystem::remove(fixture.path() / "f0.png");
         CHECK(fixture.render("f%d.png", sweep).code == 0);
         CHECK(!std::filesystem::exists(fixture.path() / "f%d.png"));
-        CHECK(picture(fixture, "f0.png").size() > 0);
+        CHECK(image(fixture, "f0.png").size() > 0);
         const Outcome verified = fixture.run({"verify", "f0.png", "scene.json", "--quiet"});
         CHECK(verified.err.empty());
         CHECK(verified.code == 0);
     }
     CHECK(fixture.render("s%d.pfm", {"--set", "r=2:3:1"}).code == 0);
     CHECK(fixture.render("one.pfm", {"--set", "r=2"}).code == 0);
-    CHECK(picture(fixture, "s0.pfm") == picture(fixture, "one.pfm"));
+    CHECK(image(fixture, "s0.pfm") == image(fixture, "one.pfm"));
     CHECK(complaint(fixture, {"scene.json", "-o", "f.png", "--set", "r=2:3:1"})
               .find("--output: must have one placeholder") != std::string::npos);
 }
@@ -150,8 +150,8 @@ TEST_CASE("each image of a sweep has the fog of its scene for any camera") {
     const ToolFixture fixture(foggy);
     CHECK(fixture.render("f%d.pfm", {"--set", "d=0.01:0.1:2"}).code == 0);
     CHECK(fixture.render("one.pfm", {"--set", "d=0.1"}).code == 0);
-    CHECK(picture(fixture, "f0.pfm") != picture(fixture, "f1.pfm"));
-    CHECK(picture(fixture, "f1.pfm") == picture(fixture, "one.pfm"));
+    CHECK(image(fixture, "f0.pfm") != image(fixture, "f1.pfm"));
+    CHECK(image(fixture, "f1.pfm") == image(fixture, "one.pfm"));
 }
 
 TEST_CASE("the option --turn moves automatic and fixed cameras around the scene") {
@@ -159,8 +159,8 @@ TEST_CASE("the option --turn moves automatic and fixed cameras around the scene"
     CHECK(fixture.render("t%03d.pfm", {"--turn", "360/4"}).code == 0);
     CHECK(!std::filesystem::exists(fixture.path() / "t004.pfm"));
     CHECK(fixture.render("scene.pfm").code == 0);
-    CHECK(picture(fixture, "t000.pfm") == picture(fixture, "scene.pfm"));
-    CHECK(picture(fixture, "t001.pfm") != picture(fixture, "scene.pfm"));
+    CHECK(image(fixture, "t000.pfm") == image(fixture, "scene.pfm"));
+    CHECK(image(fixture, "t001.pfm") != image(fixture, "scene.pfm"));
     const ToolFixture other(growing);
     CHECK(other.render("t%d.pfm", {"--turn", "90/2", "--set", "x=0:1:2"}).code == 0);
     CHECK(complaint(other, {"scene.json", "-o", "t%d.pfm", "--turn", "90/2", "--set", "x=0:1:3"})
@@ -210,16 +210,16 @@ TEST_CASE("existing images are kept unless --overwrite is given") {
     const ToolFixture fixture(growing);
     const Options sweep = {"--set", "r=1:2:3"};
     CHECK(fixture.render("s%d.pfm", sweep).code == 0);
-    const std::string first = picture(fixture, "s0.pfm"), last = picture(fixture, "s2.pfm");
+    const std::string first = image(fixture, "s0.pfm"), last = image(fixture, "s2.pfm");
     fixture.write("s0.pfm", "mine");
     std::filesystem::remove(fixture.path() / "s2.pfm");
     const Outcome again = fixture.render("s%d.pfm", sweep);
     CHECK(again.code == 0);
     CHECK(again.err == "2 of 3 images exist already; --overwrite renders them again\n");
-    CHECK(picture(fixture, "s0.pfm") == "mine");
-    CHECK(picture(fixture, "s2.pfm") == last);
+    CHECK(image(fixture, "s0.pfm") == "mine");
+    CHECK(image(fixture, "s2.pfm") == last);
     CHECK(fixture.render("s%d.pfm", joined(sweep, {"--force"})).code == 0);
-    CHECK(picture(fixture, "s0.pfm") == first);
+    CHECK(image(fixture, "s0.pfm") == first);
 }
 
 TEST_CASE("a film that was interrupted goes on where it was") {
@@ -238,7 +238,7 @@ TEST_CASE("a film that was interrupted goes on where it was") {
           "kept until this image is complete\n"
           "1 of 3 images exist already; --overwrite renders them again\n");
     CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 3);
-    CHECK(picture(fixture, "out/f0.pfm") == "drawn");
+    CHECK(image(fixture, "out/f0.pfm") == "drawn");
     CHECK(std::filesystem::exists(fixture.output() / "f2.pfm"));
 }
 
@@ -316,7 +316,7 @@ END_SCENE
                   .run(joined({"render", name, "-o", name + "%d.pfm", "--turn", "180/2", "--quiet"},
                               small))
                   .code == 0);
-        CHECK(picture(fixture, name + "0.pfm") != picture(fixture, name + "1.pfm"));
+        CHECK(image(fixture, name + "0.pfm") != image(fixture, name + "1.pfm"));
         CHECK(complaint(fixture, {name, "--frames", "0:2"}) ==
               "raylane: --frames: goes with a file of atoms, but " + name + " is a scene\n");
         CHECK(complaint(fixture, {name, "--set", "n=1:2:2"})

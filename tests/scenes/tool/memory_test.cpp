@@ -44,10 +44,10 @@ Outcome render(const ToolFixture& fixture, const std::string& scene, const std::
 /// Returns true if the tool made the expected image or ended with one line of error and no file.
 /// Some allocations can be done without: then a refusal changes nothing.
 bool is_right(const ToolFixture& fixture, const Outcome& outcome, const std::string& expected) {
-    const auto picture = fixture.output() / "picture.png";
-    const bool is_there = std::filesystem::exists(picture);
-    if (is_there && content_of(picture) != expected) return false;
-    std::filesystem::remove(picture);
+    const auto image = fixture.output() / "picture.png";
+    const bool is_there = std::filesystem::exists(image);
+    if (is_there && content_of(image) != expected) return false;
+    std::filesystem::remove(image);
     if (!fixture.is_output_empty() || !outcome.exited || !outcome.out.empty()) return false;
     if (outcome.code == 0) return is_there && outcome.err.empty();
     return outcome.code == 3 && is_one_line(outcome.err) && outcome.err.starts_with("raylane: ");

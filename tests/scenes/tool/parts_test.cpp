@@ -116,10 +116,10 @@ TEST_CASE("parts that do not make a whole give an error of one line") {
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
           "raylane: part-2.exr: must be written by render --part\n");
     {
-        scenes::ExrImage picture = scenes::read_own_exr(fixture.path() / "part-1.exr");
-        picture.film.at(3, 4) += core::Color(1.0F);
+        scenes::ExrImage image = scenes::read_own_exr(fixture.path() / "part-1.exr");
+        image.film.at(3, 4) += core::Color(1.0F);
         scenes::OutputFile(fixture.path() / "part-2.exr", scenes::exr_of)
-            .commit(picture.film, {.bits = 32, .texts = picture.texts});
+            .commit(image.film, {.bits = 32, .texts = image.texts});
         CHECK(refusal(merged({2, 3}, "out/a.png")) ==
               "raylane: part-2.exr: has pixels that differ from its Pixels attribute\n");
     }
@@ -177,11 +177,11 @@ TEST_CASE("parts without an Options attribute can be merged") {
     const ToolFixture fixture;
     draw_parts(fixture, 2);
     for (const char* name : {"part-1.exr", "part-2.exr"}) {
-        const scenes::ExrImage picture = scenes::read_own_exr(fixture.path() / name);
-        scenes::ImageOptions options{.bits = 32, .texts = picture.texts};
+        const scenes::ExrImage image = scenes::read_own_exr(fixture.path() / name);
+        scenes::ImageOptions options{.bits = 32, .texts = image.texts};
         CHECK(std::erase_if(options.texts,
                             [](const auto& text) { return text.first == "Options"; }) == 1);
-        scenes::OutputFile(fixture.path() / name, scenes::exr_of).commit(picture.film, options);
+        scenes::OutputFile(fixture.path() / name, scenes::exr_of).commit(image.film, options);
     }
     CHECK(fixture.run(merged({1, 2}, "a.png")).err.empty());
     CHECK(fixture.run({"verify", "a.png", "scene.json", "--quiet"}).code == 0);
@@ -296,15 +296,15 @@ TEST_CASE("a part with a missing or malformed Rays attribute is refused") {
     if (!scenes::has_exr()) return;
     const ToolFixture fixture;
     draw_parts(fixture, 2);
-    const scenes::ExrImage picture = scenes::read_own_exr(fixture.path() / "part-2.exr");
+    const scenes::ExrImage image = scenes::read_own_exr(fixture.path() / "part-2.exr");
     const auto refusal = [&](const std::string& rays) {
         scenes::ImageOptions options;
         options.bits = 32;
-        for (const auto& [name, text] : picture.texts)
+        for (const auto& [name, text] : image.texts)
             if (name != "Rays") options.texts.emplace_back(name, text);
         if (!rays.empty()) options.texts.emplace_back("Rays", rays);
         scenes::OutputFile(fixture.path() / "part-2.exr", scenes::exr_of)
-            .commit(picture.film, options);
+            .commit(image.film, options);
         const Outcome outcome = fixture.run(merged({1, 2}, "out/a.png"));
         CHECK(outcome.code == 2);
         CHECK(is_one_line(outcome.err));
@@ -391,8 +391,8 @@ TEST_CASE("parts can be merged and verified without their instruction set") {
     std::string absent;
     draw_parts(fixture, 2, {"--precision", "robust"});
     for (const char* name : {"part-1.exr", "part-2.exr"}) {
-        const scenes::ExrImage picture = scenes::read_own_exr(fixture.path() / name);
-        scenes::ImageOptions options{.bits = 32, .texts = picture.texts};
+        const scenes::ExrImage image = scenes::read_own_exr(fixture.path() / name);
+        scenes::ImageOptions options{.bits = 32, .texts = image.texts};
         // The hash includes the instruction set that drew the part.
         std::erase_if(options.texts, [](const auto& text) { return text.first == "Options"; });
         for (auto& [key, text] : options.texts)
@@ -402,7 +402,7 @@ TEST_CASE("parts can be merged and verified without their instruction set") {
                 absent = text.find("neon", at) == std::string::npos ? "neon" : "avx2";
                 text.replace(at, text.find(' ', at + 7) - at, " --isa " + absent);
             }
-        scenes::OutputFile(fixture.path() / name, scenes::exr_of).commit(picture.film, options);
+        scenes::OutputFile(fixture.path() / name, scenes::exr_of).commit(image.film, options);
     }
     const Outcome outcome = fixture.run(merged({1, 2}, "whole.exr"));
     CHECK(outcome.err.empty());
@@ -433,9 +433,9 @@ TEST_CASE("an interrupted part resumes") {
         const Outcome resumed = fixture.run(part(2, 2, options));
         CHECK(resumed.code == 0);
         CHECK(resumed.err.find("resumes at ") != std::string::npos);
-        const std::string picture = content_of(fixture.path() / "part-2.exr");
+        const std::string image = content_of(fixture.path() / "part-2.exr");
         CHECK(fixture.run(part(2, 2, joined(options, {"--no-resume"}))).code == 0);
-        CHECK((content_of(fixture.path() / "part-2.exr") == picture));
+        CHECK((content_of(fixture.path() / "part-2.exr") == image));
         return;
     }
     FAIL("no signal came before the end");

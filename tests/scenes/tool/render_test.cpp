@@ -21,8 +21,8 @@ std::string bytes_of(const ToolFixture& fixture, const std::string& name, const 
     return content_of(fixture.path() / name);
 }
 
-scenes::Image picture(const ToolFixture& fixture, const Options& options,
-                      const std::string& name = "picture.pfm") {
+scenes::Image rendered(const ToolFixture& fixture, const Options& options,
+                       const std::string& name = "picture.pfm") {
     REQUIRE(fixture.render(name, options).code == 0);
     return scenes::read_image(fixture.path() / name);
 }
@@ -64,9 +64,9 @@ TEST_CASE("an image file does not depend on the number of threads") {
 
 TEST_CASE("the size and the samples and the transfer can be overridden") {
     const ToolFixture fixture;
-    CHECK(picture(fixture, {}).width == 16);
-    CHECK(picture(fixture, {}).height == 12);
-    const scenes::Image other = picture(fixture, {"--size", "7x9"});
+    CHECK(rendered(fixture, {}).width == 16);
+    CHECK(rendered(fixture, {}).height == 12);
+    const scenes::Image other = rendered(fixture, {"--size", "7x9"});
     CHECK(other.width == 7);
     CHECK(other.height == 9);
 
@@ -87,16 +87,16 @@ TEST_CASE("the size and the samples and the transfer can be overridden") {
     CHECK(bytes_of(ToolFixture(sampled), "nine.pfm", {"--spp", "9"}) == nine);
 
     // The background's blue is 0.5.
-    CHECK(pixel(picture(fixture, {"--transfer", "linear"}, "p.png"), 0, 0)[2] == 128.0F / 255.0F);
-    CHECK(pixel(picture(fixture, {"--transfer", "srgb"}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
-    CHECK(pixel(picture(fixture, {}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
+    CHECK(pixel(rendered(fixture, {"--transfer", "linear"}, "p.png"), 0, 0)[2] == 128.0F / 255.0F);
+    CHECK(pixel(rendered(fixture, {"--transfer", "srgb"}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
+    CHECK(pixel(rendered(fixture, {}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
     CHECK(bytes_of(fixture, "p.pfm", {"--transfer", "linear"}) == one);
 }
 
 TEST_CASE("the limits can be overridden") {
     const ToolFixture fixture(mirror);
     const auto center = [&](const Options& options) {
-        return pixel(picture(fixture, options), 2, 2);
+        return pixel(rendered(fixture, options), 2, 2);
     };
     const std::vector<float> black = {0.0F, 0.0F, 0.0F}, reflected = {0.0F, 0.0F, 0.25F};
     CHECK(center({}) == reflected);
@@ -105,7 +105,7 @@ TEST_CASE("the limits can be overridden") {
     CHECK(center({"--min-weight", "0"}) == reflected);
     CHECK(center({"--min-weight", "0.5"}) == reflected);
     CHECK(center({"--min-weight", "0.75"}) == black);
-    CHECK(pixel(picture(fixture, {"--max-depth", "0"}), 0, 0)[2] == 0.5F);
+    CHECK(pixel(rendered(fixture, {"--max-depth", "0"}), 0, 0)[2] == 0.5F);
 }
 
 TEST_CASE("an image without a name has the scene's in the current folder") {
@@ -114,7 +114,7 @@ TEST_CASE("an image without a name has the scene's in the current folder") {
     fixture.write("far/ball.v2.json", ball);
     CHECK(fixture.run({"render", "far/ball.v2.json"}).code == 0);
     CHECK(scenes::read_image(fixture.path() / "ball.v2.png").rgb.floats() ==
-          picture(fixture, {}, "same.png").rgb.floats());
+          rendered(fixture, {}, "same.png").rgb.floats());
     CHECK(std::distance(std::filesystem::directory_iterator(fixture.path() / "far"), {}) == 1);
 }
 

@@ -41,17 +41,17 @@ Options drawing_two(const std::string& samples) {
 }
 const Options second_takes_minutes = drawing_two("16384");
 
-std::string picture_of(const ToolFixture& fixture) {
+std::string image_of(const ToolFixture& fixture) {
     return content_of(fixture.output() / "picture.png");
 }
 
 /// Renders the image without any interruption, and returns its bytes.
 std::string whole(const ToolFixture& fixture, const Options& command = drawing()) {
     REQUIRE(fixture.run(joined(command, {"--no-resume"})).code == 0);
-    std::string picture = picture_of(fixture);
+    std::string image = image_of(fixture);
     std::filesystem::remove(fixture.output() / "picture.png");
     REQUIRE(fixture.is_output_empty());
-    return picture;
+    return image;
 }
 
 constexpr const char* kept_until_complete = "; not resumed, kept until this image is complete\n";
@@ -132,7 +132,7 @@ TEST_CASE("the first SIGINT or SIGTERM finishes tiles in progress and the image 
         const Outcome resumed = fixture.run(drawing());
         CHECK(resumed.code == 0);
         CHECK(resumed.err.starts_with("raylane: out/picture.png.part: resumes at "));
-        CHECK(picture_of(fixture) == expected);
+        CHECK(image_of(fixture) == expected);
         CHECK(!has_checkpoint(fixture));
         std::filesystem::remove(fixture.output() / "picture.png");
     }
@@ -195,7 +195,7 @@ TEST_CASE("a rendering that is killed fifty times at any moment has the same bit
         static_cast<void>(process.wait());
     }
     CHECK(fixture.run(drawing()).code == 0);
-    CHECK(picture_of(fixture) == expected);
+    CHECK(image_of(fixture) == expected);
     CHECK(fixture.names().size() == 2);
     CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 1);
 }
@@ -224,7 +224,7 @@ TEST_CASE("a checkpoint of another scene or other options is reported and not re
     told({}, "another scene");
     fixture.write("scene.json", scene);
     CHECK(fixture.run(drawing()).err.starts_with("raylane: out/picture.png.part: resumes at "));
-    CHECK(picture_of(fixture) == expected);
+    CHECK(image_of(fixture) == expected);
 }
 
 TEST_CASE("the rays per second of a resumed image are those of the last run alone") {
@@ -257,7 +257,7 @@ TEST_CASE("a foreign file and a checkpoint in use are left alone") {
     CHECK(messages_in(outcome.err) == "raylane: out/picture.png.part: is not a checkpoint of this "
                                       "user; rendering without a checkpoint\n");
     CHECK(content_of(fixture.output() / "picture.png.part") == "mine");
-    CHECK((picture_of(fixture) == expected));
+    CHECK((image_of(fixture) == expected));
     std::filesystem::remove(fixture.output() / "picture.png.part");
 
     static_cast<void>(interrupt(fixture));
@@ -269,7 +269,7 @@ TEST_CASE("a foreign file and a checkpoint in use are left alone") {
     CHECK(second.code == 0);
     CHECK(second.err.find("is in use; rendering without a checkpoint") != std::string::npos);
     CHECK(first.wait().code == 0);
-    CHECK((picture_of(fixture) == expected));
+    CHECK((image_of(fixture) == expected));
 }
 
 TEST_CASE("an image is drawn even if the disk has no space for a checkpoint") {
@@ -288,7 +288,7 @@ TEST_CASE("an image is drawn even if the disk has no space for a checkpoint") {
     CHECK(outcome.code == 0);
     CHECK(count_of("raylane: out/picture.png.part: cannot write: File too large\n", outcome.err) ==
           1);
-    CHECK(picture_of(fixture) == expected);
+    CHECK(image_of(fixture) == expected);
     CHECK(!has_checkpoint(fixture));
 }
 
@@ -315,7 +315,7 @@ TEST_CASE("a checkpoint that has filled the disk gives its space to the image") 
     CHECK(outcome.code == 0);
     CHECK(count_of("raylane: out/picture.png.part: cannot write: No space left on device\n",
                    outcome.err) == 1);
-    CHECK(picture_of(fixture) == expected);
+    CHECK(image_of(fixture) == expected);
     CHECK(!has_checkpoint(fixture));
     CHECK(::umount(fixture.output().c_str()) == 0);
 }
@@ -376,7 +376,7 @@ TEST_CASE("a signal while the last tile is written ends the program after the wh
         CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 1);
     };
     end_amid_the_last(drawing_two("16"), "picture.png");
-    CHECK((picture_of(fixture) == expected));
+    CHECK((image_of(fixture) == expected));
     std::filesystem::remove(fixture.output() / "picture.png");
     // The first image of a sequence is whole, too, and the second is not begun.
     end_amid_the_last({"render", "scene.json", "-o", "out/f-%d.png", "--turn", "90/4", "--tile",
@@ -396,9 +396,9 @@ TEST_CASE("a checkpoint distinguishes settings of a scene that no option has") {
     CHECK(messages_in(fixture.run(drawing()).err) ==
           "raylane: out/picture.png.part: belongs to other options or another version" +
               std::string(kept_until_complete));
-    const std::string picture = picture_of(fixture);
+    const std::string image = image_of(fixture);
     CHECK(fixture.run(drawing({"--no-resume"})).code == 0);
-    CHECK(picture_of(fixture) == picture);
+    CHECK(image_of(fixture) == image);
 }
 
 TEST_CASE("a checkpoint has the permissions of the existing image") {
@@ -442,7 +442,7 @@ TEST_CASE("a signal after the last tile leaves the whole image or its checkpoint
             continue;
         }
         CHECK(said == "raylane: stopped; out/picture.png is complete\n");
-        CHECK((picture_of(fixture) == expected)); // too long to be printed
+        CHECK((image_of(fixture) == expected)); // too long to be printed
         CHECK(!has_checkpoint(fixture));
         std::filesystem::remove(fixture.output() / "picture.png");
     }

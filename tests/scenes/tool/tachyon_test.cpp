@@ -112,8 +112,8 @@ TEST_CASE("raylane tachyon's options override the scene") {
                   "DIFFUSE 1 SPECULAR 0 OPACITY 0.5 COLOR 1 1 1 TEXFUNC 0 END_SCENE");
     const auto code = [&](const std::vector<std::string>& options) {
         REQUIRE(draw(fixture, joined({"wall.dat", "-o", "out/wall.ppm"}, options)).code == 0);
-        const std::string picture = content_of(fixture.output() / "wall.ppm");
-        return static_cast<int>(static_cast<unsigned char>(picture.back()));
+        const std::string image = content_of(fixture.output() / "wall.ppm");
+        return static_cast<int>(static_cast<unsigned char>(image.back()));
     };
     CHECK(code({}) == 191);
     CHECK(code({"-rescale_lights", "0.125"}) == 159);

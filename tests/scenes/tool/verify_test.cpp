@@ -18,9 +18,8 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-Outcome verify(const ToolFixture& fixture, const std::string& picture,
-               const Options& options = {}) {
-    return fixture.run(joined({"verify", picture, "scene.json", "--quiet"}, options));
+Outcome verify(const ToolFixture& fixture, const std::string& image, const Options& options = {}) {
+    return fixture.run(joined({"verify", image, "scene.json", "--quiet"}, options));
 }
 
 constexpr const char* right =
@@ -155,20 +154,20 @@ TEST_CASE("verify finds one changed bit in each format") {
     for (const int bits : {16, 32}) {
         CAPTURE(bits);
         REQUIRE(fixture.render("a.exr", {"--bits", std::to_string(bits), "--layers"}).code == 0);
-        scenes::ExrImage picture = scenes::read_own_exr(fixture.path() / "a.exr");
-        scenes::ImageOptions options{.bits = bits, .texts = picture.texts};
+        scenes::ExrImage image = scenes::read_own_exr(fixture.path() / "a.exr");
+        scenes::ImageOptions options{.bits = bits, .texts = image.texts};
         const auto written = [&] {
-            fixture.write("a.exr", scenes::exr_of(picture.film, &*picture.layers, options));
+            fixture.write("a.exr", scenes::exr_of(image.film, &*image.layers, options));
         };
         written();
         CHECK(verify(fixture, "a.exr", {"--whole"}).out == right + std::string(again));
-        float& number = picture.film.at(7, 5).x;
+        float& number = image.film.at(7, 5).x;
         const float right_number = number;
         number = with_another_bit(number, bits == 16 ? 13 : 0);
         written();
         others("a.exr");
         number = right_number;
-        core::Layers& layers = *picture.layers;
+        core::Layers& layers = *image.layers;
         const std::size_t pixel = layers.index(8, 6);
         for (float* const layer : {&layers.depth[pixel], &layers.normal[pixel].y}) {
             const float before = *layer;
@@ -270,14 +269,14 @@ TEST_CASE("verify renders an image with its own precision") {
 TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
     const ToolFixture fixture;
     REQUIRE(fixture.render("a.png", {"--dpi", "300"}).code == 0);
-    const std::string picture = content_of(fixture.path() / "a.png");
+    const std::string image = content_of(fixture.path() / "a.png");
     const auto with = [&](const std::string& chunks, std::size_t place) {
-        std::string changed = picture;
+        std::string changed = image;
         fixture.write("b.png", changed.insert(place, chunks));
         return verify(fixture, "b.png", {"--pixels", "2"});
     };
-    const std::size_t header = 8 + 12 + 13, end = picture.size() - 12;
-    REQUIRE(picture.substr(header + 4, 4) == "pHYs");
+    const std::size_t header = 8 + 12 + 13, end = image.size() - 12;
+    REQUIRE(image.substr(header + 4, 4) == "pHYs");
     const auto refused = [&](const std::string& type, const std::string& chunks,
                              std::size_t place) {
         CAPTURE(type);
@@ -308,7 +307,7 @@ TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
     refused("acTL", png_chunk("acTL", big_endian(1) + big_endian(0)), header);
     refused("fcTL", png_chunk("fcTL", std::string(26, '\0')) + png_chunk("fdAT", "0123"), end);
     // Pixels that are not square.
-    std::string wide = picture;
+    std::string wide = image;
     wide.replace(header, 12 + 9, png_chunk("pHYs", big_endian(2) + big_endian(1) + "\1"));
     fixture.write("b.png", wide);
     CHECK(verify(fixture, "b.png").err.ends_with(", got pHYs\n"));

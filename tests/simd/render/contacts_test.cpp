@@ -55,7 +55,7 @@ std::vector<Substance> all_substances() {
             {"stained glass", stained}};
 }
 
-std::vector<Color> picture_of(Room&& room, simd::Engine engine) {
+std::vector<Color> image_of(Room&& room, simd::Engine engine) {
     const Scene scene = room.finish();
     return simd::render(scene, scene.settings(), {.engine = engine, .threads = 1}).film.pixels();
 }
@@ -74,18 +74,18 @@ template <class Add>
 void check_are_one(const Add& add, bool opaque_only = false) {
     for (const Substance& substance : all_substances()) {
         if (opaque_only && substance.material.transmits()) continue;
-        const auto picture = [&](int count, simd::Engine engine) {
+        const auto image = [&](int count, simd::Engine engine) {
             Room room;
             const MaterialIndex material = room.add_material(substance.material);
             for (int i = 0; i < count; ++i)
                 add(room, i, material);
-            return picture_of(std::move(room), engine);
+            return image_of(std::move(room), engine);
         };
-        const std::vector<Color> one = picture(1, simd::Engine::reference);
+        const std::vector<Color> one = image(1, simd::Engine::reference);
         for (const int count : numbers) {
             CAPTURE(substance.name, count);
-            CHECK(count_differences(picture(count, simd::Engine::reference), one) == 0);
-            CHECK(count_differences(picture(count, simd::Engine::vector), one) == 0);
+            CHECK(count_differences(image(count, simd::Engine::reference), one) == 0);
+            CHECK(count_differences(image(count, simd::Engine::vector), one) == 0);
         }
     }
 }
@@ -143,17 +143,17 @@ TEST_CASE("boxes whose fronts lie in one plane have one front", "[native]") {
 TEST_CASE("both engines see one cell where symmetric paths meet edges of a pattern's cells") {
     for (const Substance& substance : all_substances()) {
         CAPTURE(substance.name);
-        const auto picture = [&](simd::Engine engine) {
+        const auto image = [&](simd::Engine engine) {
             Room room;
             room.settings.width = 96;
             room.settings.height = 64;
             room.camera.from = {0, 0, 5};
             room.camera.at = {0, 0, 0};
             room.add_shape(Sphere{{0, 0, 0}, 1}, substance.material);
-            return picture_of(std::move(room), engine);
+            return image_of(std::move(room), engine);
         };
-        const std::vector<Color> vector = picture(simd::Engine::vector),
-                                 reference = picture(simd::Engine::reference);
+        const std::vector<Color> vector = image(simd::Engine::vector),
+                                 reference = image(simd::Engine::reference);
         float most = 0.0F;
         for (std::size_t i = 0; i < vector.size(); ++i)
             for (int channel = 0; channel < 3; ++channel)

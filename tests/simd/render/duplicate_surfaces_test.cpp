@@ -29,7 +29,7 @@ Builder lit_from_above() {
     return builder;
 }
 
-std::vector<Color> picture_of(const Scene& scene, simd::Engine engine) {
+std::vector<Color> image_of(const Scene& scene, simd::Engine engine) {
     return simd::render(scene, scene.settings(), {.engine = engine}).film.pixels();
 }
 
@@ -44,7 +44,7 @@ void check(const Shape& shape, const Material& own, const std::vector<Material>&
     const Scene one = std::move(alone).build(), all = std::move(together).build();
     for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
         CAPTURE(name_of(kind_of<Shape>), twins.size(), engine == simd::Engine::vector);
-        CHECK(picture_of(all, engine) == picture_of(one, engine));
+        CHECK(image_of(all, engine) == image_of(one, engine));
     }
 }
 
@@ -87,6 +87,6 @@ TEST_CASE("the nearer of two surfaces is seen if doubles cannot separate them") 
     builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, luminous({0, 1, 0}));
     const Scene scene = builder.finish();
     for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference})
-        for (const Color& pixel : picture_of(scene, engine))
+        for (const Color& pixel : image_of(scene, engine))
             CHECK(pixel == Color(0, 1, 0));
 }

@@ -61,7 +61,7 @@ double reached_through_ball(const Sphere& ball, double index, double plane, Ray<
 } // namespace
 
 // Rays into a lens were moved along its normal by an epsilon that grows with the coordinates: half
-// a unit at z = -5400, and the picture behind the lens shifted.
+// a unit at z = -5400, and the image behind the lens shifted.
 TEST_CASE("mitsuba3 #219: a lens at large coordinates bends rays where they hit it", "[long]") {
     shapes_in_double = GENERATE(false, true);
     const Sphere ball{{278, 273, -5400}, 250};

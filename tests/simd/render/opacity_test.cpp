@@ -1,4 +1,4 @@
-#include "tests/simd/render/picture.hpp"
+#include "tests/simd/render/image.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/little_scene.hpp"
 #include "tests/support/sanitized.hpp"
@@ -8,7 +8,7 @@
 
 /// Surfaces with opacities below 1: both engines and all instruction sets render the same image.
 using namespace raylane;
-using raylane::tests::picture;
+using raylane::tests::image;
 using namespace little_scene;
 
 namespace {
@@ -73,8 +73,8 @@ TEST_CASE("transparent panes that reflect and transmit do not outgrow a queue") 
         builder.add_shape(Box{{-9, -9, z}, {18, 0, 0}, {0, 18, 0}, {0, 0, 0.25F}}, pane);
     }
     const Scene scene = builder.finish();
-    const std::vector<Color> vector = picture(scene, simd::Engine::vector);
-    const std::vector<Color> reference = picture(scene, simd::Engine::reference);
+    const std::vector<Color> vector = image(scene, simd::Engine::vector);
+    const std::vector<Color> reference = image(scene, simd::Engine::reference);
     for (std::size_t i = 0; i < vector.size(); ++i)
         CHECK(vector[i].x == Approx(reference[i].x).epsilon(1e-4));
 }
@@ -91,7 +91,7 @@ TEST_CASE("an image of a quality shows the scene behind transparent surfaces") {
     builder.add_shape(Sphere{{0.1F, 0.2F, 0}, 1.25F}, luminous());
     const Scene scene = builder.finish();
     double sum = 0.0;
-    for (const Color& color : picture(scene, simd::Engine::vector))
+    for (const Color& color : image(scene, simd::Engine::vector))
         sum += static_cast<double>(color.x) / (64 * 64);
     CHECK(sum == Approx(0.75 * 3.14159265 * 1.25 * 1.25 / 16).epsilon(0.002));
 }

@@ -1,5 +1,5 @@
 #include "simd/wavefront/render.hpp"
-#include "tests/simd/render/picture.hpp"
+#include "tests/simd/render/image.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/little_scene.hpp"
 #include "tests/support/random.hpp"
@@ -248,8 +248,8 @@ TEST_CASE("sticks and specks far thinner than a pixel are not lost", "[long]") {
     double samples = 0.0;
     constexpr int size = 64;
     constexpr double pixel = 2.0 / size; // the camera's height is 2
-    for (int picture = 0; picture < (tests::sanitized ? 2 : 24); ++picture) {
-        Random random(static_cast<std::uint64_t>(picture));
+    for (int image = 0; image < (tests::sanitized ? 2 : 24); ++image) {
+        Random random(static_cast<std::uint64_t>(image));
         Builder builder;
         builder.settings.width = builder.settings.height = size;
         builder.camera.projection = Projection::orthographic;

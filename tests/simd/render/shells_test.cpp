@@ -28,18 +28,18 @@ Builder looking_at(const Vec3f& center, const Vec3f& from) {
     return builder;
 }
 
-Film picture(const Scene& scene, simd::Engine engine, simd::Isa isa = simd::best_isa()) {
+Film image(const Scene& scene, simd::Engine engine, simd::Isa isa = simd::best_isa()) {
     return simd::render(scene, scene.settings(), {.engine = engine, .isa = isa}).film;
 }
 
 /// Calls visit(film) with the image of each instruction set, and with the reference's.
 template <class Visit>
-void for_each_picture(const Scene& scene, const Visit& visit) {
+void for_each_image(const Scene& scene, const Visit& visit) {
     for (const simd::Isa isa : simd::available_isas()) {
         CAPTURE(std::string(simd::name_of(isa)));
-        visit(picture(scene, simd::Engine::vector, isa));
+        visit(image(scene, simd::Engine::vector, isa));
     }
-    visit(picture(scene, simd::Engine::reference));
+    visit(image(scene, simd::Engine::reference));
 }
 
 long count_not(const Film& film, const Color& color) {
@@ -59,7 +59,7 @@ TEST_CASE("a sphere is seen through a skin of glass without a wrong pixel", "[lo
         builder.add_shape(Sphere{center, outer_radius}, glass(1.0F));
         const Scene scene = builder.finish();
         const CameraRays<double> rays(scene.camera(), scene.settings());
-        for_each_picture(scene, [&](const Film& film) {
+        for_each_image(scene, [&](const Film& film) {
             long seen = 0, wrong = 0;
             for (int y = 0; y < film.height(); ++y)
                 for (int x = 0; x < film.width(); ++x) {
@@ -80,7 +80,7 @@ TEST_CASE("no light leaves through the gap between two spheres", "[long]") {
         builder.camera.field_of_view = 170.0F;
         builder.add_shape(Sphere{center, radius}, glass(1.0F));
         builder.add_shape(Sphere{center, outer_radius}, luminous({0, 1, 0}));
-        for_each_picture(builder.finish(), [](const Film& film) {
+        for_each_image(builder.finish(), [](const Film& film) {
             CHECK(count_not(film, {0, 1, 0}) == 0);
         });
     }
@@ -99,7 +99,7 @@ TEST_CASE("no light is lost between a mirror and the glass right in front of it"
         shine.pattern.colors[0] = {0, 1, 0};
         builder.add_shape(Sphere{center, radius}, glass(1.0F));
         builder.add_shape(Sphere{center, outer_radius}, shine);
-        for_each_picture(builder.finish(), [](const Film& film) {
+        for_each_image(builder.finish(), [](const Film& film) {
             CHECK(count_not(film, {0, 11, 0}) == 0);
         });
     }
@@ -116,8 +116,8 @@ TEST_CASE("a mirror ball in a skin of refracting glass equals the reference's", 
         builder.add_shape(Sphere{center, outer_radius}, glass(1.5F, Reflection::dielectric));
         builder.add_shape(Sphere{center + Vec3f(3, 0, -1), 1.0F}, luminous({1, 1, 0}));
         const Scene scene = builder.finish({.position = center + Vec3f(2, 8, 5)});
-        const Film expected = picture(scene, simd::Engine::reference);
-        for_each_picture(scene, [&](const Film& film) {
+        const Film expected = image(scene, simd::Engine::reference);
+        for_each_image(scene, [&](const Film& film) {
             long wrong = 0;
             for (std::size_t i = 0; i < film.pixels().size(); ++i)
                 for (int channel = 0; channel < 3; ++channel) {

@@ -1,5 +1,5 @@
 #include "simd/wavefront/render.hpp"
-#include "tests/simd/render/picture.hpp"
+#include "tests/simd/render/image.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/little_scene.hpp"
 #include "tests/support/random.hpp"

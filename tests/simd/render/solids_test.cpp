@@ -1,4 +1,4 @@
-#include "tests/simd/render/picture.hpp"
+#include "tests/simd/render/image.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/little_scene.hpp"
 #include "tests/support/rounds.hpp"
@@ -9,7 +9,7 @@
 
 /// Images of solids of solids: both engines and all instruction sets render the same.
 using namespace raylane;
-using raylane::tests::picture;
+using raylane::tests::image;
 using namespace raylane::core;
 
 namespace {
@@ -96,11 +96,11 @@ TEST_CASE("both engines and all instruction sets render the same solids of solid
 }
 
 TEST_CASE("a spectrum changes only refracted light", "[native]") {
-    const std::vector<Color> white = picture(blocks(), simd::Engine::vector);
-    const std::vector<Color> one = picture(blocks({line_d}), simd::Engine::vector);
+    const std::vector<Color> white = image(blocks(), simd::Engine::vector);
+    const std::vector<Color> one = image(blocks({line_d}), simd::Engine::vector);
     const Scene of_many = blocks({430, 500, 560, 620});
-    const std::vector<Color> many = picture(of_many, simd::Engine::vector);
-    const std::vector<Color> reference = picture(of_many, simd::Engine::reference);
+    const std::vector<Color> many = image(of_many, simd::Engine::vector);
+    const std::vector<Color> reference = image(of_many, simd::Engine::reference);
     std::size_t same = 0, colored = 0;
     for (std::size_t i = 0; i < white.size(); ++i) {
         const auto off = [](const Color& a, const Color& b) {
@@ -134,10 +134,10 @@ TEST_CASE("only the remaining part of a cut solid casts a shadow") {
         if (cut) parts.push_back(of_shape(PlaneOf<double>{{0, 0, 0}, {0, -1, 0}}));
         builder.add_solid(made(Made::by_difference, parts), material);
         const Scene scene = std::move(builder).build();
-        const std::vector<Color> seen = picture(scene, simd::Engine::vector);
+        const std::vector<Color> seen = image(scene, simd::Engine::vector);
         long dark =
             std::count_if(seen.begin(), seen.end(), [](const Color& c) { return c.x == 0.0F; });
-        CHECK(picture(scene, simd::Engine::reference) == seen);
+        CHECK(image(scene, simd::Engine::reference) == seen);
         // The shadow is an ellipse of half axes 1 and sqrt(2) that begins under the ball, or half
         // of it.
         CHECK(dark > (cut ? 10 : 40));
@@ -159,8 +159,8 @@ TEST_CASE("walls inside of a union are not seen and cast no shadow") {
             {1.5 * std::cos(0.7 * i), 1.5 * std::sin(0.7 * i), 0.1 * i - 1.2}, 0.5}));
     builder.add_solid(made(Made::by_union, balls), material);
     const Scene scene = std::move(builder).build();
-    const std::vector<Color> seen = picture(scene, simd::Engine::vector);
-    CHECK(picture(scene, simd::Engine::reference) == seen);
+    const std::vector<Color> seen = image(scene, simd::Engine::vector);
+    CHECK(image(scene, simd::Engine::reference) == seen);
     CHECK(std::all_of(seen.begin(), seen.end(), [](const Color& c) { return c.x > 0.3F; }));
 }
 
@@ -237,11 +237,11 @@ TEST_CASE("both engines render the same cut crowd", "[native]") {
     // Tests each way and each place, or in full runs all pairs of them.
     if (place != way % 3 && !tests::is_full()) return;
     const Scene scene = cut_crowd(way, place);
-    const std::vector<Color> seen = picture(scene, simd::Engine::vector);
+    const std::vector<Color> seen = image(scene, simd::Engine::vector);
     CAPTURE(way, place);
-    CHECK(picture(scene, simd::Engine::reference) == seen);
+    CHECK(image(scene, simd::Engine::reference) == seen);
     for (const simd::Isa isa : simd::available_isas())
-        CHECK(picture(scene, simd::Engine::vector, isa) == seen);
+        CHECK(image(scene, simd::Engine::vector, isa) == seen);
 }
 
 TEST_CASE("rays that see more cuts than they can store lose none") {
@@ -267,8 +267,8 @@ TEST_CASE("rays that see more cuts than they can store lose none") {
             red);
     }
     const Scene scene = std::move(builder).build();
-    const std::vector<Color> seen = picture(scene, simd::Engine::vector);
-    CHECK(picture(scene, simd::Engine::reference) == seen);
+    const std::vector<Color> seen = image(scene, simd::Engine::vector);
+    CHECK(image(scene, simd::Engine::reference) == seen);
     CHECK(std::count_if(seen.begin(), seen.end(), [](const Color& c) { return c.x > 2 * c.y; }) >
           100);
 }

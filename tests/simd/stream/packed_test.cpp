@@ -1,6 +1,6 @@
 #include "simd/stream/row_worker.hpp"
 #include "tests/shapes/shapes.hpp"
-#include "tests/simd/render/picture.hpp"
+#include "tests/simd/render/image.hpp"
 #include "tests/simd/stream/stream_columns.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/ray_sets.hpp"
@@ -19,7 +19,7 @@ using namespace raylane::simd;
 using ray_sets::Random;
 using ray_sets::Set;
 using tests::check_same;
-using tests::picture;
+using tests::image;
 using tests::RayAnswers;
 using tests::sanitized;
 using tests::StreamColumns;
@@ -114,10 +114,10 @@ void check_rays(const Pair& scenes, const StreamColumns& rays, Isa isa, Precisio
                RayAnswers(StreamTracer(scenes.plain, 1, isa, precision), rays.view()));
 }
 
-void check_pictures(const Pair& scenes, Engine engine, Isa isa, Precision precision) {
+void check_images(const Pair& scenes, Engine engine, Isa isa, Precision precision) {
     CAPTURE(std::string(name_of(isa)), std::string(name_of(precision)));
-    const std::vector<Color> plain = picture(scenes.plain, engine, isa, precision);
-    const std::vector<Color> packed = picture(scenes.packed, engine, isa, precision);
+    const std::vector<Color> plain = image(scenes.plain, engine, isa, precision);
+    const std::vector<Color> packed = image(scenes.packed, engine, isa, precision);
     REQUIRE(plain.size() == packed.size());
     CHECK(std::memcmp(plain.data(), packed.data(), plain.size() * sizeof(Color)) == 0);
 }
@@ -193,8 +193,8 @@ TEST_CASE("packed spheres are rendered with the bits of plain ones", "[native]")
     const Pair scenes({.radii = 20});
     for (const Isa isa : available_isas())
         for (const Precision precision : all_precisions)
-            check_pictures(scenes, Engine::vector, isa, precision);
-    check_pictures(scenes, Engine::reference, best_isa(), Precision::exact);
+            check_images(scenes, Engine::vector, isa, precision);
+    check_images(scenes, Engine::reference, best_isa(), Precision::exact);
 }
 
 TEST_CASE("solids of packed spheres equal those of plain ones", "[native]") {
@@ -202,6 +202,6 @@ TEST_CASE("solids of packed spheres equal those of plain ones", "[native]") {
     const StreamColumns rays = rays_for(scenes.plain);
     for (const Isa isa : available_isas()) {
         check_rays(scenes, rays, isa, Precision::exact);
-        check_pictures(scenes, Engine::vector, isa, Precision::exact);
+        check_images(scenes, Engine::vector, isa, Precision::exact);
     }
 }

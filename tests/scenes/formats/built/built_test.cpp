@@ -22,8 +22,8 @@ using namespace raylane::scenes;
 
 namespace {
 
-std::vector<core::Color> picture_of(const core::Scene& scene, core::Precision precision,
-                                    int width = 32) {
+std::vector<core::Color> image_of(const core::Scene& scene, core::Precision precision,
+                                  int width = 32) {
     core::Settings settings = scene.settings();
     settings.height = std::max(1, width * settings.height / settings.width);
     settings.width = width;
@@ -53,7 +53,7 @@ void check_same(const core::Scene& again, const core::Scene& scene) {
     CHECK(again.auto_camera().depth_cue == scene.auto_camera().depth_cue);
     CHECK(again.polygons().size() == scene.polygons().size());
     for (const core::Precision precision : {core::Precision::exact, core::Precision::robust})
-        CHECK(picture_of(again, precision) == picture_of(scene, precision));
+        CHECK(image_of(again, precision) == image_of(scene, precision));
 }
 
 /// Returns a scene of spheres in three materials, with some cylinders, boxes in double, polygons
@@ -233,7 +233,7 @@ namespace {
 
 /// Renders the scene and traces rays through it.
 void use(const core::Scene& scene) {
-    picture_of(scene, core::Precision::exact, 4);
+    image_of(scene, core::Precision::exact, 4);
     const std::vector<float> zero(8, 0.5F), one(8, 1.0F);
     std::vector<float> t(8), x(8), y(8), z(8);
     std::vector<core::ShapeId> shape(8);

@@ -41,7 +41,7 @@ std::vector<float> numbers_in(const core::Scene& scene) {
     return all;
 }
 
-core::Film picture_of(const core::Scene& scene, const core::Settings& like) {
+core::Film image_of(const core::Scene& scene, const core::Settings& like) {
     core::Settings settings = like;
     settings.height = 96 * like.height / like.width;
     settings.width = 96;
@@ -54,7 +54,7 @@ core::Film picture_of(const core::Scene& scene, const core::Settings& like) {
 
 /// Returns the number of pixels that differ by more than the last bits of a material can cause.
 std::size_t differing(const core::Scene& a, const core::Scene& b) {
-    const core::Film first = picture_of(a, a.settings()), second = picture_of(b, a.settings());
+    const core::Film first = image_of(a, a.settings()), second = image_of(b, a.settings());
     std::size_t count = 0;
     for (std::size_t i = 0; i < first.pixels().size(); ++i) {
         const core::Color off = first.pixels()[i] - second.pixels()[i];

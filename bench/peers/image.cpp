@@ -32,7 +32,7 @@ Drawing own_drawing(const std::string& name, const simd::SceneData& scene, simd:
 
 } // namespace
 
-Row measure_picture(const simd::SceneData& scene, const Measuring& how) {
+Row measure_image(const simd::SceneData& scene, const Measuring& how) {
     std::vector<Drawing> drawings = {
         own_drawing("raylane", scene, how.isa, core::Precision::exact),
         own_drawing("raylane robust", scene, how.isa, core::Precision::robust)};

@@ -9,7 +9,7 @@
 
 namespace raylane::scenes {
 
-/// Encoding of a picture's file, and its metadata.
+/// Encoding of an image's file, and its metadata.
 struct ImageOptions {
     core::Transfer transfer = core::Transfer::srgb; ///< for .png only
     /// Bits per component: 8 or 16 in .png, 16 or 32 in .exr; 0: the smaller one.

@@ -19,7 +19,8 @@ std::string error_of(const ToolFixture& fixture, const std::string& name, const 
     return outcome.err;
 }
 
-scenes::Image picture(const ToolFixture& fixture, const std::string& name, const Options& options) {
+scenes::Image rendered(const ToolFixture& fixture, const std::string& name,
+                       const Options& options) {
     REQUIRE(fixture.render(name, options).code == 0);
     return scenes::read_image(fixture.path() / name);
 }
@@ -30,9 +31,9 @@ TEST_CASE("a crop has the pixels of the whole image") {
     const ToolFixture fixture;
     for (const Options& sampling : {Options{"--spp", "4"}, {"--quality", "40"}}) {
         const Options options = joined(sampling, {"--size", "40x30", "--outline", "2"});
-        const scenes::Image whole = picture(fixture, "whole.pfm", options);
+        const scenes::Image whole = rendered(fixture, "whole.pfm", options);
         const scenes::Image part =
-            picture(fixture, "part.pfm", joined(options, {"--crop", "7,3,21x19"}));
+            rendered(fixture, "part.pfm", joined(options, {"--crop", "7,3,21x19"}));
         REQUIRE(part.width == 21);
         REQUIRE(part.height == 19);
         for (int y = 0; y < 19; ++y)
@@ -73,12 +74,12 @@ TEST_CASE("the option --alpha leaves the background out") {
     std::string without = ball;
     without.replace(without.find("\"width\""), 0, "\"alpha\": true, ");
     const ToolFixture fixture, by_scene(without);
-    const scenes::Image asked = picture(fixture, "a.png", {"--alpha"});
+    const scenes::Image asked = rendered(fixture, "a.png", {"--alpha"});
     REQUIRE(asked.alpha.size() == 16 * 12);
     CHECK(asked.alpha[0] == 0.0F);
     CHECK(asked.rgb[2] == 0.0F);
     CHECK(asked.alpha[6 * 16 + 8] == 1.0F);
-    const scenes::Image own = picture(by_scene, "a.png", {});
+    const scenes::Image own = rendered(by_scene, "a.png", {});
     CHECK(own.rgb.is_same(asked.rgb));
     CHECK(own.alpha.is_same(asked.alpha));
     // The Comment has the option if it was given.
@@ -90,15 +91,15 @@ TEST_CASE("the option --alpha leaves the background out") {
     CHECK(comment(asked) == comment(own) + " --alpha");
     CHECK(by_scene.run({"verify", "a.png", "scene.json", "--whole", "-q"}).code == 0);
     CHECK(fixture.run({"verify", "a.png", "scene.json", "--whole", "-q"}).code == 0);
-    CHECK(picture(fixture, "b.png", {}).alpha.size() == 0);
+    CHECK(rendered(fixture, "b.png", {}).alpha.size() == 0);
     CHECK(fixture.run({"compare", "a.png", "a.png"}).code == 0);
     CHECK(fixture.run({"compare", "a.png", "b.png"}).code == 1);
     // Other formats show the image over black.
-    CHECK(picture(by_scene, "a.pfm", {}).rgb[2] == 0.0F);
+    CHECK(rendered(by_scene, "a.pfm", {}).rgb[2] == 0.0F);
     CHECK(error_of(fixture, "a.pfm", {"--alpha"}) == "raylane: --alpha: goes with PNG or EXR\n");
     if (!scenes::has_exr()) return;
-    const scenes::Image exr = picture(fixture, "a.exr", {"--alpha", "--bits", "32"});
-    CHECK(exr.rgb.floats() == picture(by_scene, "a.pfm", {}).rgb.floats());
+    const scenes::Image exr = rendered(fixture, "a.exr", {"--alpha", "--bits", "32"});
+    CHECK(exr.rgb.floats() == rendered(by_scene, "a.pfm", {}).rgb.floats());
     CHECK(exr.alpha[6 * 16 + 8] == 1.0F);
 }
 
@@ -140,8 +141,8 @@ TEST_CASE("layers are written to an EXR") {
     CHECK(error_of(fixture, "a.exr", {"--bits", "8"}) ==
           "raylane: --bits: must be 16 or 32 in EXR, got \"8\"\n");
     const Options options = {"--layers", "--bits", "32"};
-    const scenes::Image image = picture(fixture, "a.exr", options);
-    const scenes::Image floats = picture(fixture, "a.pfm", {});
+    const scenes::Image image = rendered(fixture, "a.exr", options);
+    const scenes::Image floats = rendered(fixture, "a.pfm", {});
     CHECK(image.rgb.floats() == floats.rgb.floats());
     CHECK(fixture.run({"compare", "a.exr", "a.pfm"}).code == 0);
     const std::string content = content_of(fixture.path() / "a.exr");

@@ -1,4 +1,4 @@
-#include "scenes/images/float_pictures.hpp"
+#include "scenes/images/float_images.hpp"
 
 #include "core/scene/surroundings.hpp"
 #include "scenes/files/number.hpp"

@@ -11,9 +11,9 @@
 namespace raylane::tests {
 
 /// Returns the image of a scene with its settings, row by row.
-inline std::vector<core::Color> picture(const core::Scene& scene, simd::Engine engine,
-                                        simd::Isa isa = simd::best_isa(),
-                                        core::Precision precision = core::Precision::exact) {
+inline std::vector<core::Color> image(const core::Scene& scene, simd::Engine engine,
+                                      simd::Isa isa = simd::best_isa(),
+                                      core::Precision precision = core::Precision::exact) {
     return simd::render(scene, scene.settings(),
                         {.engine = engine, .isa = isa, .precision = precision})
         .film.pixels();
@@ -21,15 +21,15 @@ inline std::vector<core::Color> picture(const core::Scene& scene, simd::Engine e
 
 /// Checks that both engines render the same image, and all instruction sets the same bits.
 inline void check_engines_agree(const core::Scene& scene) {
-    const std::vector<core::Color> vector = picture(scene, simd::Engine::vector);
-    const std::vector<core::Color> reference = picture(scene, simd::Engine::reference);
+    const std::vector<core::Color> vector = image(scene, simd::Engine::vector);
+    const std::vector<core::Color> reference = image(scene, simd::Engine::reference);
     int differ = 0;
     for (std::size_t i = 0; i < vector.size(); ++i)
         for (int channel = 0; channel < 3; ++channel)
             differ += std::abs(vector[i][channel] - reference[i][channel]) > 1e-5F ? 1 : 0;
     CHECK(differ == 0);
     for (const simd::Isa isa : simd::available_isas())
-        CHECK(picture(scene, simd::Engine::vector, isa) == vector);
+        CHECK(image(scene, simd::Engine::vector, isa) == vector);
 }
 
 /// Returns the sRGB value that an image shows for a linear one, by IEC 61966-2-1.

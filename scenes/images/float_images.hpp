@@ -47,7 +47,7 @@ class ByteSource {
     std::size_t filled_ = 0;
 };
 
-/// An error in a picture file, without the file's name.
+/// An error in an image file, without the file's name.
 class MalformedImage : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
