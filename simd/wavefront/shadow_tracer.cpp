@@ -56,7 +56,7 @@ void ShadowTracer::trace(const LightView& light, EngineCounters& counters) {
 }
 
 void ShadowTracer::trace_softly(EngineCounters& counters) {
-    trace(neighbours, !scene_.has_tree(), counters);
+    trace(neighbours, wave_->coherent || !scene_.has_tree(), counters);
 }
 
 void ShadowTracer::let_pass() {

@@ -7,6 +7,7 @@
 #include "simd/kernel/traverse/in_flight/nearest.hpp"
 #include "simd/kernel/traverse/in_flight/occluded.hpp"
 #include "simd/kernel/traverse/list/nearest.hpp"
+#include "simd/kernel/traverse/list/occluded.hpp"
 
 namespace raylane::simd {
 
@@ -65,11 +66,14 @@ struct Trace : Streams<Arch> {
                          const Occlusions& occlusions, const Workspace& workspace,
                          TraceCounters& counters) {
         if (!makes_frusta(coherence)) {
-            occluded_of_any(scene, kind_bits, 0, count, rays, occlusions, workspace, counters);
+            occluded_of_any(scene, kind_bits, coherence, 0, count, rays, occlusions, workspace,
+                            counters);
         } else if (coherence->converging && SortedByDirection<Arch>::has_room(count, workspace)) {
             const SortedByDirection<Arch> sorted(rays, occlusions, count, workspace);
+            Workspace left = workspace;
+            left.capacity = 0; // its memory holds the sorted rays
             occluded_frusta(scene, kind_bits, *coherence, count, sorted.rays, sorted.occlusions,
-                            workspace, counters);
+                            left, counters);
             sorted.hand_back(occlusions, count);
         } else {
             occluded_frusta(scene, kind_bits, *coherence, count, rays, occlusions, workspace,
@@ -85,7 +89,7 @@ struct Trace : Streams<Arch> {
             const std::size_t end = count - begin < Rays::max_rays ? count : begin + Rays::max_rays;
             Rays frustum;
             if (!frustum.enclose(rays, begin, end, coherence, occlusions.t_limit)) {
-                occluded_of_any(scene, kind_bits, begin, end, rays, occlusions, workspace,
+                occluded_of_any(scene, kind_bits, nullptr, begin, end, rays, occlusions, workspace,
                                 counters);
                 continue;
             }
@@ -94,8 +98,8 @@ struct Trace : Streams<Arch> {
                                   .go(kind_bits, found);
             found.hand_back(occlusions, begin, end);
             if (!done) { // usually, the frusta that follow would give up, too
-                occluded_of_any(scene, kind_bits, begin, count, rays, occlusions, workspace,
-                                counters);
+                occluded_of_any(scene, kind_bits, nullptr, begin, count, rays, occlusions,
+                                workspace, counters);
                 return;
             }
             counters.in_frusta += end - begin;
@@ -145,10 +149,10 @@ struct Trace : Streams<Arch> {
         }
     }
 
-    static void occluded_of_any(const SceneView& scene, std::uint32_t kind_bits, std::size_t begin,
-                                std::size_t end, const RoundedRays& rays,
-                                const Occlusions& occlusions, const Workspace& workspace,
-                                TraceCounters& counters) {
+    static void occluded_of_any(const SceneView& scene, std::uint32_t kind_bits,
+                                const Coherence* coherence, std::size_t begin, std::size_t end,
+                                const RoundedRays& rays, const Occlusions& occlusions,
+                                const Workspace& workspace, TraceCounters& counters) {
         const RoundedRays some = from_ray(rays, begin);
         const Occlusions theirs{occlusions.t_limit + begin, occlusions.state + begin};
         if (kind_bits != 0)
@@ -156,6 +160,10 @@ struct Trace : Streams<Arch> {
                                                counters);
         if (workspace.key == nullptr) {
             counters.one_by_one += end - begin;
+        } else if ((coherence != nullptr || scene.small) && end - begin <= workspace.capacity) {
+            counters.in_lists += end - begin;
+            ListOccluded<Arch, Method>::occluded(scene, end - begin, some, theirs, workspace,
+                                                 counters);
         } else {
             counters.in_flight += end - begin;
             InFlightOccluded<Arch, Method>::occluded(scene, end - begin, some, theirs, workspace,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simd/kernel/traverse/in_flight/in_flight.hpp"
+#include "simd/kernel/traverse/obstacles.hpp"
 
 namespace raylane::simd {
 
@@ -94,20 +95,9 @@ class InFlightOccluded : InFlight<Arch, Method> {
     /// Same for pairs.
     template <class Filter>
     [[gnu::always_inline]] void some(const Pairs<Arch, Method>& pairs) {
-        const PairBounds bounds = pairs.template bound<Filter>();
-        for (std::uint32_t bits = bounds.possible; bits != 0; bits &= bits - 1) {
-            const int k = __builtin_ctz(bits);
-            Shadow& shadow = shadows_[pairs.whose[k]];
-            const std::uint32_t slot = pairs.slot[k];
-            if (only_cuts<Arch, Method>(scene_, slot)) continue;
-            // A cut inside of the shape may be nearer.
-            if (!(bounds.lower[k] < shadow.t_limit * perhaps_within) &&
-                (cut_of<Method>(scene_, slot) == nullptr || S::is_plain(scene_, slot)))
-                continue;
-            const bool certain =
-                (bounds.certain >> k & 1) != 0 && bounds.upper[k] < shadow.t_limit * surely_within;
-            take(shadow, certain && S::is_plain(scene_, slot) ? blocked : doubtful);
-        }
+        for_each_obstacle<Filter>(
+            scene_, pairs, [&](int which) { return shadows_[which].t_limit; },
+            [&](int which, std::uint8_t state) { take(shadows_[which], state); });
     }
 
     static void take(Shadow& shadow, std::uint8_t state) {

@@ -11,11 +11,13 @@ namespace {
 
 /// Checks rays to one light, which the search in frusta reorders. In each hundred packets of 16
 /// rays, `strays` packets have rays from anywhere. The rays of the other packets start near each
-/// other.
-void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
-    CAPTURE(std::string(kernels.name), overlapping, strays);
+/// other. If frusta give up, other traversals take over, which depend on `small`.
+void check_light(const Kernels& kernels, bool overlapping, std::size_t strays, bool small) {
+    CAPTURE(std::string(kernels.name), overlapping, strays, small);
     Rays rays(3001, overlapping ? 9.0 : 12.0);
     const Traced traced(make_scene(overlapping), rays.padded);
+    SceneView view = traced.data.view();
+    view.small = small;
     const Vec3d light(20.0, 15.0, 10.0);
     for (std::size_t i = 0; i < rays.count; ++i) {
         if (i / 16 * 37 % 100 >= strays) rays.stay_near(i);
@@ -37,9 +39,9 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
                                                  : i % 7 == 1 ? doubtful
                                                               : unblocked;
         const std::vector<std::uint8_t> before = together.state;
-        trace.occluded(traced.data.view(), 0, nullptr, count, rounded,
-                       {rays.t_limit.data(), alone.state.data()}, traced.workspace, counters);
-        trace.occluded(traced.data.view(), 0, &to_light, count, rounded,
+        trace.occluded(view, 0, nullptr, count, rounded, {rays.t_limit.data(), alone.state.data()},
+                       traced.workspace, counters);
+        trace.occluded(view, 0, &to_light, count, rounded,
                        {rays.t_limit.data(), together.state.data()}, traced.workspace, counters);
         int opposed = 0, different = 0, any = 0, lowered = 0;
         for (std::size_t i = 0; i < rays.padded; ++i) {
@@ -115,9 +117,11 @@ void check_frustum(const Kernels& kernels, const Coherence& coherence, int plane
 
 TEST_CASE("reordering rays to a light does not change their answers") {
     for (const Isa isa : available_isas()) {
-        check_light(kernels_of(isa), true, 100);
-        for (const std::size_t strays : {100, 30, 20, 5, 0})
-            check_light(kernels_of(isa), false, strays);
+        for (const bool small : {false, true}) {
+            check_light(kernels_of(isa), true, 100, small);
+            for (const std::size_t strays : {100, 30, 20, 5, 0})
+                check_light(kernels_of(isa), false, strays, small);
+        }
     }
 }
 

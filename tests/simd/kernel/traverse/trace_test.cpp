@@ -15,6 +15,13 @@ struct EachWay {
     Answers by_all, by_tree, by_lists;
 };
 
+/// Returns the workspace without room for lists.
+Workspace without_lists(const Traced& traced) {
+    Workspace small = traced.workspace;
+    small.capacity = 0;
+    return small;
+}
+
 EachWay nearest_each_way(const Kernels& kernels, const Traced& traced, const Rays& rays,
                          const RoundedRays& rounded) {
     const TraceKernels& trace = Traced::exactly(kernels);
@@ -23,10 +30,8 @@ EachWay nearest_each_way(const Kernels& kernels, const Traced& traced, const Ray
     TraceCounters counters{};
     trace.nearest(traced.data.view(), all_kinds, nullptr, count, rounded, ways.by_all.candidates(),
                   {}, counters);
-    Workspace small = traced.workspace;
-    small.capacity = 0;
-    trace.nearest(traced.data.view(), 0, nullptr, count, rounded, ways.by_tree.candidates(), small,
-                  counters);
+    trace.nearest(traced.data.view(), 0, nullptr, count, rounded, ways.by_tree.candidates(),
+                  without_lists(traced), counters);
     CHECK(counters.in_flight == count);
     trace.nearest(traced.data.view(), 0, &neighbours, count, rounded, ways.by_lists.candidates(),
                   traced.workspace, counters);
@@ -47,8 +52,11 @@ void check(const Kernels& kernels, bool overlapping) {
     trace.occluded(traced.data.view(), all_kinds, nullptr, rays.count, rounded,
                    {rays.t_limit.data(), by_all.state.data()}, {}, counters);
     trace.occluded(traced.data.view(), 0, nullptr, rays.count, rounded,
-                   {rays.t_limit.data(), by_tree.state.data()}, traced.workspace, counters);
-    by_lists.state = by_tree.state;
+                   {rays.t_limit.data(), by_tree.state.data()}, without_lists(traced), counters);
+    CHECK(counters.in_flight == rays.count);
+    trace.occluded(traced.data.view(), 0, &neighbours, rays.count, rounded,
+                   {rays.t_limit.data(), by_lists.state.data()}, traced.workspace, counters);
+    CHECK(counters.in_lists == rays.count);
 
     int hits = 0, different = 0;
     for (std::size_t i = 0; i < rays.count; ++i) {
@@ -168,14 +176,22 @@ TEST_CASE("random rays use lists if these are long or the hierarchy fits in the 
                     view.large = large;
                     Answers found(rays.padded);
                     TraceCounters counters{};
-                    Tracing{&kernels, precision}.method().trace.nearest(view, 0, nullptr, count,
-                                                                        rounded, found.candidates(),
-                                                                        traced.workspace, counters);
+                    const TraceKernels& trace = Tracing{&kernels, precision}.method().trace;
+                    trace.nearest(view, 0, nullptr, count, rounded, found.candidates(),
+                                  traced.workspace, counters);
                     CAPTURE(small, large, count, precision == Precision::exact);
                     // Only `exact` has more than one traversal.
                     const bool makes_lists =
                         precision == Precision::exact && (small || (!large && count == 4096));
                     CHECK(counters.in_lists == (makes_lists ? count : 0));
                     CHECK(counters.in_flight == (makes_lists ? 0 : count));
+
+                    // Occlusion of long lists is faster in flight.
+                    counters = {};
+                    trace.occluded(view, 0, nullptr, count, rounded,
+                                   {rays.t_limit.data(), found.state.data()}, traced.workspace,
+                                   counters);
+                    CHECK(counters.in_lists ==
+                          (precision == Precision::exact && small ? count : 0));
                 }
 }
