@@ -23,7 +23,7 @@ struct Fraction {
         return std::min(pixels, std::max(least, std::min(pixels / dense, many)));
     }
 };
-constexpr Fraction places{6, 2048, 64, 8192}, sampled{24, 1024, 512, 2048};
+constexpr Fraction places{6, 2048, 128, 4096}, sampled{24, 1024, 1024, 1024};
 /// Places in a batch.
 constexpr std::size_t batch_places = 128;
 /// The chance of a place grows with its deviation. This multiple of the mean deviation is added to
@@ -41,7 +41,7 @@ constexpr double within = 0.5, worth_of_around = 8.0;
 constexpr double scattered = 1.7;
 
 /// Decibels above the quality of the settings: a margin because the estimate scatters.
-constexpr double margin = 1.0;
+constexpr double margin = 1.1;
 /// Decibels beyond these that a policy may have, as the result should have at most 2 in all.
 constexpr double excess = 0.6;
 /// Decibels above the quality that a regular grid may have. Its steps are large, so that the range
