@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-/// Measures the float bounds that all traversals use, in rays tested against one shape per second:
-/// 16 shapes of a kind one by one, as in a scene without a hierarchy. Measures the scalar certified
-/// solver in the same run.
+/// Measures the float bounds that all traversals use, in tests of one ray against one shape, per
+/// second. Each ray is tested against 16 shapes of a kind one by one, as in a scene without a
+/// hierarchy. Also measures the scalar certified solver in the same run.
 
 namespace {
 

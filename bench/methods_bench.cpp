@@ -9,8 +9,8 @@ namespace raylane::bench {
 
 namespace {
 
-/// Returns the crossings that were found. Rays that are left open because surfaces touch get the
-/// true crossing: the reference tracer goes on from it.
+/// Returns the crossings that were found. A query leaves rays that meet several surfaces at one
+/// point to the reference tracer; here, the true crossing is taken for them.
 std::vector<Crossed> found_in(const simd::Query& finder, const std::vector<Crossed>& truths) {
     const simd::Hits& hits = finder.hits();
     std::vector<Crossed> found(method_ray_count);

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-/// Measures each kernel's time per hit that it solves in double: the rays of a packet hit the
-/// same shape, or each another shape of one kind. `doubtful` is the share left to a scalar solver.
+/// Measures the time that each kernel takes to solve one hit in double. Either all rays of a packet
+/// hit the same shape, or each ray hits a random shape of one kind. `doubtful` is the share of hits
+/// that the kernel leaves to a scalar solver.
 
 namespace {
 

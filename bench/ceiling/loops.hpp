@@ -3,8 +3,9 @@
 #include "bench/ceiling/ceiling.hpp"
 #include "simd/kernel/lanes/vectors.hpp"
 
-/// Textbook formulas of a tracer in float, one ray per lane, without error bounds. A kind has
-/// `count` floats for each shape, first() of a shape, and normal() at a point.
+/// Textbook formulas of a tracer in float, one ray per lane, without error bounds. Each kind of
+/// shape is a struct: `count` is the number of floats per shape, first() finds a ray's first hit
+/// with a shape, and normal() returns the normal at a point.
 namespace raylane::bench {
 
 /// The same number of one shape in all lanes.

@@ -43,7 +43,8 @@ struct Row {
 
     /// Returns the result for users of raylane: the library's, or the first if the row lacks one.
     const Result& users() const;
-    /// Returns the ratio of that result to the best other contender's; empty if raylane is alone.
+    /// Returns how many times better users() is than the best contender that is not raylane's;
+    /// empty if there is none.
     std::optional<double> ratio() const;
     nlohmann::ordered_json json() const;
     void print() const;

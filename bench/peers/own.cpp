@@ -18,8 +18,9 @@ class Worker {
     Worker(const Worker&) = delete; // parts refer to others
     Worker& operator=(const Worker&) = delete;
 
-    /// Answers some rays: with slots or, for occlusion, simd::Occlusion. Returns the number of rays
-    /// answered.
+    /// Answers the next rays from `begin` on: at most a wave, or best_ray_count() rays if they are
+    /// answered as StreamTracer does. Writes the slot of each ray's hit or, for occlusion, a
+    /// simd::Occlusion. Returns the number of rays answered.
     std::size_t answer(const RaySet& rays, std::size_t begin, std::size_t end,
                        std::uint32_t* answers) {
         const simd::Coherence* const coherence = rays.coherence ? &*rays.coherence : nullptr;

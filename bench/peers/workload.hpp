@@ -42,7 +42,8 @@ struct RaySet {
     void reserve(std::size_t rays);
     /// Adds a ray that starts on no shape.
     void add(const core::Ray<double>& ray, float t_limit);
-    /// Adds a ray from a shape that another ray has hit at distance t.
+    /// Adds a ray that starts on the shape in `slot`, where another ray has hit it at distance t.
+    /// `hit`: the bits of that hit, as in simd::Found::hit.
     void add_from(const core::Ray<double>& ray, float t_limit, const simd::SceneData& scene,
                   std::uint32_t slot, std::uint32_t hit, double t);
     /// Completes the set: makes whole packets readable.

@@ -101,7 +101,8 @@ void BeamTracer::keep_shown(const Square& square, const std::vector<BeamCandidat
     });
 }
 
-/// Notes the shapes of `asked` that may show, for each of the smallest parts.
+/// Halves the square `halvings` times. For each of the smallest parts, appends to found_ the shapes
+/// of `asked` that may be visible in it. So a shape is in found_ once for each such part.
 void BeamTracer::find_shown(const Square& square, const std::vector<BeamCandidate>& shown,
                             int halvings, const std::vector<ShapeId>& asked) {
     std::vector<BeamCandidate>& closer = closer_[static_cast<std::size_t>(halvings) - 1];

@@ -21,8 +21,9 @@ class PathLengths {
   public:
     explicit PathLengths(const Scene& scene);
 
-    /// Appends lengths that are not 0, by material. `hits`: all of the ray's crossings with solids,
-    /// in order; for solids that it starts in, only the exits.
+    /// Appends one length for each material, unless it is 0, in the order of the materials. `hits`:
+    /// all of the ray's crossings with solids, in order; for solids that it starts in, only the
+    /// exits.
     void add(const LeavingRay& from, std::span<const Hit<double>> hits, double t_min, double t_max,
              std::vector<MaterialLength>& lengths);
 

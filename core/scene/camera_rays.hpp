@@ -90,8 +90,8 @@ class CameraRays {
                 Real(height_) - Real(2) * (Real(y) + in_pixel.row)};
     }
 
-    /// The point at which a sample passes the lens, to the right of the lens' middle and upwards,
-    /// in units of length. Points are distributed evenly over the lens.
+    /// The point where a sample's ray passes through the lens: its distances from the lens' middle
+    /// to the right and upwards, in units of length. Points are distributed evenly over the lens.
     struct LensPoint {
         double right, up;
     };

@@ -69,7 +69,8 @@ class Frame {
         double negative = -std::numeric_limits<double>::infinity();
     };
 
-    /// Includes balls with centres on a circle of radius `ring` about an axis of length 1.
+    /// Includes all balls of radius `radius` whose centres lie on a circle of radius `ring` around
+    /// `center`, in the plane perpendicular to the unit vector `axis`.
     void include_ring(const Vec3d& center, const Vec3d& axis, double ring, double radius);
 
     FitCamera fit_camera_;

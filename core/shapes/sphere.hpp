@@ -12,8 +12,9 @@ void validate(const SphereOf<Number>& sphere) {
     checks::require_positive("radius", sphere.radius);
 }
 
-/// Returns bounds, computed in float, as there may be millions of spheres. A sum has an error of
-/// half an ulp, or none where it underflows, and 2^-23 of it is at least an ulp.
+/// Returns bounds, computed in float, as there may be millions of spheres. A sum has an error of at
+/// most half an ulp; a sum that underflows is exact. 2^-23 times a normal sum is at least an ulp,
+/// so bounds that are wider by this contain the sphere.
 inline Bounds bounds_of(const SphereOf<float>& sphere) {
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {

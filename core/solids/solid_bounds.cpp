@@ -9,7 +9,8 @@
 #include <cmath>
 #include <vector>
 
-/// Computes the bounds of a solid and its parts, and of the points at which a part matters.
+/// Computes the bounds of a constructed solid, of its parts (the shapes that it is made of), and of
+/// the points at which the inside or the surface of a part may affect the solid.
 namespace raylane::core {
 
 namespace {

@@ -59,7 +59,10 @@ class HalfSpacesOf {
             take(half_space(opposite, normal, inside, shape_));
         }
         if (!inside && found_.size() != 6) found_.clear();
-        // A ray enters a box through one face and leaves it through another.
+        // A ray that starts on one face of a solid box may leave through another: it is at first
+        // inside of that face's half-space, and outside of it later. For a subtracted box, the
+        // half-spaces are turned around, so a ray from it that is outside of one later has been
+        // outside of it since its start.
         for (HalfSpace& half : found_)
             half.stays = !inside;
     }

@@ -14,8 +14,9 @@ struct HalfSpace {
     double offset;
     double size;         ///< of the terms of the offset, whose error is at most 2^-50 of that
     core::ShapeId shape; ///< that has it as a face; no_shape - 1 if rays cross no such shape
-    bool stays; ///< a ray that starts on the shape and is outside later has been outside since its
-                ///< start
+    /// If a ray that starts on the shape is outside of the half-space later, it has been outside of
+    /// it since its start.
+    bool stays;
     bool ends_group; ///< as in ClipPlanesView
 };
 

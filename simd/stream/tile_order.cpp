@@ -10,7 +10,8 @@ namespace {
 
 using core::Vec3f;
 
-/// Rays in a packet, and in a cell; and in a group whose extent is measured.
+/// packet: rays in a packet, and the mean number of rays in a cell of the grid. group: consecutive
+/// rays whose common extent is measured.
 constexpr std::size_t packet = 16, group = 256;
 constexpr float huge = 0x1p60F;
 

@@ -57,8 +57,9 @@ struct ClipPlanesView {
     static constexpr int most = 16;
     float normal[3][most]; ///< outward, of length 1 except for rounding
     float offset[most];    ///< outside, normal . point is larger
-    /// Id of the shape that has the half-space as a face, if a ray that starts on that shape and is
-    /// outside later has been outside since its start; otherwise no_slot - 1.
+    /// Id of the shape that has the half-space as a face, if this holds for each ray that starts on
+    /// the shape: if the ray is outside of the half-space later, it has been outside of it since
+    /// its start. Otherwise no_slot - 1.
     std::uint32_t shape[most];
     /// Slot of the shape that has it as a face, if that face's clip test is deferred; otherwise
     /// no_slot.

@@ -114,8 +114,8 @@ void Wavefront::start_next(std::size_t to, std::size_t lane, bool through) {
                             : media);
 }
 
-/// Defers the later half of the samples until the others fit in a wave. If a single sample has too
-/// many rays, the reference tracer follows them.
+/// While the rays do not fit in a wave, defers those of the later half of the samples. If a single
+/// sample has too many rays, the reference tracer follows them.
 void Wavefront::split_next(int depth) {
     while (paths_.count > wave_rays) {
         const auto [least, most] = std::minmax_element(paths_.sample, paths_.sample + paths_.count);

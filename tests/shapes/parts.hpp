@@ -129,13 +129,13 @@ namespace raylane::tests {
 /// traits.
 struct AnySurface {
     static constexpr bool is_bounded = true;
-    /// Rays that leave the surface outward may meet it again.
+    /// True if rays that leave the surface outward may meet it again.
     static constexpr bool may_come_back = false;
-    /// The displacement by rounding to float has a bound.
+    /// True if the displacement by rounding to float has a bound.
     static constexpr bool has_displacement = false;
-    /// Many such shapes may form one polygon.
+    /// True if many such shapes may form one polygon.
     static constexpr bool tiles_polygons = false;
-    /// The filter also has a cheap test for shapes that a ray misses.
+    /// True if the filter also has a cheap test that rejects rays that miss the shape.
     static constexpr bool is_sifted = false;
 };
 /// A closed surface: a ray that enters also leaves.

@@ -15,16 +15,17 @@
 
 namespace raylane::scenes {
 
-/// Pieces of work, by number, that the ranks of a job share. A rank that has none left takes some
-/// by the counter at rank 0, and sends their results there. A separate thread makes all calls of
-/// MPI. Any number of other threads call next() and done().
+/// Pieces of work, by number, that the ranks of a job share. A rank that has no pieces left takes
+/// the next numbers from the counter at rank 0, and sends the results to rank 0. A separate thread
+/// makes all calls of MPI. Any number of other threads call next() and done().
 ///
 /// If rank 0 must write the results in their order, it tells the others how far it is. No rank
 /// begins a piece that is `window` pieces ahead of that. So the number of results to keep is
 /// bounded.
 ///
-/// A rank takes as many pieces at a time as last it about a tenth of a second, fewer towards the
-/// end. It takes more before it needs them, earlier by the time that an answer takes.
+/// A rank takes enough pieces at a time for about a tenth of a second, and fewer towards the end.
+/// It takes more when the pieces that it has left would last less than twice the time that a
+/// request to the counter takes.
 class SharedWork {
   public:
     /// Collective: `count` pieces, for `threads` threads here. When `stop` becomes true, no more

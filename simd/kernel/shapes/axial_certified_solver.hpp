@@ -338,7 +338,8 @@ struct CappedCertifiedSolver {
         return result;
     }
 
-    /// True where a passage that is outside of the ends is beyond the end that the ray goes to.
+    /// For a passage that is outside of the two ends: true where it is beyond the end towards which
+    /// the ray goes, which is the top in lanes of `at_top`.
     template <Wanted wanted>
     static M passes(const Line<wanted>& line, const Passage<Arch>& passage, const M& at_top) {
         const F height = line.height_at(passage.root.s);

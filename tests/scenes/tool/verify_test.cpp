@@ -30,7 +30,8 @@ constexpr const char* right =
 constexpr const char* again = "rays       same counts as the image states\n"
                               "all bits   same as in the image\n";
 
-/// Returns a film with the codes of a PNG. Those of its first `pixels` are changed by one step.
+/// Returns a film with the codes of a PNG. The codes of the first `pixels` pixels are changed by
+/// one step.
 core::Film film_of(const scenes::Image& image, int pixels = 0) {
     core::Film film(image.width, image.height);
     for (int i = 0; i < image.width * image.height; ++i)

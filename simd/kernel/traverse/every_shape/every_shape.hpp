@@ -61,7 +61,8 @@ struct EveryShape : Streams<Arch> {
     };
     using Numbers = DerivedNumbers<Arch, WithFilter>;
 
-    /// True if a filter is costly and cannot reject rays at less cost.
+    /// True if a filter is costly and has no may_meet(), the cheaper test that rejects rays before
+    /// bounds() is called.
     template <class Filter>
     static constexpr bool is_slow = requires {
         Filter::is_costly;

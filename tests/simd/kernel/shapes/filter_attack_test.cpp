@@ -67,8 +67,8 @@ class Trial {
     FilterStream view_{};
 };
 
-/// Normalises a ray, with a length that is sometimes not quite 1. Without `slack`, the origin
-/// becomes floats.
+/// Normalises a ray's direction. One time in four, its length then differs from 1 by 2^-40.
+/// Without `slack`, rounds the origin to float.
 void tidy(Ray<double>& ray, bool slack, Random& random) {
     if (!slack) ray.origin = in_double(ray_sets::rounded(ray.origin));
     ray.direction = normalized(ray.direction);
