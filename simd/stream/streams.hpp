@@ -11,10 +11,6 @@
 
 namespace raylane::simd {
 
-inline bool wants_normals(const HitStream& hits) {
-    return hits.normal[0] != nullptr || hits.normal[1] != nullptr || hits.normal[2] != nullptr;
-}
-
 /// Returns the array from element `first` on; null stays null.
 template <class Value>
 Value* from(Value* values, std::size_t first) {

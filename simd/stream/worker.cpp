@@ -134,15 +134,9 @@ void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits
     query_.nearest(intake_.paths(), intake_.coherence(), counters,
                    is_exact() && rays.t_max != nullptr ? intake_.taken().t_limit : nullptr);
     mark_unanswered(rays);
-    const Hits& found = query_.hits();
     LeftOver left{doubtful_, unsharp_, 0, 0};
-    kernels().hand_over(scene_.view(), rays.count, limits_of(rays), intake_.taken(),
-                        {found.slot,
-                         found.hit,
-                         found.t,
-                         found.error,
-                         {found.normal[0], found.normal[1], found.normal[2]}},
-                        hits, left);
+    kernels().hand_over(scene_.view(), limits_of(rays), intake_.taken(),
+                        query_.hits().found(intake_.paths(), 0, rays.count), hits, left);
     sharpen({unsharp_, left.unsharp_count}, hits);
     answer(rays, {doubtful_, left.doubtful_count}, hits);
 }
@@ -242,7 +236,7 @@ void StreamWorker::answer(const RayStream<Real>& rays, std::span<std::uint32_t> 
         search(intake_.lone(rays, *lane, *lane), hits, *lane);
     const std::span<const std::uint32_t> others(lanes.begin(), lost);
     for (std::size_t first = 0; first < others.size(); first += Widened::most) {
-        const Widened widened = widen(others.subspan(first), wants_normals(hits));
+        const Widened widened = widen(others.subspan(first), hits.wants_normals());
         for (std::size_t k = 0; k < widened.lanes.size(); ++k)
             answer(intake_.lone(rays, widened.lanes[k], widened.lanes[k]), widened, k, hits);
     }
@@ -260,7 +254,7 @@ void StreamWorker::answer(const LoneRay& ray, const Widened& widened, std::size_
         ray.by_floats ? static_cast<double>(t) <= ray.t_max : ray.is_before_t_max(scene, hit);
     if (!counts) return store_none(hits, lane);
     core::Vec3f normal(0.0F);
-    if (wants_normals(hits)) normal = normal_of(ray, hit, widened, k);
+    if (hits.wants_normals()) normal = normal_of(ray, hit, widened, k);
     store(hits, lane, t, hits.t_double != nullptr ? double_t_of(widened, k) : 0.0, normal,
           hit.shape, hit.entering, hit.face);
 }
@@ -294,7 +288,7 @@ void StreamWorker::search(const LoneRay& ray, const HitStream& hits, std::size_t
     const core::Hit<double> hit = searcher_.nearest(ray.ray, ray.origins, counts, ray.t_limit).hit;
     if (!hit.any()) return store_none(hits, i);
     core::Vec3f normal(0.0F);
-    if (wants_normals(hits))
+    if (hits.wants_normals())
         normal = is_exact() ? core::rounded_normal(scene_.scene(), ray.leaving(), hit)
                             : in_float(searcher_.surface_at(ray.ray, ray.origins, hit).normal);
     if (hit.reversed) normal = core::Vec3f(0.0F) - normal; // no -0

@@ -10,6 +10,7 @@
 namespace raylane::simd {
 
 struct Coherence;
+struct Found;
 
 /// `count` rays, structure of arrays: the points origin + t direction with t_min < t <= t_max.
 /// Component a of ray i is origin[a][i]. Directions may have any length but zero. Doubles are 0 or
@@ -62,6 +63,10 @@ struct HitStream {
     std::uint8_t* entering = nullptr; ///< 1: from outside (the front); 0: from inside, or no hit
     std::uint8_t* face = nullptr;     ///< for RayStream::origin_face
     double* t_double = nullptr;       ///< the double nearest to the exact t; infinity: no hit
+
+    [[gnu::always_inline]] bool wants_normals() const {
+        return normal[0] != nullptr || normal[1] != nullptr || normal[2] != nullptr;
+    }
 };
 
 /// Upper limits of hits. `t_max`, if not null: the caller's floats, compared with the float nearest
@@ -78,15 +83,6 @@ struct LeftOver {
     std::size_t doubtful_count, unsharp_count;
 };
 
-/// Hits of lanes, as in Found.
-struct StreamHits {
-    const std::uint32_t* slot;
-    const std::uint32_t* hit;
-    const double* t;
-    const double* error;
-    const double* normal[3];
-};
-
 /// Kernels for streams of a caller's rays.
 struct StreamKernels {
     /// Takes rays in. Returns the number of invalid or empty ones.
@@ -98,11 +94,10 @@ struct StreamKernels {
     bool (*find_coherence)(std::size_t count, const StreamRays& rays, float radius,
                            Coherence& coherence);
 
-    /// Hands the hits of the first `count` rays over to the caller, with t in the caller's units.
-    /// Each list of `left` has capacity for `count` lanes.
-    void (*hand_over)(const SceneView& scene, std::size_t count, const UpperLimits& limits,
-                      const StreamRays& taken, const StreamHits& found, const HitStream& hits,
-                      LeftOver& left);
+    /// Hands the hits that were found over to the caller, with t in the caller's units. Each list
+    /// of `left` has capacity for as many lanes.
+    void (*hand_over)(const SceneView& scene, const UpperLimits& limits, const StreamRays& taken,
+                      const Found& found, const HitStream& hits, LeftOver& left);
 };
 
 } // namespace raylane::simd

@@ -49,9 +49,10 @@ class CallerStream {
         return steps.is_near(radius, most);
     }
 
-    static void hand_over(const SceneView& scene, std::size_t count, const UpperLimits& limits,
-                          const StreamRays& taken, const StreamHits& found, const HitStream& hits,
+    static void hand_over(const SceneView& scene, const UpperLimits& limits,
+                          const StreamRays& taken, const Found& found, const HitStream& hits,
                           LeftOver& left) {
+        const std::size_t count = found.count;
         left.doubtful_count = left.unsharp_count = 0;
         const TableView* table = scene.tables;
         for (std::size_t i = 0; i < count; i += F::size) {
@@ -105,9 +106,6 @@ class CallerStream {
     static constexpr double max_turn = 0.25, max_move = 0.05;
 
     static std::size_t least(std::size_t a, std::size_t b) { return a < b ? a : b; }
-    static bool wants_normals(const HitStream& hits) {
-        return hits.normal[0] != nullptr || hits.normal[1] != nullptr || hits.normal[2] != nullptr;
-    }
 
     /// The last of a caller's rays, padded with invalid rays.
     template <class Real>
@@ -405,9 +403,9 @@ class CallerStream {
         std::uint32_t hit_bits, doubtful;
     };
     [[gnu::always_inline]] static Answers answers_to(const UpperLimits& limits,
-                                                     const StreamRays& taken,
-                                                     const StreamHits& found, const HitStream& hits,
-                                                     std::size_t i, std::size_t here) {
+                                                     const StreamRays& taken, const Found& found,
+                                                     const HitStream& hits, std::size_t i,
+                                                     std::size_t here) {
         double first[F::size], last[F::size];
         for (std::size_t k = 0; k < F::size; k += half) {
             const Number per_unit = Number::load_unaligned(taken.per_unit + i + k);
@@ -423,7 +421,7 @@ class CallerStream {
         const M sure = (t == Lanes<Arch>::narrow(last)) & (t > zero<Arch>()) & (t < S::infinity());
         const M missed = Lanes<Arch>::in_range(S::load_bits(found.slot + i), none, none);
         const F unknown = S::broadcast_bits(
-            hit_doubtful | (wants_normals(hits) ? hit_normal_doubtful | hit_normal_unknown : 0));
+            hit_doubtful | (hits.wants_normals() ? hit_normal_doubtful | hit_normal_unknown : 0));
         const M known = Lanes<Arch>::in_range(S::load_bits(found.hit + i) & unknown, zero<Arch>(),
                                               zero<Arch>());
         const M any = (Lanes<Arch>::narrow(taken.t_limit + i) >= zero<Arch>()) & ~missed &
@@ -445,7 +443,7 @@ class CallerStream {
     struct Sides {
         M before, beyond;
     };
-    static Sides sides_of_t_limit(const StreamRays& taken, const StreamHits& found, std::size_t i) {
+    static Sides sides_of_t_limit(const StreamRays& taken, const Found& found, std::size_t i) {
         float before[F::size], beyond[F::size];
         for (std::size_t lane = 0; lane < F::size; ++lane) {
             const double t = found.t[i + lane], most = taken.t_limit[i + lane];
