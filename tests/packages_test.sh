@@ -5,6 +5,10 @@ set -eu
 build=$(realpath "$1")
 cd "$(dirname "$0")/.."
 root=$(mktemp -d)
+[ -e build/pages/tracer_8hpp.html ] || {
+    echo "packages: no build/pages: run doxygen scenes/api/cpp/Doxyfile first" >&2
+    exit 2
+}
 as_root=
 [ "$(id -u)" -eq 0 ] || as_root=sudo
 prefix=$(sed -n 's/^CMAKE_INSTALL_PREFIX:PATH=//p' "$build/CMakeCache.txt")
@@ -31,7 +35,9 @@ for package in $(sed -n 's/^ *find_dependency(\([A-Za-z]*\).*/\1/p' scenes/api/c
     dpkg-deb --field "$build"/packages/libraylane-dev_*.deb Depends | grep -qwF "$name" ||
         { echo "packages: libraylane-dev does not depend on $name"; exit 1; }
 done
-[ "$(dpkg --root="$root" -l raylane libraylane-dev raylane-doc | grep -c '^ii')" -eq 3 ]
+for package in raylane libraylane-dev raylane-doc; do
+    dpkg --root="$root" -l "$package" | grep -q '^ii' || { echo "packages: $package is not installed"; exit 1; }
+done
 
 raylane=$root/usr/bin/raylane
 out=$(mktemp -d -p "$root")

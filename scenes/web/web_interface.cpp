@@ -114,7 +114,7 @@ EMSCRIPTEN_KEEPALIVE bool web_look() {
     });
 }
 
-/// Draws rows of an image from `first` on, with grid x grid samples, or as the scene requests if
+/// Renders rows of an image from `first` on, with grid x grid samples, or as the scene requests if
 /// `grid` is 0.
 EMSCRIPTEN_KEEPALIVE bool web_render(int width, int height, int grid, int first, int rows) {
     return attempt([&] {

@@ -14,8 +14,7 @@ namespace raylane::simd {
 struct EngineCounters : core::Counters {
     std::uint64_t walked = 0;   ///< shadow rays that were followed from surface to surface
     std::uint64_t deferred = 0; ///< paths deferred because a wave had grown too long
-    std::uint64_t refined =
-        0; ///< rays that were not certified at first and went to the CandidateResolver
+    std::uint64_t refined = 0;  ///< rays that were not certified at first
     /// Rays by the method of their search: brute force, frusta, ray streams (lists), or interleaved
     /// single rays.
     std::uint64_t one_by_one = 0, in_frusta = 0, in_lists = 0, in_flight = 0;

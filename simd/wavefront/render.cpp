@@ -133,7 +133,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
                     if (!is_stopped()) tracers.local().survey(pass, batch);
                 });
             });
-            if (is_stopped()) break; // the pass may be incomplete; no tile is drawn then
+            if (is_stopped()) break; // the pass may be incomplete; no tile is rendered then
             for (core::Survey& survey : surveys)
                 survey.end(pass);
         }

@@ -110,7 +110,7 @@ std::int64_t ResumableRendering::pixels() const {
     return grid_.part().pixels() - pixels_of_others();
 }
 
-/// Returns the percentage of the pixels to draw.
+/// Returns the percentage of the pixels to render.
 int ResumableRendering::percent(std::int64_t pixels) const {
     return static_cast<int>(100 * pixels / std::max<std::int64_t>(1, this->pixels()));
 }
@@ -156,7 +156,7 @@ simd::Rendering ResumableRendering::draw_among(Job& job, simd::Progress& progres
         const std::optional<std::string> bytes = ranked.recall(tile);
         if (!bytes) return checkpoint_ && checkpoint_->recall(tile);
         progress.rays += tile.counters.rays();
-        progress.recalled -= tile.region.pixels(); // another rank has drawn it
+        progress.recalled -= tile.region.pixels(); // another rank has rendered it
         if (checkpoint_) checkpoint_->note(grid_.number_of(tile.region), *bytes);
         return true;
     };

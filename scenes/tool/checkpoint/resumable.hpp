@@ -16,7 +16,7 @@
 
 namespace raylane::scenes {
 
-/// A signal has stopped the drawing of an image. Exit code 128 + signal.
+/// A signal has stopped the rendering of an image. Exit code 128 + signal.
 struct Stopped : std::exception {
     int signal;
     std::string text; ///< how to resume, or why that is impossible
@@ -24,7 +24,7 @@ struct Stopped : std::exception {
     const char* what() const noexcept override { return text.c_str(); }
 };
 
-/// The drawing of an image. It resumes where an earlier process ended, if that process left a
+/// The rendering of an image. It resumes where an earlier process ended, if that process left a
 /// checkpoint of the same scene and options beside the output. It keeps a checkpoint itself.
 class ResumableRendering {
   public:
@@ -35,7 +35,7 @@ class ResumableRendering {
                        simd::RenderOptions options, const std::optional<ImagePart>& part,
                        Verbosity verbosity);
 
-    /// Draws the image, and reports a checkpoint that was found on standard error. Throws
+    /// Renders the image, and reports a checkpoint that was found on standard error. Throws
     /// Stopped. With a job of several ranks, this is collective, and the ranks part at its end;
     /// rank 0 has the image. With a checkpoint, the first signal does not end the process from
     /// here until end_if_signalled().
@@ -49,7 +49,7 @@ class ResumableRendering {
     /// Throws Stopped if a signal has arrived since the last tiles were begun. Call it after
     /// finished().
     void end_if_signalled();
-    /// Returns the number of pixels that all runs together draw: those of the part.
+    /// Returns the number of pixels that all runs together render: those of the part.
     std::int64_t pixels() const;
 
   private:

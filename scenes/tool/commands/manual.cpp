@@ -121,18 +121,20 @@ void add_options_to(std::string& page, const CLI::App& command) {
     }
 }
 
+/// Begins each line of a footer that is an example.
+constexpr std::string_view example = "Example: ";
+
 void add_details_to(std::string& page, std::string_view footer) {
-    const std::string_view details = footer.substr(0, footer.find("Example: "));
+    const std::string_view details = footer.substr(0, footer.find(example));
     if (!details.empty()) page += ".SH DESCRIPTION\n" + plain(details);
 }
 
 void add_examples_to(std::string& page, std::string_view footer) {
-    constexpr std::string_view sign = "Example: ";
     for (std::string_view rest = footer; !rest.empty();) {
         const std::string_view line = rest.substr(0, rest.find('\n'));
         rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-        if (!line.starts_with(sign)) continue;
-        page += ".SH EXAMPLES\n.EX\n" + plain(line.substr(sign.size()), true) + "\n.EE\n";
+        if (!line.starts_with(example)) continue;
+        page += ".SH EXAMPLES\n.EX\n" + plain(line.substr(example.size()), true) + "\n.EE\n";
     }
 }
 

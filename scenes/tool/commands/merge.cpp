@@ -97,7 +97,7 @@ class Merger {
         return *part;
     }
     /// Returns the text, or an empty one if it is missing. Only parts of a film have Film, and
-    /// parts drawn by older versions have no Options.
+    /// parts rendered by older versions have no Options.
     static std::string optional_text(const char* key, const ImageTexts& texts) {
         return has_text(texts, key) ? text_in("", texts, key) : "";
     }
@@ -109,7 +109,7 @@ class Merger {
     }
 
     /// Throws BadInput if the output's format cannot store the layers or the alpha that the parts
-    /// were drawn with.
+    /// were rendered with.
     void require_fit(const std::string& name, const ExrImage& image, bool alpha) const {
         const bool is_exr = output_ == ImageFormat::exr;
         if (image.layers && !is_exr)

@@ -127,7 +127,7 @@ class Verifier {
         return fingerprint_of(scene_) == text_in(image_.name, image_.texts, "Scene");
     }
 
-    /// Returns nothing for images drawn by older versions, which have no Options.
+    /// Returns nothing for images rendered by older versions, which have no Options.
     std::optional<bool> options_are_the_same() const {
         if (!has_text(image_.texts, "Options")) return std::nullopt;
         simd::RenderOptions options = options_;
@@ -140,7 +140,7 @@ class Verifier {
     /// precisions differ from it.
     bool is_exact() const { return options_.precision == core::Precision::exact; }
 
-    /// Draws some pixels by the reference, or by the image's precision if that is not exact, and
+    /// Renders some pixels by the reference, or by the image's precision if that is not exact, and
     /// compares.
     Verdict sample() {
         simd::RenderOptions options = options_;
@@ -148,7 +148,7 @@ class Verifier {
         return drawn_again(options, choose());
     }
 
-    /// Draws pixels in the way they were drawn, and compares.
+    /// Renders pixels in the way they were rendered, and compares.
     Verdict as_they_were(const std::vector<std::size_t>& pixels) const {
         return drawn_again(options_, pixels);
     }
@@ -162,8 +162,8 @@ class Verifier {
         bool has_its_bits;
         bool has_its_tiers; ///< each tier decided as many rays as the image states
     };
-    /// Draws and writes the whole image again in the way it was drawn. `has_its_bits` is true if
-    /// the film has the bits that the image states, and if the file holds exactly the components
+    /// Renders and writes the whole image again in the way it was rendered. `has_its_bits` is true
+    /// if the film has the bits that the image states, and if the file holds exactly the components
     /// that are written for it.
     Whole again() {
         std::optional<core::Layers> layers;
@@ -187,7 +187,7 @@ class Verifier {
   private:
     Verdict drawn_again(simd::RenderOptions options, const std::vector<std::size_t>& pixels) const {
         options.layers = false;
-        if (is_exact()) options.tile = 8; // draws the fewest additional pixels
+        if (is_exact()) options.tile = 8; // renders the fewest additional pixels
         const simd::TileGrid tiles = simd::grid_of(settings_, options);
         std::unordered_set<std::size_t> wanted;
         for (const std::size_t pixel : pixels) {

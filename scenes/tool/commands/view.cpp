@@ -155,7 +155,7 @@ class Viewer {
                             what_is_at(scene, settings_, event.x, event.y, legend_).c_str());
             });
             std::fflush(stdout);
-            break; // with_scene() stopped the drawing, so start again
+            break; // with_scene() stopped the rendering, so start again
         case Kind::key:
             press(event.key);
             return;

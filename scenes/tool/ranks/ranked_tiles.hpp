@@ -12,9 +12,9 @@
 
 namespace raylane::scenes {
 
-/// The tiles of an image that the ranks of a job draw together. Rank 0 has the whole image, and
+/// The tiles of an image that the ranks of a job render together. Rank 0 has the whole image, and
 /// receives the tiles of other ranks as they arrive. The images of other ranks have only the
-/// tiles that these draw.
+/// tiles that these render.
 class RankedTiles : public simd::TileSource {
   public:
     /// The work to do, which rank 0 determines.
@@ -30,13 +30,13 @@ class RankedTiles : public simd::TileSource {
     std::optional<std::size_t> next() override;
     void cancel() override { work_.cancel(); }
 
-    /// Callbacks for simd::RenderOptions. recall() fills a tile that another rank has drawn and
+    /// Callbacks for simd::RenderOptions. recall() fills a tile that another rank has rendered and
     /// returns its bytes; note() sends a tile to rank 0.
     std::optional<std::string> recall(const simd::TileToFill& tile);
     void note(const simd::FinishedTile& tile);
 
-    /// Collective, after the drawing. Returns numbers and bytes of tiles that arrived too late to
-    /// be filled in, because the drawing was stopped.
+    /// Collective, after the rendering. Returns numbers and bytes of tiles that arrived too late to
+    /// be filled in, because the rendering was stopped.
     std::vector<std::pair<std::size_t, std::string>> finish();
 
   private:

@@ -84,7 +84,8 @@ class Stage {
         }
     }
 
-    /// Takes back a scene that has been drawn. If it is the only scene, the next image reuses it.
+    /// Takes back a scene that has been rendered. If it is the only scene, the next image reuses
+    /// it.
     void take_back(core::Scene scene) {
         if (is_still()) still_ = std::move(scene);
     }
@@ -95,7 +96,7 @@ class Stage {
             refuse_turn(*sequence_.turn, std::to_string(count));
     }
 
-    /// Returns true if the image must be drawn. A loss of power may leave an empty file, which
+    /// Returns true if the image must be rendered. A loss of power may leave an empty file, which
     /// does not count.
     bool is_wanted(const std::string& name) const {
         std::error_code unknown;

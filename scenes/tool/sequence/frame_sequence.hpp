@@ -20,17 +20,17 @@ struct FrameSequence {
     ViewChange view;
     FitTo fit_to = FitTo::first;
     std::optional<Turn> turn;
-    bool overwrites = true; ///< draw images whose files exist already
+    bool overwrites = true; ///< render images whose files exist already
     /// The share of this process: its number, from 0, and the number of processes, which take the
     /// images in turn.
     struct Share {
         std::size_t number = 0, of = 1;
     } share;
-    std::optional<std::size_t> only; ///< draw only the image at this place, regardless of `share`
+    std::optional<std::size_t> only; ///< render only the image at this place, regardless of `share`
     Verbosity verbosity = Verbosity::normal;
     /// Returns the settings to use for a scene, given the scene's own.
     std::function<core::Settings(const core::Settings&)> settings;
-    /// Draws the scene of the image at a place, from 0, into a file.
+    /// Renders the scene of the image at a place, from 0, into a file.
     std::function<void(const core::Scene&, std::size_t place, const std::string& name,
                        simd::Progress&)>
         draw;
@@ -46,10 +46,10 @@ struct SequenceFrame {
 };
 
 /// Returns the scene and file name of the first image, whether or not that file exists. The
-/// caller draws it. Exceptions of the source propagate.
+/// caller renders it. Exceptions of the source propagate.
 SequenceFrame first_frame(const FrameSequence& sequence);
 
-/// Draws all images. The scene of the next one is made while one is drawn. Exceptions of the
+/// Renders all images. The scene of the next one is made while one is rendered. Exceptions of the
 /// source and of `sequence.draw` propagate after the previous images are drawn. Throws BadInput
 /// if the turn has another number of images than the source: before the first image too many,
 /// or after the last one.
@@ -62,8 +62,8 @@ std::function<std::string(std::size_t)>
 image_names(const std::string& scene, const std::optional<std::string>& output, bool is_one);
 
 /// Returns the images that the command line requests, if there may be several. The caller sets
-/// how they are drawn. Scenes are made with `threads` threads. `arguments` must outlive the result.
-/// Throws BadInput.
+/// how they are rendered. Scenes are made with `threads` threads. `arguments` must outlive the
+/// result. Throws BadInput.
 std::optional<FrameSequence> requested_sequence(const RenderArguments& arguments, int threads,
                                                 Verbosity verbosity);
 

@@ -29,7 +29,7 @@ class SceneSource {
     virtual std::size_t count() const = 0;
 
     /// Fixes the values that are derived from whole frames of atoms, such as the range of colours,
-    /// to those of the frames drawn so far.
+    /// to those of the frames rendered so far.
     virtual void keep_scale() {}
 };
 

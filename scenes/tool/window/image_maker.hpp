@@ -11,7 +11,8 @@
 
 namespace raylane::scenes {
 
-/// Draws a scene on a separate thread, coarse to fine, and starts again whenever the view changes.
+/// Renders a scene on a separate thread, coarse to fine, and starts again whenever the view
+/// changes.
 class ImageMaker {
   public:
     struct Image {
@@ -27,13 +28,14 @@ class ImageMaker {
 
     /// Starts again with this view. The last image has these settings.
     void show(core::View view, const core::Settings& settings);
-    /// Stops drawing and replaces the scene. Call show() afterwards with the view.
+    /// Stops rendering and replaces the scene. Call show() afterwards with the view.
     void replace(core::Scene scene);
     /// Returns the newest image since the last call, if any.
     std::optional<Image> take();
-    /// Stops drawing and calls `use` with the scene in its current view. Call show() to draw again.
+    /// Stops rendering and calls `use` with the scene in its current view. Call show() to render
+    /// again.
     void with_scene(const std::function<void(const core::Scene&)>& use);
-    /// Rethrows the exception that ended the drawing, if any.
+    /// Rethrows the exception that ended the rendering, if any.
     void rethrow();
 
   private:
@@ -54,7 +56,7 @@ class ImageMaker {
     simd::RenderOptions options_;
     std::function<void()> on_image_;
 
-    std::mutex scene_mutex_; // held while the scene is drawn or changed
+    std::mutex scene_mutex_; // held while the scene is rendered or changed
     core::Scene scene_;
 
     std::mutex mutex_; // protects the next five members

@@ -3,7 +3,7 @@
 #include "tests/scenes/tool/tool_fixture.hpp"
 #include "tests/support/catch.hpp"
 
-/// Tests of options for the drawn part of an image and for its file.
+/// Tests of options for the rendered part of an image and for its file.
 using namespace raylane;
 using namespace raylane::tests;
 

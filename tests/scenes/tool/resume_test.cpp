@@ -60,7 +60,7 @@ bool has_checkpoint(const ToolFixture& fixture) {
     return std::filesystem::exists(fixture.output() / "picture.png.part");
 }
 
-/// Writes an empty checkpoint. An existing checkpoint gets each tile as soon as it is drawn. The
+/// Writes an empty checkpoint. An existing checkpoint gets each tile as soon as it is rendered. The
 /// first write to it is the head.
 void begin_checkpoint(const ToolFixture& fixture) {
     fixture.write("out/picture.png.part", "");
