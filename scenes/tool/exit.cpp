@@ -7,6 +7,7 @@
 #include "scenes/tool/ranks/job.hpp"
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <ctime>
@@ -51,11 +52,13 @@ timer_t patience;
 extern "C" void stop_first(int signal) {
     simd::Progress* const progress = stopped;
     if (progress == nullptr || stopped_by != 0) return end_process(signal);
+    const int before = errno; // the program may be about to read it
     stopped_by = signal;
     progress->stop = true;
     constexpr itimerspec half_a_second{{}, {0, 500'000'000}};
     ::timer_settime(patience, 0, &half_a_second, nullptr);
     if (is_shown()) say("\nraylane: finishing tiles in progress; interrupt again to end at once\n");
+    errno = before;
 }
 
 extern "C" void abandon(int signal) {

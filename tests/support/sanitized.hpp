@@ -8,12 +8,18 @@ namespace raylane::tests {
 #define RAYLANE_HAS_FEATURE(feature) 0
 #endif
 
+/// True if the thread sanitizer watches this program. It delays signals.
+#if defined(__SANITIZE_THREAD__) || RAYLANE_HAS_FEATURE(thread_sanitizer)
+inline constexpr bool thread_sanitized = true;
+#else
+inline constexpr bool thread_sanitized = false;
+#endif
+
 /// True if a sanitizer watches this program, which takes more memory and time then.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) ||                               \
-    RAYLANE_HAS_FEATURE(address_sanitizer) || RAYLANE_HAS_FEATURE(thread_sanitizer)
+#if defined(__SANITIZE_ADDRESS__) || RAYLANE_HAS_FEATURE(address_sanitizer)
 inline constexpr bool sanitized = true;
 #else
-inline constexpr bool sanitized = false;
+inline constexpr bool sanitized = thread_sanitized;
 #endif
 
 #undef RAYLANE_HAS_FEATURE

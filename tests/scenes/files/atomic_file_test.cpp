@@ -6,6 +6,7 @@
 #include "tests/support/catch.hpp"
 
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <functional>
@@ -43,6 +44,7 @@ bool is_image(const std::filesystem::path& path) {
 
 /// Returns true if `test` does in a child process, whose limits and user it may change.
 bool holds_in_child(const std::function<bool()>& test) {
+    std::fflush(nullptr); // otherwise the thread sanitizer's _exit() writes the text again
     const pid_t child = ::fork();
     if (child == 0) {
         bool holds = false;

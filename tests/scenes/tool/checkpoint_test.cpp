@@ -5,6 +5,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/comes_true.hpp"
 
+#include <atomic>
 #include <csignal>
 #include <fstream>
 #include <memory>
@@ -44,7 +45,7 @@ struct Drawing {
         simd::RenderOptions with = options;
         simd::Progress progress;
         with.progress = &progress;
-        int tiles = 0;
+        std::atomic<int> tiles = 0;
         if (checkpoint != nullptr) {
             with.recall = [&](const simd::TileToFill& tile) { return checkpoint->recall(tile); };
             with.after_tile = [&](const simd::FinishedTile& tile) {

@@ -1,9 +1,12 @@
+#include "scenes/tool/exit.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
 #include "tests/support/catch.hpp"
 
+#include <cerrno>
 #include <csignal>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
@@ -162,4 +165,22 @@ TEST_CASE("signals that the caller ignores stay ignored") {
         CHECK(process.wait_for_further_err("rays/s"));
     CHECK(fixture.wait_for_files(process, 2));
     check_end_on_terminal(fixture, process, SIGHUP);
+}
+
+/// A signal may arrive between a call that fails and the code that reads its error.
+TEST_CASE("the first signal leaves errno as it was") {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::close(STDERR_FILENO); // then isatty() fails and sets errno
+        raylane::scenes::catch_signals();
+        raylane::simd::Progress progress;
+        const raylane::scenes::StopOnSignal stop(progress);
+        errno = ENOSPC;
+        ::raise(SIGTERM);
+        const bool is_same = errno == ENOSPC;
+        ::_exit(is_same && raylane::scenes::StopOnSignal::signal() == SIGTERM ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 0));
 }
