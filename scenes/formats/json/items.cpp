@@ -63,7 +63,7 @@ class ItemParser {
   public:
     ItemParser(std::string_view file, JsonText& text, std::span<const RootKey> keys,
                const TakeItem& take, const MissItems& miss, InputErrors& errors,
-               Parameters* parameters)
+               Parameters& parameters)
         : file_(file), text_(text), keys_(keys), take_(take), miss_(miss), errors_(errors),
           item_(parameters) {}
 
@@ -314,7 +314,7 @@ bool ItemParser::parse_error(std::size_t read, const std::string& token,
 } // namespace
 
 Outline read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take,
-                   const MissItems& miss, InputErrors& errors, Parameters* parameters) {
+                   const MissItems& miss, InputErrors& errors, Parameters& parameters) {
     try {
         JsonText text(file);
         ItemParser parser(file.name(), text, keys, take, miss, errors, parameters);

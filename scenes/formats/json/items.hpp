@@ -60,6 +60,6 @@ struct Outline {
 /// continues after them. Throws BadInput with all errors so far if it cannot continue: if the text
 /// is not JSON, if an item is too deep or too large for a scene, or after too many errors.
 Outline read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take,
-                   const MissItems& miss, InputErrors& errors, Parameters* parameters = nullptr);
+                   const MissItems& miss, InputErrors& errors, Parameters& parameters);
 
 } // namespace raylane::scenes

@@ -20,7 +20,7 @@ void take_all(InputFile& file, std::span<const RootKey> keys, Inclusion& inclusi
     };
     const auto miss = [&](std::string_view key) { parameters.miss(key); };
     try {
-        read_items(file, keys, take, miss, untold, &parameters);
+        read_items(file, keys, take, miss, untold, parameters);
     } catch (const BadInput&) { // as far as can be read
         return;
     }

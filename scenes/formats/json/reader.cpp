@@ -149,7 +149,7 @@ Outline SceneReader::take_all(InputFile& file, InputErrors& errors) {
                 refuse_again(item.root());
             if (is_first || is_included(key.name)) take(key, name, item);
         },
-        [&](std::string_view key) { miss(key); }, errors, &parameters_);
+        [&](std::string_view key) { miss(key); }, errors, parameters_);
 }
 
 void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocument& item) {

@@ -167,22 +167,17 @@ auto JsonValue::with_number(const Use& use) const {
 Parameters::Number JsonValue::referred() const {
     if (!is_number()) fail_expecting("a number");
     const std::string_view text = document_->get(node().text);
-    if (document_->parameters_ != nullptr) {
-        if (auto number = document_->parameters_->find(text)) return *std::move(number);
-        if (document_->parameters_->is_wrong(text)) throw consequence();
-    }
+    Parameters& parameters = document_->parameters_;
+    if (auto number = parameters.find(text)) return *std::move(number);
+    if (parameters.is_wrong(text)) throw consequence();
     const std::string_view name = text.substr(text.find('$') + 1);
     if (!is_parameter_name(name))
         fail_expecting("a number, or $ and a name of letters, digits and underscores");
-    const bool knows_some = document_->parameters_ != nullptr;
-    const BadInput missing(
-        {error("must have a value, by \"parameters\" or --set, got " + quoted() +
-               (knows_some ? suggestion(name, document_->parameters_->names(), "$") : ""))});
-    if (knows_some) {
-        if (document_->parameters_->may_lack_some) throw consequence();
-        if (document_->parameters_->expects_more) throw LateParameter{missing};
-        if (document_->parameters_->note_missing(name)) throw consequence();
-    }
+    const BadInput missing({error("must have a value, by \"parameters\" or --set, got " + quoted() +
+                                  suggestion(name, parameters.names(), "$"))});
+    if (parameters.may_lack_some) throw consequence();
+    if (parameters.expects_more) throw LateParameter{missing};
+    if (parameters.note_missing(name)) throw consequence();
     throw missing;
 }
 

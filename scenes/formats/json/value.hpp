@@ -44,7 +44,7 @@ struct LateParameter {
 class JsonDocument {
   public:
     /// `parameters`: the values of "$name"; must outlive the document.
-    explicit JsonDocument(Parameters* parameters = nullptr) : parameters_(parameters) {}
+    explicit JsonDocument(Parameters& parameters) : parameters_(parameters) {}
 
     /// Empties the document for a value at `pointer` (a JSON pointer, printable) in `file`, which
     /// must outlive the document.
@@ -92,7 +92,7 @@ class JsonDocument {
         return std::string_view(text_).substr(text.first, text.size);
     }
 
-    Parameters* parameters_;
+    Parameters& parameters_;
     std::string_view file_;
     std::string pointer_;
     std::vector<Node> nodes_;

@@ -144,7 +144,8 @@ TEST_CASE("errors in solids name the shape and instances have a limit") {
 }
 
 TEST_CASE("shapes of instances and generators have a limit for the whole scene") {
-    scenes::JsonDocument document;
+    scenes::Parameters parameters;
+    scenes::JsonDocument document(parameters);
     document.begin("scene.json", "/objects/7");
     document.add(scenes::JsonType::number, {}, "", "8", 8.0);
     scenes::Definitions definitions;
