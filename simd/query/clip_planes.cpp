@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace raylane::simd {
 
@@ -12,41 +11,28 @@ namespace {
 using core::Solids;
 using core::Vec3d;
 
-/// `inside`: true if the half-space lies behind the plane, false if in front of it.
-std::optional<HalfSpace> half_space(const Vec3d& point, const Vec3d& normal, bool inside,
-                                    core::ShapeId shape) {
-    const double length = core::length(normal);
-    if (!(length > 0x1p-400) || !(length < 0x1p+400)) return {};
-    const Vec3d unit = (inside ? 1.0 : -1.0) / length * normal;
-    const double size =
-        std::abs(unit.x * point.x) + std::abs(unit.y * point.y) + std::abs(unit.z * point.z);
-    return HalfSpace{unit, core::dot(unit, point), size, shape, true, false};
-}
-
 /// The half-spaces that make a part: their intersection is the part if `inside` is true. Otherwise
 /// these are the complements, whose union is the reversed part.
 class HalfSpacesOf {
   public:
     HalfSpacesOf(const core::Scene& scene, const Solids::Node& part, bool inside)
-        : shape_(part.traced ? part.shape : core::no_shape - 1) {
+        : shape_(part.traced ? part.shape : core::no_shape - 1), inside_(inside) {
         core::with_table(scene.shapes(), part.kind,
-                         [&](const auto& table) { add(table.get(part.place), inside); });
+                         [&](const auto& table) { add(table.get(part.place)); });
     }
     std::vector<HalfSpace>::const_iterator begin() const { return found_.begin(); }
     std::vector<HalfSpace>::const_iterator end() const { return found_.end(); }
     std::ptrdiff_t size() const { return std::ssize(found_); }
 
   private:
-    void add(const core::PlaneOf<double>& plane, bool inside) {
-        take(half_space(plane.point, plane.normal, inside, shape_));
-    }
+    void add(const core::PlaneOf<double>& plane) { take(plane.point, plane.normal); }
     /// Adds only quadrics that are planes.
-    void add(const core::QuadricOf<double>& q, bool inside) {
+    void add(const core::QuadricOf<double>& q) {
         if (q.xx == 0.0 && q.yy == 0.0 && q.zz == 0.0 && q.xy == 0.0 && q.xz == 0.0 &&
             q.yz == 0.0 && q.one == 0.0)
-            take(half_space(q.center, {q.x, q.y, q.z}, inside, shape_));
+            take(q.center, {q.x, q.y, q.z});
     }
-    void add(const core::BoxOf<double>& box, bool inside) {
+    void add(const core::BoxOf<double>& box) {
         const Vec3d* const edges[] = {&box.edge_u, &box.edge_v, &box.edge_w};
         for (int k = 0; k < 3; ++k) {
             const Vec3d &u = *edges[(k + 1) % 3], &v = *edges[(k + 2) % 3];
@@ -54,27 +40,32 @@ class HalfSpacesOf {
             // With a normal this long, the differences of the cross product lose hardly a digit.
             if (!(core::length(normal) > 0x1p-3 * core::length(u) * core::length(v))) continue;
             if (core::dot(normal, *edges[k]) < 0.0) normal = -normal;
-            const Vec3d opposite = box.corner + *edges[k];
-            take(half_space(box.corner, -normal, inside, shape_));
-            take(half_space(opposite, normal, inside, shape_));
+            take(box.corner, -normal);
+            take(box.corner + *edges[k], normal);
         }
-        if (!inside && found_.size() != 6) found_.clear();
+        if (!inside_ && found_.size() != 6) found_.clear();
         // A ray that starts on one face of a solid box may leave through another: it is at first
         // inside of that face's half-space, and outside of it later. For a subtracted box, the
         // half-spaces are turned around, so a ray from it that is outside of one later has been
         // outside of it since its start.
         for (HalfSpace& half : found_)
-            half.stays = !inside;
+            half.stays = !inside_;
     }
     template <class Shape>
-    void add(const Shape&, bool) {}
+    void add(const Shape&) {}
 
-    void take(const std::optional<HalfSpace>& half) {
-        if (half) found_.push_back(*half);
+    /// Adds the half-space behind a plane if `inside_`, and otherwise the one in front of it.
+    void take(const Vec3d& point, const Vec3d& normal) {
+        const double length = core::length(normal);
+        if (!(length > 0x1p-400) || !(length < 0x1p+400)) return;
+        const Vec3d unit = (inside_ ? 1.0 : -1.0) / length * normal;
+        const double size =
+            std::abs(unit.x * point.x) + std::abs(unit.y * point.y) + std::abs(unit.z * point.z);
+        found_.push_back({unit, core::dot(unit, point), size, shape_, true, false});
     }
 
     core::ShapeId shape_;
-
+    bool inside_;
     std::vector<HalfSpace> found_;
 };
 
