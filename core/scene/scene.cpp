@@ -32,18 +32,13 @@ void Scene::find_transmissive() {
             transmissive_.any = true;
             if (solids_.has(id)) {
                 const Bounds& bounds = solids_.bounds(solids_.root_of(solids_.part_of(id)));
-                if (is_finite(bounds))
-                    transmissive_.bounds.include(bounds);
-                else
-                    transmissive_.any_unbounded = true;
+                if (is_finite(bounds)) transmissive_.bounds.include(bounds);
                 return;
             }
             if constexpr (is_bounded<Shape>) {
                 const Bounds bounds = bounds_of(shape);
                 transmissive_.bounds.include(bounds);
                 if (!is_solid<Shape>) transmissive_.open.include(bounds);
-            } else {
-                transmissive_.any_unbounded = true;
             }
         });
     });

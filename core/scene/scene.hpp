@@ -30,7 +30,6 @@ using NameOfShape = std::function<std::string(ShapeId)>;
 /// Shapes with a transmissive material: a point may be inside of them.
 struct TransmissiveShapes {
     bool any = false;
-    bool any_unbounded = false;
     Bounds bounds; ///< of the bounded ones
     Bounds open;   ///< of those that are not solids; several together may enclose points
 };
