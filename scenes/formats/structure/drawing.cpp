@@ -41,7 +41,7 @@ class SceneFromAtoms {
         require_places();
         if (drawing_.select != "all") {
             std::vector<std::string> unmatched;
-            selected_ = select_atoms(structure_, "--select", drawing_.select, &unmatched);
+            selected_ = select_atoms(structure_, drawing_.select, unmatched);
             count_ = static_cast<std::size_t>(std::count(selected_.begin(), selected_.end(), 1));
             if (count_ == 0)
                 throw BadInput("--select", "",

@@ -59,9 +59,8 @@ constexpr std::array<std::string_view, 16> keywords = {
 
 class Parser {
   public:
-    Parser(const Structure& structure, const std::string& option, std::string_view text,
-           std::vector<std::string>* unmatched)
-        : structure_(structure), option_(option), text_(text), unmatched_(unmatched) {
+    Parser(const Structure& structure, std::string_view text, std::vector<std::string>& unmatched)
+        : structure_(structure), text_(text), unmatched_(unmatched) {
         advance();
     }
 
@@ -78,7 +77,7 @@ class Parser {
     }
     /// Throws for a word of the expression, which may be behind the parser already.
     [[noreturn]] void fail_at(std::string_view word, const std::string& message) const {
-        throw BadInput(option_, place_of(word), message);
+        throw BadInput("--select", place_of(word), message);
     }
     [[noreturn]] void fail(const std::string& message) const { fail_at(word_, message); }
 
@@ -86,13 +85,12 @@ class Parser {
     template <class Test>
     void note_unmatched(const std::vector<std::string_view>& words, const char* what,
                         const Test& is_there) const {
-        if (unmatched_ == nullptr) return;
         for (const std::string_view word : words)
             if (!is_there(word))
-                unmatched_->push_back(text_of({option_,
-                                               {},
-                                               place_of(word),
-                                               "\"" + printable(word) + "\" matches no " + what}));
+                unmatched_.push_back(text_of({"--select",
+                                              {},
+                                              place_of(word),
+                                              "\"" + printable(word) + "\" matches no " + what}));
     }
 
     /// Goes to the next word. Words end at blanks, parentheses and comparisons.
@@ -381,18 +379,17 @@ class Parser {
     }
 
     const Structure& structure_;
-    const std::string& option_;
     std::string_view text_, word_;
     std::size_t position_ = 0;
     int depth_ = 0;
-    std::vector<std::string>* unmatched_;
+    std::vector<std::string>& unmatched_;
 };
 
 } // namespace
 
-std::vector<char> select_atoms(const Structure& structure, const std::string& option,
-                               std::string_view expression, std::vector<std::string>* unmatched) {
-    return Parser(structure, option, expression, unmatched).all();
+std::vector<char> select_atoms(const Structure& structure, std::string_view expression,
+                               std::vector<std::string>& unmatched) {
+    return Parser(structure, expression, unmatched).all();
 }
 
 } // namespace raylane::scenes

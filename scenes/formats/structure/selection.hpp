@@ -21,10 +21,9 @@ namespace raylane::scenes {
 ///   within 5 of ...    at most 5 angstrom from any atom that ... selects, with these atoms
 ///   not ..., ... and ..., ... or ..., ( ... )
 /// "and" binds more tightly than "or", "not" and "within" more tightly than both. Throws BadInput
-/// for `option`, with the column, for an invalid expression. `unmatched`, if given, receives a
-/// message for each name in a list that no atom has.
-std::vector<char> select_atoms(const Structure& structure, const std::string& option,
-                               std::string_view expression,
-                               std::vector<std::string>* unmatched = nullptr);
+/// for --select, with the column, for an invalid expression. `unmatched` receives a message for
+/// each name in a list that no atom has.
+std::vector<char> select_atoms(const Structure& structure, std::string_view expression,
+                               std::vector<std::string>& unmatched);
 
 } // namespace raylane::scenes

@@ -50,7 +50,8 @@ Structure peptide() {
 
 std::string selected(const Structure& structure, const std::string& expression) {
     std::string result;
-    for (const char is_selected : select_atoms(structure, "--select", expression))
+    std::vector<std::string> unmatched;
+    for (const char is_selected : select_atoms(structure, expression, unmatched))
         result.push_back(is_selected != 0 ? '1' : '0');
     return result;
 }
@@ -249,7 +250,7 @@ TEST_CASE("a remark has the column of a name in a list that matches nothing") {
     const Structure all = peptide();
     const auto unmatched = [&](const std::string& expression) {
         std::vector<std::string> messages;
-        select_atoms(all, "--select", expression, &messages);
+        select_atoms(all, expression, messages);
         return messages;
     };
     using Messages = std::vector<std::string>;
