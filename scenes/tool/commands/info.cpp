@@ -98,12 +98,10 @@ std::string bytes_text(double bytes) {
     return text;
 }
 
-void print_line(const std::string& name, const std::string& value) {
-    std::printf("%-10s %s\n", name.c_str(), value.c_str());
-}
-
 void print(const Json& info) {
-    const auto line = print_line;
+    const auto line = [](const char* name, const std::string& value) {
+        std::printf("%-10s %s\n", name, value.c_str());
+    };
     const auto number = [&](const char* key) { return info[key].dump(); };
     std::string shapes = number("shape_count");
     std::string kinds;
