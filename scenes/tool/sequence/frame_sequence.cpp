@@ -208,9 +208,9 @@ class StripProgress {
 /// stands for one %.
 class NumberedName {
   public:
-    /// Throws BadInput with the option's name if the pattern is malformed. `needs_number`: false if
-    /// a pattern without a number is acceptable, for a single file.
-    NumberedName(const std::string& option, const std::string& pattern, bool needs_number);
+    /// Throws BadInput for --output if the pattern is malformed. `needs_number`: false if a pattern
+    /// without a number is acceptable, for a single file.
+    NumberedName(const std::string& pattern, bool needs_number);
     std::string operator()(std::size_t number) const;
 
   private:
@@ -220,11 +220,10 @@ class NumberedName {
     char fill_ = ' ';
 };
 
-NumberedName::NumberedName(const std::string& option, const std::string& pattern,
-                           bool needs_number) {
+NumberedName::NumberedName(const std::string& pattern, bool needs_number) {
     const auto refuse = [&] {
         throw BadInput(
-            option, "",
+            "--output", "",
             "must have one placeholder for the image number, such as %05d, and %% for a %, got \"" +
                 printable(pattern, 4096) + "\"");
     };
@@ -321,7 +320,7 @@ std::function<std::string(std::size_t)>
 image_names(const std::string& scene, const std::optional<std::string>& output, bool is_one) {
     const std::string standard =
         with_percents_doubled(default_output(scene, "")) + (is_one ? ".png" : "-%05d.png");
-    const NumberedName name("--output", output.value_or(standard), !is_one);
+    const NumberedName name(output.value_or(standard), !is_one);
     return [=](std::size_t number) {
         std::string file = name(number);
         require_other_than_scene("--output", file, scene);
