@@ -137,7 +137,7 @@ class ReferenceTracer {
     Real let_through(const Hit<Real>& hit, const Ray<Real>& ray,
                      const OriginSurfaces<Real>& origins, Media media, Media media_behind);
     Media media_behind(const Path& path, const Surface& surface);
-    Media media_behind(const Hit<Real>& hit, Media media, int count = 1);
+    Media media_behind(const Hit<Real>& hit, Media media, int count);
     MaterialIndex medium_before(const Hit<Real>& hit, Media media) const;
     Vector absorbed(MaterialIndex medium, Real distance) const;
 

@@ -13,7 +13,7 @@ namespace raylane::scenes {
 /// Calls load_scene() with `threads` threads (0: default_threads()) and shows a line of progress.
 /// Remarks on the file go to standard error, unless `verbosity` is quiet.
 core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions options,
-                               Verbosity verbosity, int threads = 0);
+                               Verbosity verbosity, int threads);
 
 /// Does the same with the options of a command, and returns the scene with the view that they
 /// request.

@@ -50,11 +50,11 @@ inline constexpr AtomPair no_atoms = {std::numeric_limits<AtomIndex>::max(),
                                       std::numeric_limits<AtomIndex>::max()};
 
 /// Fills a builder with the atoms, a camera that sees all of them, lights around them, and settings
-/// for a good image. `file` is the name in messages. `atoms_of_shape`, if given, receives the atoms
-/// of each shape. Throws BadInput for missing data: an empty selection, an unknown property.
+/// for a good image. `file` is the name in messages. `atoms_of_shape`, unless null, receives the
+/// atoms of each shape. Throws BadInput for missing data: an empty selection, an unknown property.
 /// Reports omitted bonds, and names that select nothing, to `on_remark`.
 DrawingScale draw(const Structure& structure, const Drawing& drawing, const std::string& file,
-                  core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape = nullptr,
-                  const OnRemark& on_remark = {});
+                  core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape,
+                  const OnRemark& on_remark);
 
 } // namespace raylane::scenes

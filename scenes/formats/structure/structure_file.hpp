@@ -30,10 +30,9 @@ core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
                            const std::string& file, core::Workers* workers = nullptr,
                            DrawingScale* scale = nullptr, const OnRemark& on_remark = {});
 
-/// Returns the scene of a file's first frame of atoms. `legend`, if given, receives the meaning of
-/// its shapes. Throws BadInput, with the line, and SystemRefused.
+/// Returns the scene of a file's first frame of atoms. `legend`, unless null, receives the meaning
+/// of its shapes. Throws BadInput, with the line, and SystemRefused.
 core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& options,
-                           const Drawing& drawing, core::Workers* workers = nullptr,
-                           Legend* legend = nullptr);
+                           const Drawing& drawing, core::Workers* workers, Legend* legend);
 
 } // namespace raylane::scenes
