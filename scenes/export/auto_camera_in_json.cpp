@@ -42,10 +42,6 @@ bool is_same_in_files(const Of& a, const Of& b) {
     return same;
 }
 
-std::span<const core::Light> brought_lights(const core::Scene& scene) {
-    return std::span(scene.lights()).subspan(scene.own_light_count());
-}
-
 /// Returns true if scenes/formats/json/surroundings.cpp accepts the fit.
 bool is_read(const core::FitCamera& fit_camera) {
     const bool perspective = fit_camera.projection == core::Projection::perspective;
@@ -86,7 +82,7 @@ core::AutoCamera auto_camera_in_json(const core::Scene& scene) {
     const auto same = [](const core::Light& a, const core::Light& b) {
         return is_same_in_files(a, b);
     };
-    const std::span<const core::Light> brought = brought_lights(scene);
+    const auto brought = std::span(scene.lights()).subspan(scene.own_light_count());
     said.lights = said.lights && std::equal(view->lights.begin(), view->lights.end(),
                                             brought.begin(), brought.end(), same);
     return said;
