@@ -8,10 +8,6 @@ namespace raylane::core {
 
 namespace {
 
-Dyadic doubled(const Dyadic& a) {
-    return a + a;
-}
-
 Dyadic power_of_2(int exponent) {
     Dyadic power = 1.0;
     for (; exponent < -1000; exponent += 1000)
@@ -35,7 +31,7 @@ int ExactRoot::sign_of(const ExactQuadratic& G) const {
         return (A2 * C * C + 4.0 * B * (B * C2 - B2 * C)).sign();
     const Dyadic J = A * B2 - A2 * B, K = A * C2 - A2 * C;
     const int y = rises_ ? J.sign() : -J.sign();
-    const int x = (A * K - doubled(J * B)).sign();
+    const int x = (A * K - 2.0 * J * B).sign();
     if (y == 0 || x == y) return x;
     const int larger = (K * K - 4.0 * J * (B * C2 - B2 * C)).sign();
     return larger > 0 ? x : larger < 0 ? y : 0;
