@@ -119,24 +119,19 @@ class MemoryIn : public Imf::IStream {
     std::size_t at_ = 0;
 };
 
-/// Describes the values of one channel, `step` bytes apart.
-template <class Value>
-Imf::Slice slice_of(Imf::PixelType type, const Value* values, std::size_t step, int width) {
-    char* const base =
-        const_cast<char*>(reinterpret_cast<const char*>(values)); // NOLINT: only read
-    return {type, base, step, step * static_cast<unsigned>(width)};
-}
-
 struct Channels {
     Imf::Header& header;
     Imf::FrameBuffer buffer{};
 
+    /// Adds a channel whose values are `step` bytes apart.
     template <class Value>
     void add(const char* name, Imf::PixelType type, const Value* values,
              std::size_t step = sizeof(Value)) {
         header.channels().insert(name, Imf::Channel(type));
-        buffer.insert(name, slice_of(type, values, step,
-                                     header.dataWindow().max.x - header.dataWindow().min.x + 1));
+        char* const base =
+            const_cast<char*>(reinterpret_cast<const char*>(values)); // NOLINT: only read
+        const int width = header.dataWindow().max.x - header.dataWindow().min.x + 1;
+        buffer.insert(name, {type, base, step, step * static_cast<unsigned>(width)});
     }
 };
 
