@@ -13,17 +13,17 @@ namespace raylane::core {
 
 namespace {
 
-/// How many of n pixels a pass takes: n / dense, or n / sparse for large images, within bounds.
-struct Fraction {
-    std::size_t dense, fewest, sparse, most;
-
-    std::size_t of(std::size_t pixels) const {
-        constexpr std::size_t least = 512;
-        const std::size_t many = std::clamp(pixels / sparse, fewest, most);
-        return std::min(pixels, std::max(least, std::min(pixels / dense, many)));
-    }
-};
-constexpr Fraction places{6, 2048, 128, 4096}, sampled{24, 1024, 1024, 1024};
+/// Returns how many pixels a pass takes: one in so many, but at least 512, if there are as many,
+/// and at most `most`.
+std::size_t share_of(std::size_t pixels, std::size_t one_in, std::size_t most) {
+    return std::min(pixels, std::clamp<std::size_t>(pixels / one_in, 512, most));
+}
+std::size_t places_in(std::size_t pixels) {
+    return share_of(pixels, 6, std::clamp<std::size_t>(pixels / 128, 2048, 4096));
+}
+std::size_t sampled_in(std::size_t pixels) {
+    return share_of(pixels, 24, 1024);
+}
 /// Places in a batch.
 constexpr std::size_t batch_places = 128;
 /// The chance of a place grows with its deviation. This multiple of the mean deviation is added to
@@ -75,7 +75,7 @@ double squared_distance(const Mean& a, const Mean& b, Transfer transfer) {
 Survey::Survey(const Settings& settings) : settings_(settings) {
     const std::size_t pixels = pixels_of(settings);
     const std::uint64_t key = sequence_key(0, 0, SequenceUse::in_pixel);
-    for (std::size_t i = 0; i < places.of(pixels); ++i) {
+    for (std::size_t i = 0; i < places_in(pixels); ++i) {
         const SamplePoint point = sequence_point(key, static_cast<std::uint32_t>(i));
         places_.push_back({static_cast<int>(point.x * static_cast<float>(settings.width)),
                            static_cast<int>(point.y * static_cast<float>(settings.height))});
@@ -181,7 +181,7 @@ void Survey::choose_records() {
     }
     const auto count = static_cast<double>(places_.size());
     const double base = all > 0.0 ? anywhere * all / count : 1.0;
-    const auto samples = static_cast<double>(sampled.of(pixels_of(settings_)));
+    const auto samples = static_cast<double>(sampled_in(pixels_of(settings_)));
     const double step = (all + base * count) / samples;
     double due = 0.5 * step;
     for (std::size_t i = 0; i < places_.size(); ++i) {
