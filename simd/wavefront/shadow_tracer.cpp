@@ -51,22 +51,23 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
 }
 
 void ShadowTracer::trace(const LightView& light, EngineCounters& counters) {
-    // Deeper waves hit surfaces far apart: too many shapes are between them and the light.
-    trace(coherence_of(light), wave_->coherent || !scene_.has_tree(), counters);
+    trace(coherence_of(light), counters);
 }
 
 void ShadowTracer::trace_softly(EngineCounters& counters) {
-    trace(neighbours, wave_->coherent || !scene_.has_tree(), counters);
+    trace(neighbours, counters);
 }
 
 void ShadowTracer::let_pass() {
     std::fill_n(state_, rays_.count, std::uint8_t{unblocked});
 }
 
-/// `together`: true if the occlusion search takes many rays at a time.
-void ShadowTracer::trace(const Coherence& coherence, bool together, EngineCounters& counters) {
+void ShadowTracer::trace(const Coherence& coherence, EngineCounters& counters) {
     counters.shadow += rays_.count;
     start();
+    // Deeper waves hit surfaces far apart: too many shapes are between them and the light for a
+    // search that takes many rays at a time.
+    const bool together = wave_->coherent || !scene_.has_tree();
     find_blocked(together ? &coherence : nullptr, counters);
 
     walk_.count = 0;

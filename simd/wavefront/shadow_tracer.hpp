@@ -43,7 +43,7 @@ class ShadowTracer {
     bool arrives(std::size_t ray) const { return state_[ray] != blocked; }
 
   private:
-    void trace(const Coherence& coherence, bool together, EngineCounters& counters);
+    void trace(const Coherence& coherence, EngineCounters& counters);
     void start();
     void find_blocked(const Coherence* coherence, EngineCounters& counters);
     void walk(const Coherence& coherence, EngineCounters& counters);
