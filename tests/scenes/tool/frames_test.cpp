@@ -10,8 +10,6 @@ using namespace raylane::tests;
 
 namespace {
 
-using Options = std::vector<std::string>;
-
 /// Returns three atoms that move apart, frame by frame.
 std::string trajectory(int frames) {
     std::string text;

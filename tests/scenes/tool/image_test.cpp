@@ -9,8 +9,6 @@ using namespace raylane::tests;
 
 namespace {
 
-using Options = std::vector<std::string>;
-
 std::string error_of(const ToolFixture& fixture, const std::string& name, const Options& options) {
     const Outcome outcome = fixture.render(name, options);
     CHECK(outcome.code == 2);
@@ -19,21 +17,15 @@ std::string error_of(const ToolFixture& fixture, const std::string& name, const 
     return outcome.err;
 }
 
-scenes::Image rendered(const ToolFixture& fixture, const std::string& name,
-                       const Options& options) {
-    REQUIRE(fixture.render(name, options).code == 0);
-    return scenes::read_image(fixture.path() / name);
-}
-
 } // namespace
 
 TEST_CASE("a crop has the pixels of the whole image") {
     const ToolFixture fixture;
     for (const Options& sampling : {Options{"--spp", "4"}, {"--quality", "40"}}) {
         const Options options = joined(sampling, {"--size", "40x30", "--outline", "2"});
-        const scenes::Image whole = rendered(fixture, "whole.pfm", options);
+        const scenes::Image whole = fixture.rendered("whole.pfm", options);
         const scenes::Image part =
-            rendered(fixture, "part.pfm", joined(options, {"--crop", "7,3,21x19"}));
+            fixture.rendered("part.pfm", joined(options, {"--crop", "7,3,21x19"}));
         REQUIRE(part.width == 21);
         REQUIRE(part.height == 19);
         for (int y = 0; y < 19; ++y)
@@ -74,12 +66,12 @@ TEST_CASE("the option --alpha leaves the background out") {
     std::string without = ball;
     without.replace(without.find("\"width\""), 0, "\"alpha\": true, ");
     const ToolFixture fixture, by_scene(without);
-    const scenes::Image asked = rendered(fixture, "a.png", {"--alpha"});
+    const scenes::Image asked = fixture.rendered("a.png", {"--alpha"});
     REQUIRE(asked.alpha.size() == 16 * 12);
     CHECK(asked.alpha[0] == 0.0F);
     CHECK(asked.rgb[2] == 0.0F);
     CHECK(asked.alpha[6 * 16 + 8] == 1.0F);
-    const scenes::Image own = rendered(by_scene, "a.png", {});
+    const scenes::Image own = by_scene.rendered("a.png", {});
     CHECK(own.rgb.is_same(asked.rgb));
     CHECK(own.alpha.is_same(asked.alpha));
     // The Comment has the option if it was given.
@@ -91,15 +83,15 @@ TEST_CASE("the option --alpha leaves the background out") {
     CHECK(comment(asked) == comment(own) + " --alpha");
     CHECK(by_scene.run({"verify", "a.png", "scene.json", "--whole", "-q"}).code == 0);
     CHECK(fixture.run({"verify", "a.png", "scene.json", "--whole", "-q"}).code == 0);
-    CHECK(rendered(fixture, "b.png", {}).alpha.size() == 0);
+    CHECK(fixture.rendered("b.png", {}).alpha.size() == 0);
     CHECK(fixture.run({"compare", "a.png", "a.png"}).code == 0);
     CHECK(fixture.run({"compare", "a.png", "b.png"}).code == 1);
     // Other formats show the image over black.
-    CHECK(rendered(by_scene, "a.pfm", {}).rgb[2] == 0.0F);
+    CHECK(by_scene.rendered("a.pfm", {}).rgb[2] == 0.0F);
     CHECK(error_of(fixture, "a.pfm", {"--alpha"}) == "raylane: --alpha: goes with PNG or EXR\n");
     if (!scenes::has_exr()) return;
-    const scenes::Image exr = rendered(fixture, "a.exr", {"--alpha", "--bits", "32"});
-    CHECK(exr.rgb.floats() == rendered(by_scene, "a.pfm", {}).rgb.floats());
+    const scenes::Image exr = fixture.rendered("a.exr", {"--alpha", "--bits", "32"});
+    CHECK(exr.rgb.floats() == by_scene.rendered("a.pfm", {}).rgb.floats());
     CHECK(exr.alpha[6 * 16 + 8] == 1.0F);
 }
 
@@ -141,8 +133,8 @@ TEST_CASE("layers are written to an EXR") {
     CHECK(error_of(fixture, "a.exr", {"--bits", "8"}) ==
           "raylane: --bits: must be 16 or 32 in EXR, got \"8\"\n");
     const Options options = {"--layers", "--bits", "32"};
-    const scenes::Image image = rendered(fixture, "a.exr", options);
-    const scenes::Image floats = rendered(fixture, "a.pfm", {});
+    const scenes::Image image = fixture.rendered("a.exr", options);
+    const scenes::Image floats = fixture.rendered("a.pfm", {});
     CHECK(image.rgb.floats() == floats.rgb.floats());
     CHECK(fixture.run({"compare", "a.exr", "a.pfm"}).code == 0);
     const std::string content = content_of(fixture.path() / "a.exr");

@@ -14,8 +14,6 @@ using namespace raylane::tests;
 
 namespace {
 
-using Options = std::vector<std::string>;
-
 Options part(int number, int count, const Options& options = {}) {
     const std::string k = std::to_string(number), n = std::to_string(count);
     return joined({"render", "scene.json", "-o", "part-" + k + ".exr", "--part", k + "/" + n},

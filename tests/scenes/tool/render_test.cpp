@@ -10,8 +10,6 @@ using namespace raylane::tests;
 
 namespace {
 
-using Options = std::vector<std::string>;
-
 /// Renders an image and returns its bytes. The rendering must succeed.
 std::string bytes_of(const ToolFixture& fixture, const std::string& name, const Options& options) {
     const Outcome outcome = fixture.render(name, options);
@@ -23,8 +21,7 @@ std::string bytes_of(const ToolFixture& fixture, const std::string& name, const 
 
 scenes::Image rendered(const ToolFixture& fixture, const Options& options,
                        const std::string& name = "picture.pfm") {
-    REQUIRE(fixture.render(name, options).code == 0);
-    return scenes::read_image(fixture.path() / name);
+    return fixture.rendered(name, options);
 }
 
 /// Returns red, green and blue of a pixel.

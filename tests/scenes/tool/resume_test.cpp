@@ -18,8 +18,6 @@ using namespace raylane::tests;
 
 namespace {
 
-using Options = std::vector<std::string>;
-
 /// Returns the command that renders an image of many tiles.
 Options drawing(const Options& options = {}, const char* threads = "2") {
     return joined({"render", "scene.json", "-o", "out/picture.png", "--spp", "4", "--size",

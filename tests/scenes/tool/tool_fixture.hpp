@@ -1,7 +1,9 @@
 #pragma once
 
+#include "scenes/images/reader.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/scenes/tool/process.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/comes_true.hpp"
 
 #include <algorithm>
@@ -20,13 +22,14 @@ inline const std::string ball = R"({
     "objects": [{"type": "sphere", "material": "red", "center": [0, 0, 0], "radius": 1}]
 })";
 
-/// Options that make an image of any scene take hours.
-inline const std::vector<std::string> hours = {"--size", "4000x4000", "--spp", "65536"};
-/// Options that make an image take minutes, in tiles that take a moment.
-inline const std::vector<std::string> minutes = {"--size", "4000x4000", "--spp", "256"};
+using Options = std::vector<std::string>;
 
-inline std::vector<std::string> joined(std::vector<std::string> a,
-                                       const std::vector<std::string>& b) {
+/// Options that make an image of any scene take hours.
+inline const Options hours = {"--size", "4000x4000", "--spp", "65536"};
+/// Options that make an image take minutes, in tiles that take a moment.
+inline const Options minutes = {"--size", "4000x4000", "--spp", "256"};
+
+inline Options joined(Options a, const Options& b) {
     a.insert(a.end(), b.begin(), b.end());
     return a;
 }
@@ -78,8 +81,13 @@ class ToolFixture {
     }
 
     /// Renders scene.json as `name`, with `options`.
-    Outcome render(const std::string& name, const std::vector<std::string>& options = {}) const {
+    Outcome render(const std::string& name, const Options& options = {}) const {
         return run(joined({"render", "scene.json", "-o", name}, options));
+    }
+    /// Does the same, which must succeed, and returns the image.
+    scenes::Image rendered(const std::string& name, const Options& options = {}) const {
+        REQUIRE(render(name, options).code == 0);
+        return scenes::read_image(path() / name);
     }
 
   private:

@@ -16,8 +16,6 @@ using namespace raylane::tests;
 
 namespace {
 
-using Options = std::vector<std::string>;
-
 Outcome verify(const ToolFixture& fixture, const std::string& image, const Options& options = {}) {
     return fixture.run(joined({"verify", image, "scene.json", "--quiet"}, options));
 }
