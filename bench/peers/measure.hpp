@@ -44,7 +44,7 @@ struct Row {
     /// Returns the result for users of raylane: the library's, or the first if the row lacks one.
     const Result& users() const;
     /// Returns how many times better users() is than the best contender that is not raylane's;
-    /// empty if there is none.
+    /// empty if all are raylane's.
     std::optional<double> ratio() const;
     nlohmann::ordered_json json() const;
     void print() const;

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <vector>
 
-/// Computes the bounds of a constructed solid, of its parts (the shapes that it is made of), and of
-/// the points at which the inside or the surface of a part may affect the solid.
+/// Computes the bounds of a constructed solid and of its parts, the shapes that it is made of. Also
+/// bounds the points at which the inside or the surface of a part may affect the solid.
 namespace raylane::core {
 
 namespace {
