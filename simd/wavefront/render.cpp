@@ -290,14 +290,12 @@ core::Region drawn_part(const core::Settings& settings, const std::optional<core
 }
 
 int tile_of(const core::Settings& settings, const RenderOptions& options) {
-    const bool has_quality = settings.quality != 0.0F;
     const int tile = options.engine == Engine::reference ? (options.tile != 0 ? options.tile : 16)
                      : options.tile != 0 ? std::clamp(options.tile, 1, Wavefront::max_region)
-                     : has_quality       ? Wavefront::max_region
                                          : 32;
     // With a quality, tiles consist of whole squares.
     constexpr int square = core::RegionSamples::square_size;
-    return has_quality ? (tile + square - 1) / square * square : tile;
+    return settings.quality != 0.0F ? (tile + square - 1) / square * square : tile;
 }
 
 TileGrid grid_of(const core::Settings& settings, const RenderOptions& options) {
