@@ -150,7 +150,7 @@ std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) 
 std::string bash_pattern(const CLI::App& command, const CLI::Option& option) {
     std::vector<std::string> names = names_of(option);
     for (std::string& name : names)
-        name = command.get_name() + ":" + name;
+        name.insert(0, command.get_name() + ":");
     return joined(names, "|");
 }
 

@@ -77,9 +77,9 @@ struct Work {
 /// Returns the output of a single image.
 std::string checked_output(const RenderArguments& arguments) {
     const std::string& scene = *arguments.scene;
-    const std::string output = arguments.frames.is_one()
-                                   ? image_names(scene, arguments.output.value(), true)(0)
-                                   : arguments.output.value_or(default_output(scene, ".png"));
+    std::string output = arguments.frames.is_one()
+                             ? image_names(scene, arguments.output.value(), true)(0)
+                             : arguments.output.value_or(default_output(scene, ".png"));
     require_other_than_scene("--output", output, scene);
     if (arguments.stats) {
         require_other_than_scene("--stats", *arguments.stats, scene);

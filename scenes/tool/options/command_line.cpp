@@ -76,7 +76,7 @@ bool is_read_as(const std::string& word, const std::string& value) {
 /// separate words equally.
 std::string as_word(std::string value) {
     std::replace(value.begin(), value.end(), '\t', ' ');
-    const std::string text = printable(value, longest_value);
+    std::string text = printable(value, longest_value);
     constexpr std::string_view quotes = "\"'`";
     if (text.find_first_of(" \\" + std::string(quotes)) == std::string::npos) return text;
     // Quotes that the value does not contain come first, because shells read these as well.
