@@ -2,8 +2,8 @@
 #
 # `step SECONDS NAME` begins a step and ends the previous one; `step` alone ends the last one. A step that
 # fails ends the run at once. A step that took more than twice its budget fails the run at its end: budgets
-# are for two idle cores without a compiler cache, and other machines differ. A step that has called `skipped`
-# is marked.
+# are for two idle cores without a compiler cache (in the bare root: with one), and other machines differ. A step
+# that has called `skipped` is marked.
 
 cd "$(dirname "$0")/.."
 steps=$(mktemp)

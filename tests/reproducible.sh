@@ -41,7 +41,7 @@ if [ "${1-}" = quick ]; then
     # Objects of each floor of the library.
     set -- core/CMakeFiles/raylane_core.dir/numbers/dyadic.cpp.o \
         core/CMakeFiles/raylane_core.dir/scene/glass.cpp.o \
-        scenes/CMakeFiles/raylane_scenes.dir/format.cpp.o \
+        scenes/CMakeFiles/raylane_scenes.dir/formats/format.cpp.o \
         scenes/api/cpp/CMakeFiles/raylane_api.dir/version.cpp.o
     build() { quietly cmake --build build/own --target "$@"; }
 elif [ "${1-}" = kernels ]; then
@@ -49,6 +49,7 @@ elif [ "${1-}" = kernels ]; then
     for isa in sse42 avx2 avx512; do
         for unit in "$project"/simd/units/*.cpp; do
             name=$(basename "$unit" .cpp)
+            [ "$name" != kernels ] || continue # no kernel: chooses among them
             set -- "$@" "simd/CMakeFiles/raylane_simd-$name-$isa.dir/units/$name.cpp.o"
         done
     done
