@@ -64,10 +64,29 @@ Bounds bounds_of(const Somewhere& point) {
     return bounds;
 }
 
-Somewhere point_of(const LeavingRay& from, const Hit<double>& hit) {
+Somewhere point_at(double t, double error, const Ray<double>& ray) {
     using Real = Bounded<double>;
-    return mul_add(Real(hit.t, hit.error), convert<Real>(from.ray.direction),
-                   convert<Real>(from.ray.origin));
+    return mul_add(Real(t, error), convert<Real>(ray.direction), convert<Real>(ray.origin));
+}
+
+Somewhere point_of(const LeavingRay& from, const Hit<double>& hit) {
+    return point_at(hit.t, hit.error, from.ray);
+}
+
+/// Returns true if the ray certainly crosses the shape's surface at a hit and does not only touch
+/// it: the shape is convex, and contains a point of the ray a little behind the entry or before the
+/// exit.
+template <class Shape>
+bool certainly_crosses(const Shape& shape, const LeavingRay& from, const Hit<double>& hit) {
+    if constexpr (is_solid<Shape>) {
+        if (hit.entering && from.origins.start_on(hit.shape).on_surface) return false;
+        // Any number of errors would do. At this depth, rounding rarely hides the inside.
+        const double step = 0x1p20 * hit.error;
+        const double t = hit.entering ? hit.t + step : hit.t - step;
+        return step > 0.0 && t > 0.0 && inside_of(shape, point_at(t, 0.0, from.ray)) == Value::yes;
+    } else {
+        return false;
+    }
 }
 
 } // namespace
@@ -151,7 +170,7 @@ Value SolidSurfaces::quickly(const LeavingRay& from, const Hit<double>& hit,
                 Value others = Value::no;
                 if (searched)
                     others = value_of_many(parent, index, from, hit, point);
-                else if (way.inside > (hit.entering ? 0 : 1))
+                else if (way.hides(solids_, hit.shape, hit.entering))
                     others = Value::yes;
                 if (others == decides) return Value::no;
                 if (others == Value::unknown) value = others;
@@ -170,6 +189,7 @@ Value SolidSurfaces::quickly(const LeavingRay& from, const Hit<double>& hit,
     // A ray that only touches the shape changes no value.
     const Solids::Node& part = solids_.node(own);
     const bool is_alone = with_part(scene_, part, [&](const auto& shape) {
+        if (certainly_crosses(shape, from, hit)) return true;
         std::uint64_t widened = 0;
         int there = 0;
         for (const Crossing<double>& crossing :

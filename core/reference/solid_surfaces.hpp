@@ -15,11 +15,19 @@ struct WayInUnion {
     /// ray starts on the surface of a single part of the union, or outside of the union's bounds.
     WayInUnion(const Scene& scene, const LeavingRay& from, ShapeId shape);
 
-    /// Counts the crossing of a part.
-    void pass(const Scene& scene, const Hit<double>& hit) {
-        if (counted == Solids::none || !scene.solids().has(hit.shape)) return;
-        const Solids::Index part = scene.solids().part_of(hit.shape);
-        if (scene.solids().node(part).parent == counted) inside += hit.entering ? 1 : -1;
+    /// Counts the crossing of a part of a solid.
+    void pass(const Solids& solids, ShapeId part, bool entering) {
+        if (has(solids, part)) inside += entering ? 1 : -1;
+    }
+
+    /// Returns true if another part of the union contains the crossing of a part of a solid.
+    bool hides(const Solids& solids, ShapeId part, bool entering) const {
+        return has(solids, part) && inside > (entering ? 0 : 1);
+    }
+
+  private:
+    bool has(const Solids& solids, ShapeId part) const {
+        return counted != Solids::none && solids.node(solids.part_of(part)).parent == counted;
     }
 };
 

@@ -184,9 +184,15 @@ bool TransparencyWalk::is_visible(const Paths& paths, const Hits& hits, std::siz
     const SceneData::ShapeRecord shape = scene_.record_of(hits.slot[lane]);
     const bool is_seen =
         scene.materials()[shape.material].is_seen(shape.is_entered(hits.hit[lane]));
-    if (!scene.solids().has(shape.id)) return is_seen;
-    if (is_seen && &paths != &onward_paths_ && fills_first(paths, hits, lane, shape.id))
-        return true;
+    const core::Solids& solids = scene.solids();
+    if (!solids.has(shape.id)) return is_seen;
+    const bool is_first = &paths != &onward_paths_;
+    const bool entering = (hits.hit[lane] & hit_entering) != 0;
+    if (!is_first && way.hides(solids, shape.id, entering)) {
+        way.pass(solids, shape.id, entering);
+        return false;
+    }
+    if (is_seen && is_first && fills_first(paths, hits, lane, shape.id)) return true;
     const CutUnion* cut = scene_.cut_by(shape.id);
     if (is_seen && cut != nullptr) {
         const core::Value is_face = is_cut_face(paths, hits, lane, shape.id, *cut);
@@ -194,16 +200,16 @@ bool TransparencyWalk::is_visible(const Paths& paths, const Hits& hits, std::siz
     }
     const core::Ray<double> ray = ray_of(paths, lane);
     const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths, lane);
-    const core::Hit<double> hit = hit_of(scene_, paths, hits, lane);
-    if (&paths != &onward_paths_) {
+    if (is_first) {
         way = {scene, {ray, origins}, shape.id};
         if (way.counted != core::Solids::none && scene_.is_cut(way.counted)) way = {};
     }
-    if (is_seen && solid_surfaces_.is_surface({ray, origins}, hit, way)) {
+    if (is_seen &&
+        solid_surfaces_.is_surface({ray, origins}, hit_of(scene_, paths, hits, lane), way)) {
         if (cut != nullptr) cut_faces_.remember(*cut, solid_surfaces_.last_around());
         return true;
     }
-    way.pass(scene, hit);
+    way.pass(solids, shape.id, entering);
     return false;
 }
 
