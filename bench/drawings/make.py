@@ -122,8 +122,7 @@ def ray_life():
     wave = thousands(constant(wavefront, r"chunk_samples = (\d+);"))
     source(wavefront, r"wave_rays = chunk_samples;")
     waiting = constant(wavefront, r"deferred_waves = (\d+);")
-    tile = constant("simd/wavefront/render.cpp", r"has_quality\s+\? Wavefront::max_region\s+: (\d+);")
-    quality_tile = constant(wavefront, r"max_region = (\d+);")
+    tile = constant("simd/wavefront/render.cpp", r"Wavefront::max_region\)\s+: (\d+);")
     steps = constant("simd/query/tracing.hpp", r"longest_walk = (\d+);")
     source("simd/query/paths.hpp", "struct Paths {")
     source("simd/query/hits.hpp", "struct Hits {")
@@ -147,7 +146,7 @@ def ray_life():
         ("Read", ["a reader gives values", "to a SceneBuilder"]),
         ("Build", ["validated scene, 16-wide", "tree, blocks of 16 shapes"]),
         ("View", ["the scene as plain data", "for the kernels"]),
-        ("Tile", [f"a thread takes {tile} × {tile}", f"pixels (quality: {quality_tile} × {quality_tile})"]),
+        ("Tile", [f"a thread takes {tile} × {tile}", "pixels"]),
         ("Rays", [f"{wave} samples at a time,", "in Morton order of pixels"]),
     ]):
         y = 44 + 76 * number
