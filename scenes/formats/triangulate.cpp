@@ -1,4 +1,4 @@
-#include "scenes/formats/nff/triangulate.hpp"
+#include "scenes/formats/triangulate.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include "scenes/files/number.hpp"
 #include "scenes/formats/nff/fields.hpp"
 #include "scenes/formats/nff/surface.hpp"
-#include "scenes/formats/nff/triangulate.hpp"
 #include "scenes/formats/nff/view.hpp"
+#include "scenes/formats/triangulate.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
-#include "scenes/formats/nff/triangulate.hpp"
 #include "scenes/formats/pov/expressions.hpp"
 #include "scenes/formats/pov/finishes.hpp"
 #include "scenes/formats/pov/objects.hpp"
+#include "scenes/formats/triangulate.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scenes/formats/nff/triangulate.hpp"
+#include "scenes/formats/triangulate.hpp"
 #include "tests/support/catch.hpp"
 
 #include <algorithm>
