@@ -73,17 +73,16 @@ Somewhere point_of(const LeavingRay& from, const Hit<double>& hit) {
     return point_at(hit.t, hit.error, from.ray);
 }
 
-/// Returns true if the ray certainly crosses the shape's surface at a hit and does not only touch
-/// it: the shape is convex, and contains a point of the ray a little behind the entry or before the
-/// exit.
+/// Returns true if a crossing is certainly more than a touch: a line through a point inside of a
+/// convex shape enters the shape and leaves it.
 template <class Shape>
 bool certainly_crosses(const Shape& shape, const LeavingRay& from, const Hit<double>& hit) {
     if constexpr (is_solid<Shape>) {
         if (hit.entering && from.origins.start_on(hit.shape).on_surface) return false;
-        // Any number of errors would do. At this depth, rounding rarely hides the inside.
-        const double step = 0x1p20 * hit.error;
-        const double t = hit.entering ? hit.t + step : hit.t - step;
-        return step > 0.0 && t > 0.0 && inside_of(shape, point_at(t, 0.0, from.ray)) == Value::yes;
+        // Any point of the line would do. Rounding rarely hides the inside at this depth.
+        const double depth = 0x1p20 * hit.error;
+        const double t = hit.entering ? hit.t + depth : hit.t - depth;
+        return inside_of(shape, point_at(t, 0.0, from.ray)) == Value::yes;
     } else {
         return false;
     }
