@@ -35,7 +35,7 @@ END
 chmod +x agent
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 on_both() {
-    ./agent 10.77.0.1 timeout 200 mpirun --host 10.77.0.1:2,10.77.0.2:2 \
+    ./agent 10.77.0.1 timeout 600 mpirun --host 10.77.0.1:2,10.77.0.2:2 \
         --mca plm_rsh_agent "$folder/agent" --mca btl_tcp_if_include 10.77.0.0/24 \
         --mca oob_tcp_if_include 10.77.0.0/24 "$raylane" "$@"
 }

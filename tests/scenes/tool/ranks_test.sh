@@ -25,7 +25,7 @@ numbers=3
 job() { # ranks, command...
     ranks=$1
     shift
-    timeout 300 mpirun --oversubscribe -n "$ranks" "$raylane" "$@"
+    timeout 600 mpirun --oversubscribe -n "$ranks" "$raylane" "$@"
 }
 fail() {
     echo "$*"
@@ -57,7 +57,7 @@ fi
 
 echo "commands that ranks do each for itself"
 status=0
-timeout 100 mpirun --oversubscribe -n 2 sh -c '
+timeout 600 mpirun --oversubscribe -n 2 sh -c '
     [ "$OMPI_COMM_WORLD_RANK" = 0 ] || exec "$0" info none.json
     exec "$0" info "$1"' "$raylane" "$scene" >out 2>err || status=$?
 [ "$status" -ne 0 ] || fail "a rank that fails ends with 0"
@@ -268,7 +268,7 @@ echo "what ends a rank loses no tile that was done"
 begin() { # options of mpirun and a program, options of the rendering
     : >many.png.part # an existing journal is written from the first tile on
     # shellcheck disable=SC2086 # lists of options
-    timeout 300 mpirun --oversubscribe -n 2 $1 "$raylane" render "$scene" -o many.png $2 >out 2>err 5>&- &
+    timeout 600 mpirun --oversubscribe -n 2 $1 "$raylane" render "$scene" -o many.png $2 >out 2>err 5>&- &
 }
 end_newest() { # signal
     pkill -"$1" -n -f "^$raylane render $scene -o many.png"

@@ -4,7 +4,6 @@
 #include "tests/support/random.hpp"
 
 #include <cmath>
-#include <unistd.h>
 #include <vector>
 
 /// Coincident surfaces, which rays pass one by one. Rounding may put each of them before or behind
@@ -14,19 +13,9 @@ using namespace little_scene;
 
 namespace {
 
-/// Ends the program if this object still exists after so many seconds. For code that may not end.
-class Deadline {
-  public:
-    explicit Deadline(unsigned seconds) { alarm(seconds); }
-    ~Deadline() { alarm(0); }
-    Deadline(const Deadline&) = delete;
-    Deadline& operator=(const Deadline&) = delete;
-};
-
 /// Checks that all walks end, with every precision and engine. Except in single precisions, both
 /// engines must give the same colours.
 void check_ends(const Scene& scene) {
-    const Deadline deadline(300); // it takes a fraction of a second
     for (const Precision precision : all_precisions) {
         std::vector<Color> by_vectors;
         for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
