@@ -1,6 +1,7 @@
 #include "core/scene/transfer.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/more_functions.hpp"
 
 #include <limits>
 
@@ -30,9 +31,12 @@ std::uint16_t encode_in_16_bits(float linear, Transfer transfer) {
     return static_cast<std::uint16_t>(code_of(linear, transfer, 65535.0));
 }
 
+double linear_of_srgb(double component) {
+    return component <= 0.04045 ? component / 12.92 : power((component + 0.055) / 1.055, 2.4);
+}
+
 float decode_srgb(std::uint8_t code) {
-    const double c = code / 255.0;
-    return static_cast<float>(c <= 0.04045 ? c / 12.92 : core::pow((c + 0.055) / 1.055, 2.4));
+    return static_cast<float>(linear_of_srgb(code / 255.0));
 }
 
 Encoder::Encoder(Transfer transfer) {

@@ -19,7 +19,10 @@ std::uint8_t encode(float linear, Transfer transfer);
 /// Same, in 16 bits.
 std::uint16_t encode_in_16_bits(float linear, Transfer transfer);
 
-/// Returns the linear component of an 8-bit code of the sRGB curve.
+/// Returns the linear component of a component of the sRGB curve. Any number is valid.
+double linear_of_srgb(double component);
+
+/// Same, for an 8-bit code.
 float decode_srgb(std::uint8_t code);
 
 /// encode() for many components, with a lookup table: the codes are the same.

@@ -1,6 +1,6 @@
 #include "scenes/formats/pov/expressions.hpp"
 
-#include "core/numbers/more_functions.hpp"
+#include "core/scene/transfer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ Tuple color_by(std::string_view word, const Tuple& given) {
     const std::size_t count = std::min<std::size_t>(3, 3 + channels.size());
     for (std::size_t i = 0; i < count; ++i) {
         color.at[i] = given.size == 1 ? given.at[0] : given.at[i];
-        if (is_srgb) color.at[i] = linear_of_srgb(color.at[i]);
+        if (is_srgb) color.at[i] = core::linear_of_srgb(color.at[i]);
     }
     const bool is_color = given.size == 5;
     std::size_t next = 3;
@@ -183,10 +183,6 @@ Tuple read_comparison(Tokens& tokens) {
 }
 
 } // namespace
-
-double linear_of_srgb(double value) {
-    return value <= 0.04045 ? value / 12.92 : core::power((value + 0.055) / 1.055, 2.4);
-}
 
 bool at_string(Tokens& tokens) {
     const Token& token = tokens.peek();

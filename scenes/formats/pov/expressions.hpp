@@ -13,8 +13,6 @@ Tuple read_tuple(Tokens& tokens);
 Tuple read_relation(Tokens& tokens);
 double read_number(Tokens& tokens);
 core::Vec3d read_vector(Tokens& tokens);
-/// Decodes by the curve of IEC 61966-2-1.
-double linear_of_srgb(double value);
 /// Returns five components. "color" in front is optional.
 Tuple read_color(Tokens& tokens);
 /// Returns true for a word that begins a colour.

@@ -32,7 +32,7 @@ Tuple mean_of(const Image& image, bool is_linear) {
         if (image.bits == 8)
             return static_cast<double>(
                 core::decode_srgb(static_cast<std::uint8_t>(std::lround(code * 255.0F))));
-        return linear_of_srgb(static_cast<double>(code));
+        return core::linear_of_srgb(static_cast<double>(code));
     };
     const std::size_t count =
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
