@@ -37,11 +37,13 @@ using Contenders = std::vector<std::unique_ptr<Contender>>;
 std::unique_ptr<Contender> make_own(const simd::SceneData& scene, simd::Isa isa, int threads);
 
 /// Makes raylane's library as users call it. If `names` is true, rays name the shapes that they
-/// leave. Otherwise, their t_min lets them start ahead of these shapes.
-std::unique_ptr<Contender> make_library(const simd::SceneData& scene, simd::Isa isa, bool names);
+/// leave. Otherwise, their t_min lets them start ahead of these shapes. `call`: rays in each call.
+std::unique_ptr<Contender> make_library(const simd::SceneData& scene, simd::Isa isa, bool names,
+                                        int call);
 
-/// Makes contenders of Embree: its calls for one ray, for 16, and for 16 with the coherent flag.
-/// Returns no contenders if Embree lacks any of the scene's shapes, or was missing in this build.
-Contenders make_embree(const core::Scene& scene, simd::Isa isa);
+/// Makes contenders of Embree: its calls for one ray and, if `call` is 16 or more, for 16 rays,
+/// also with the coherent flag. Returns no contenders if Embree lacks any of the scene's shapes, or
+/// was missing in this build.
+Contenders make_embree(const core::Scene& scene, simd::Isa isa, int call);
 
 } // namespace raylane::bench

@@ -144,12 +144,13 @@ const char* embree_version() {
     return RTC_VERSION_STRING;
 }
 
-Contenders make_embree(const core::Scene& scene, simd::Isa isa) {
+Contenders make_embree(const core::Scene& scene, simd::Isa isa, int most) {
     Contenders all;
     if (!EmbreeScene::can_hold(scene)) return all;
     const auto built = std::make_shared<const Built>(scene, isa);
     for (const Call call : calls)
-        all.push_back(std::make_unique<Embree>(built, call));
+        if (call == Call::single || most >= static_cast<int>(width))
+            all.push_back(std::make_unique<Embree>(built, call));
     return all;
 }
 

@@ -1,6 +1,8 @@
 #include "bench/peers/contender.hpp"
 #include "simd/stream/stream_tracer.hpp"
 
+#include <algorithm>
+
 namespace raylane::bench {
 
 namespace {
@@ -10,9 +12,9 @@ namespace {
 /// little ahead of them.
 class Library : public Contender {
   public:
-    Library(const simd::SceneData& scene, simd::Isa isa, bool names)
+    Library(const simd::SceneData& scene, simd::Isa isa, bool names, int call)
         : Contender(names ? "library, named" : "library"), scene_(scene), names_(names),
-          tracer_(scene.scene(), /*threads=*/1, isa) {}
+          call_(static_cast<std::size_t>(call)), tracer_(scene.scene(), /*threads=*/1, isa) {}
 
     void prepare(const RaySet& rays) override {
         rays_ = &rays;
@@ -45,6 +47,17 @@ class Library : public Contender {
     }
 
     void run(std::size_t begin, std::size_t end, int /*thread*/) override {
+        for (; begin < end; begin += call_)
+            call(begin, std::min(begin + call_, end));
+    }
+
+    std::vector<std::uint32_t> answers() override {
+        if (!rays_->occlusion) return shape_;
+        return {occluded_.begin(), occluded_.end()};
+    }
+
+  private:
+    void call(std::size_t begin, std::size_t end) {
         const auto from = [begin](auto& column) { return column.data() + begin; };
         simd::RayStream<float> rays = {
             end - begin,
@@ -66,14 +79,9 @@ class Library : public Contender {
                                    nullptr});
     }
 
-    std::vector<std::uint32_t> answers() override {
-        if (!rays_->occlusion) return shape_;
-        return {occluded_.begin(), occluded_.end()};
-    }
-
-  private:
     const simd::SceneData& scene_;
     bool names_;
+    std::size_t call_;
     simd::StreamTracer tracer_;
     const RaySet* rays_ = nullptr;
     std::vector<float> origin_[3], direction_[3], t_min_, t_, normal_[3];
@@ -84,8 +92,9 @@ class Library : public Contender {
 
 } // namespace
 
-std::unique_ptr<Contender> make_library(const simd::SceneData& scene, simd::Isa isa, bool names) {
-    return std::make_unique<Library>(scene, isa, names);
+std::unique_ptr<Contender> make_library(const simd::SceneData& scene, simd::Isa isa, bool names,
+                                        int call) {
+    return std::make_unique<Library>(scene, isa, names, call);
 }
 
 } // namespace raylane::bench

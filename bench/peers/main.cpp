@@ -20,7 +20,7 @@ struct Arguments {
     std::vector<std::string> scenes = {"spheres/10000"};
     std::vector<std::string> wanted{std::begin(ray_set_names), std::end(ray_set_names)};
     std::string isa, json;
-    int threads = 1, repetitions = 5, side = 1024;
+    int threads = 1, repetitions = 5, side = 1024, call = 8192;
 };
 
 class Unwritable : public std::runtime_error {
@@ -52,6 +52,10 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
         ->check(CLI::Range(1, 1000));
     app.add_option("--size", arguments.side, "Side of square images, in pixels. Default: 1024.")
         ->check(CLI::Range(1, 8192));
+    app.add_option("--call", arguments.call,
+                   "Rays in each call of the library. Embree's calls with more rays are left out. "
+                   "Default: 8192.")
+        ->check(CLI::Range(1, 8192));
     app.add_option("--json", arguments.json, "File to which all figures are written.");
     app.parse(argc, argv);
     return arguments;
@@ -81,13 +85,15 @@ bool measure_all(const Arguments& arguments, simd::Isa isa) {
     bool right = true;
     for (const std::string& name : arguments.scenes)
         measure(name, arguments.wanted,
-                {isa, arguments.threads, arguments.repetitions, arguments.side},
+                {isa, arguments.threads, arguments.repetitions, arguments.side, arguments.call},
                 [&](const Row& row) {
                     row.print();
                     right = right && row.by[0].wrong.value_or(0) == 0;
                     Json json = {{"scene", name}};
                     json.update(row.json());
-                    json.update({{"isa", name_of(isa)}, {"threads", arguments.threads}});
+                    json.update({{"isa", name_of(isa)},
+                                 {"threads", arguments.threads},
+                                 {"call", arguments.call}});
                     rows.push_back(std::move(json));
                 });
     if (!arguments.json.empty()) {

@@ -58,6 +58,7 @@ struct Measuring {
     int threads;
     int repetitions;
     int side; ///< of images, in pixels
+    int call; ///< rays in each call of the library
 };
 
 /// Times all runs, alternating. The first round warms up. With several threads, a run with one

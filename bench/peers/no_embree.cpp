@@ -9,7 +9,7 @@ const char* embree_version() {
     return nullptr;
 }
 
-Contenders make_embree(const core::Scene& /*scene*/, simd::Isa /*isa*/) {
+Contenders make_embree(const core::Scene& /*scene*/, simd::Isa /*isa*/, int /*call*/) {
     return {};
 }
 

@@ -108,9 +108,9 @@ void measure_rays(const simd::SceneData& scene, const std::vector<std::string>& 
         return std::find(wanted.begin(), wanted.end(), name) != wanted.end();
     };
     if (std::none_of(std::begin(ray_set_names), std::end(ray_set_names), is_wanted)) return;
-    Contenders contenders = make_embree(scene.scene(), how.isa);
+    Contenders contenders = make_embree(scene.scene(), how.isa, how.call);
     for (const bool names : {false, true})
-        contenders.insert(contenders.begin(), make_library(scene, how.isa, names));
+        contenders.insert(contenders.begin(), make_library(scene, how.isa, names, how.call));
     contenders.insert(contenders.begin(), make_own(scene, how.isa, how.threads));
     for (const RaySet& rays : make_ray_sets(scene.scene(), scene, how.side))
         if (is_wanted(rays.name) && rays.count != 0)

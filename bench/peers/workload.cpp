@@ -104,34 +104,42 @@ Vec3d to_sky(const Vec3d& normal, std::size_t pixel) {
     return {x, y, z};
 }
 
-/// Adds the rays that start at the camera rays' hits: mirrored, to the light, and to the sky.
-void add_secondary(const core::Scene& scene, const simd::SceneData& data, const RaySet& camera,
-                   RaySet& mirror, RaySet& shadow, RaySet& sky) {
+/// A ray of a set, and where it hits.
+struct RayHit {
+    std::size_t number; ///< of the ray
+    Ray<double> ray;
+    Vec3d point, normal;
+    double t, cos; ///< cos of the angle from the normal to the ray
+    std::uint32_t slot, bits;
+
+    /// Adds a ray that goes from here.
+    void add_to(RaySet& set, const simd::SceneData& scene, const Vec3d& direction,
+                float t_limit = infinity) const {
+        set.add_from({point, direction}, t_limit, scene, slot, bits, t);
+    }
+    /// Returns a random direction above the surface, on the ray's side.
+    Vec3d scattered() const { return to_sky(cos > 0.0 ? -normal : normal, number); }
+};
+
+/// Calls visit(hit) for the rays that hit anything.
+template <class Visit>
+void for_each_hit(const simd::SceneData& data, const RaySet& rays, const Visit& visit) {
     const simd::Tracing tracing{&simd::kernels_of(simd::best_isa())};
     simd::Query finder(data, tracing, simd::Asked::points);
     const simd::Arena arena =
         simd::arena_for([&](simd::Arena& a) { finder.take_from(a, RaySet::wave); });
     simd::EngineCounters counters;
-    const Vec3d light = core::convert<double>(light_of(scene));
-    for (std::size_t begin = 0; begin < camera.count; begin += RaySet::wave) {
-        const simd::Paths paths = camera.paths(begin, RaySet::wave);
-        finder.nearest(paths, &*camera.coherence, counters);
+    for (std::size_t begin = 0; begin < rays.count; begin += RaySet::wave) {
+        const simd::Paths paths = rays.paths(begin, RaySet::wave);
+        finder.nearest(paths, &*rays.coherence, counters);
         const simd::Hits& hits = finder.hits();
         for (std::size_t lane = 0; lane < paths.count; ++lane) {
             if (hits.slot[lane] == simd::no_slot) continue;
-            const Ray<double> ray = camera.ray(begin + lane);
-            const Vec3d point = core::mul_add(hits.t[lane], ray.direction, ray.origin);
+            const Ray<double> ray = rays.ray(begin + lane);
             const Vec3d normal(hits.normal[0][lane], hits.normal[1][lane], hits.normal[2][lane]);
-            const double cos = core::dot(normal, ray.direction);
-            mirror.add_from({point, core::normalized(Vec3d(ray.direction - 2.0 * cos * normal))},
-                            infinity, data, hits.slot[lane], hits.hit[lane], hits.t[lane]);
-            sky.add_from({point, to_sky(cos > 0.0 ? -normal : normal, begin + lane)}, infinity,
-                         data, hits.slot[lane], hits.hit[lane], hits.t[lane]);
-            const Vec3d to_light = light - point;
-            if (core::dot(to_light, normal) * cos > 0.0) continue; // in the shape's shadow
-            const double distance = core::length(to_light);
-            shadow.add_from({point, to_light / distance}, static_cast<float>(distance), data,
-                            hits.slot[lane], hits.hit[lane], hits.t[lane]);
+            visit(RayHit{begin + lane, ray, core::mul_add(hits.t[lane], ray.direction, ray.origin),
+                         normal, hits.t[lane], core::dot(normal, ray.direction), hits.slot[lane],
+                         hits.hit[lane]});
         }
     }
 }
@@ -244,13 +252,16 @@ void RaySet::finish() {
 std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneData& data, int side) {
     const auto pixels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     std::vector<RaySet> sets(std::size(ray_set_names));
-    RaySet &camera = sets[0], &scanlines = sets[1], &mirror = sets[2], &shadow = sets[3],
-           &sky = sets[4], &incoherent = sets[5], &occlusion = sets[6];
+    RaySet &camera = sets[0], &scanlines = sets[1], &mirror = sets[2], &diffuse = sets[3],
+           &diffuse_2 = sets[4], &shadow = sets[5], &sky = sets[6], &ambient = sets[7],
+           &incoherent = sets[8], &occlusion = sets[9];
     for (std::size_t i = 0; i < sets.size(); ++i)
         sets[i].name = ray_set_names[i];
-    shadow.occlusion = sky.occlusion = occlusion.occlusion = true;
+    for (RaySet* set : {&shadow, &sky, &ambient, &occlusion})
+        set->occlusion = true;
     camera.coherence = scanlines.coherence = coherence_at(scene.camera().from, false);
-    mirror.coherence = sky.coherence = simd::neighbours;
+    for (RaySet* set : {&mirror, &diffuse, &diffuse_2, &sky, &ambient})
+        set->coherence = simd::neighbours;
     shadow.coherence = coherence_at(light_of(scene), true);
     for (RaySet& set : sets)
         set.reserve(pixels);
@@ -263,12 +274,28 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
         for (int x = 0; x < side; ++x)
             scanlines.add(rays.ray(x, y, 0), infinity);
     camera.finish();
-    add_secondary(scene, data, camera, mirror, shadow, sky);
 
-    std::mt19937_64 engine(2);
     const core::Bounds& bounds = scene.hierarchy().bounds;
     const Vec3d lower = core::convert<double>(bounds.lower);
     const Vec3d size = core::convert<double>(bounds.upper) - lower;
+    const auto near = static_cast<float>(0.05 * std::max({size.x, size.y, size.z}));
+    const Vec3d light = core::convert<double>(light_of(scene));
+    for_each_hit(data, camera, [&](const RayHit& hit) {
+        hit.add_to(mirror, data,
+                   core::normalized(Vec3d(hit.ray.direction - 2.0 * hit.cos * hit.normal)));
+        hit.add_to(diffuse, data, hit.scattered());
+        hit.add_to(sky, data, hit.scattered());
+        hit.add_to(ambient, data, hit.scattered(), near);
+        const Vec3d to_light = light - hit.point;
+        if (core::dot(to_light, hit.normal) * hit.cos > 0.0) return; // in the shape's shadow
+        const double distance = core::length(to_light);
+        hit.add_to(shadow, data, to_light / distance, static_cast<float>(distance));
+    });
+    diffuse.finish();
+    for_each_hit(data, diffuse,
+                 [&](const RayHit& hit) { hit.add_to(diffuse_2, data, hit.scattered()); });
+
+    std::mt19937_64 engine(2);
     const auto any_point = [&] {
         Vec3d point;
         for (int axis = 0; axis < 3; ++axis)
@@ -283,7 +310,8 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
         incoherent.add(ray, infinity);
         occlusion.add(ray, static_cast<float>(distance));
     }
-    for (RaySet* set : {&scanlines, &mirror, &shadow, &sky, &incoherent, &occlusion})
+    for (RaySet* set :
+         {&scanlines, &mirror, &diffuse_2, &shadow, &sky, &ambient, &incoherent, &occlusion})
         set->finish();
     return sets;
 }
