@@ -629,7 +629,7 @@ def packet():
 
     F = np.float32
     size = constant("simd/kernel/traverse/frustum/packets.hpp", r"size = (\d+);")
-    slack = F(2.0 ** -constant("simd/kernel/shapes/filter.hpp", r"slack_floor = 0x1p-(\d+)F;"))
+    slack = F(2.0 ** -constant("simd/units/trace_kernels.hpp", r"slack_floor = 0x1p-(\d+)F;"))
     culling = F(1 + 2.0 ** -constant("simd/units/trace_kernels.hpp", r"culling_slack = 1\.0F \+ 0x1p-(\d+)F;"))
     morton = r"even_bits\(code\)\),\s+static_cast<std::uint8_t>\(even_bits\(code >> 1\)\)"
     source("simd/wavefront/wavefront.cpp", morton)

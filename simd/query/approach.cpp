@@ -34,6 +34,10 @@ Approach::Approach(const SceneData& scene) : scene_(scene) {
     radius_ = 0.5 * core::length(upper - lower) * (1.0 + 0x1p-20);
 }
 
+double Approach::reach() const {
+    return far_away * radius_;
+}
+
 void Approach::take_from(Arena& arena, std::size_t capacity) {
     room_ = arena.take<double>(capacity);
     t_ = arena.take<double>(capacity);
@@ -59,7 +63,7 @@ void Approach::find_starts(const RayColumns& from, RoundedRays& rays) {
 
 bool Approach::are_far(const RayColumns& rays) const {
     if (radius_ < 0.0) return false;
-    const double most = far_away * radius_;
+    const double most = reach();
     std::uint64_t signs = 0; // in lanes, unlike a maximum
     for (int axis = 0; axis < 3; ++axis) {
         const double* const origin = rays.origin[axis];

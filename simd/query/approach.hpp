@@ -20,6 +20,11 @@ class Approach {
     /// Finds how far along rays start (RoundedRays::before), if any of them starts further along.
     void find_starts(const RayColumns& from, RoundedRays& rays);
 
+    core::Vec3d center() const { return center_; }
+    /// Returns the largest distance from the center, along each axis, of the origins of rays that
+    /// are not moved; < 0: no ray is moved from far away.
+    double reach() const;
+
     /// True if any of the last rays starts further along.
     bool any() const { return before_ != nullptr; }
     /// True if any of them was moved from far away.

@@ -7,16 +7,6 @@
 
 namespace raylane::simd {
 
-namespace {
-
-/// Returns a float that is not below the number that was rounded to `value`; 0 if `value` is
-/// negative.
-float rounded_up(float value) {
-    return value < 0.0F ? 0.0F : std::max(value, min_length) * (1.0F + 0x1p-21F);
-}
-
-} // namespace
-
 void Query::take_from(Arena& arena, std::size_t capacity) {
     search_.take_from(arena, capacity);
     certifier_.take_from(arena, capacity);

@@ -6,6 +6,12 @@
 
 namespace raylane::simd {
 
+/// Returns a float that is not below the number that was rounded to `value`; 0 if `value` is
+/// negative.
+inline float rounded_up(float value) {
+    return value < 0.0F ? 0.0F : (value < min_length ? min_length : value) * (1.0F + 0x1p-21F);
+}
+
 /// First step of the search for hits: finds shapes that rays may meet by bounds in float.
 class CandidateSearch {
   public:

@@ -83,26 +83,28 @@ void StreamIntake::take(const RayStream<Real>& rays, std::size_t count, std::siz
 }
 
 template <class Real>
+void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,
+              std::span<const std::uint32_t> slots, const RayStream<Real>& rays, std::size_t i) {
+    const core::ShapeId shape = rays.origin_shape[i];
+    const std::uint32_t slot = shape < slots.size() ? slots[shape] : no_slot;
+    if (slot == no_slot) return paths.start_nowhere(lane, lane + 1);
+    const bool inward = (rays.origin_inward != nullptr && rays.origin_inward[i] != 0) !=
+                        scene.scene().solids().is_reversed(shape);
+    const std::uint32_t face = rays.origin_face != nullptr ? rays.origin_face[i] : 0;
+    paths.start_on(lane, slot, scene.shape_named(shape, slot), face | (inward ? hit_entering : 0),
+                   /*through=*/true);
+}
+
+template <class Real>
 void StreamIntake::start_on(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
     const std::span<const std::uint32_t> slots = shapes_.slots();
     constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < count; ++i) {
         if (i + ahead < count && rays.origin_shape[i + ahead] < slots.size())
             __builtin_prefetch(&slots[rays.origin_shape[i + ahead]]);
-        const std::size_t lane = to + i;
-        const core::ShapeId shape = rays.origin_shape[i];
-        const std::uint32_t tie_counts = paths_.origin_bits[lane];
-        const std::uint32_t slot = shape < slots.size() ? slots[shape] : no_slot;
-        if (slot == no_slot) {
-            paths_.start_nowhere(lane, lane + 1);
-        } else {
-            const bool inward = (rays.origin_inward != nullptr && rays.origin_inward[i] != 0) !=
-                                scene_.scene().solids().is_reversed(shape);
-            const std::uint32_t face = rays.origin_face != nullptr ? rays.origin_face[i] : 0;
-            paths_.start_on(lane, slot, scene_.shape_named(shape, slot),
-                            face | (inward ? hit_entering : 0), /*through=*/true);
-        }
-        paths_.origin_bits[lane] |= tie_counts;
+        const std::uint32_t tie_counts = paths_.origin_bits[to + i];
+        simd::start_on(paths_, to + i, scene_, slots, rays, i);
+        paths_.origin_bits[to + i] |= tie_counts;
     }
 }
 
@@ -146,6 +148,10 @@ LoneRay StreamIntake::lone(const RayStream<Real>& rays, std::size_t i, std::size
                                                      : std::numeric_limits<double>::infinity()};
 }
 
+template void start_on(const Paths&, std::size_t, const SceneData&, std::span<const std::uint32_t>,
+                       const RayStream<float>&, std::size_t);
+template void start_on(const Paths&, std::size_t, const SceneData&, std::span<const std::uint32_t>,
+                       const RayStream<double>&, std::size_t);
 template RayStream<float> StreamIntake::take(const RayStream<float>&, std::size_t);
 template RayStream<double> StreamIntake::take(const RayStream<double>&, std::size_t);
 template LoneRay StreamIntake::lone(const RayStream<float>&, std::size_t, std::size_t) const;

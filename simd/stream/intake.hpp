@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 namespace raylane::simd {
 
@@ -56,6 +57,12 @@ struct LoneRay {
         return core::compare_t(scene, leaving(), hit, std::ldexp(limit, -exponent));
     }
 };
+
+/// Starts a lane on the shape that ray i names, if it is a shape of the scene. `slots`: of the
+/// shapes, by id.
+template <class Real>
+void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,
+              std::span<const std::uint32_t> slots, const RayStream<Real>& rays, std::size_t i);
 
 /// Takes a caller's rays into lanes, with the shapes that they leave and their limits: as many as
 /// are best answered together.

@@ -22,6 +22,7 @@ StreamTracer::~StreamTracer() = default;
 
 /// Splits `count` rays so that all threads get some of them.
 StreamTracer::Parts StreamTracer::parts_of(std::size_t count) const {
+    if (count <= fewest) return {count, 1};
     const int threads = threads_ > 0 ? threads_ : default_threads();
     const std::size_t share = count / (std::size_t{4} * static_cast<std::size_t>(threads));
     const std::size_t size = std::max(share / fewest * fewest, fewest);

@@ -29,7 +29,7 @@ StreamWorker::StreamWorker(const SceneData& scene, const Tracing& tracing,
     : scene_(scene), tracing_(tracing),
       searcher_(scene.scene(), core::Search::hierarchy, tracing.precision),
       solid_surfaces_(scene.scene()), query_(scene, tracing, Asked::floats),
-      intake_(scene, tracing, shapes, at_a_time()) {
+      intake_(scene, tracing, shapes, at_a_time()), few_(scene, tracing, shapes) {
     const std::size_t capacity = at_a_time();
     arena_ = arena_for([&](Arena& arena) {
         query_.take_from(arena, capacity);
@@ -70,6 +70,12 @@ void StreamWorker::in_good_order(const RayStream<Real>& rays, const AsTheyAre& a
 
 template <class Real>
 void StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& hits) {
+    if (few_.can_answer(rays) && hits.t_double == nullptr) {
+        for (std::size_t i = 0; i < rays.count; ++i)
+            if (!few_.nearest(rays, i, hits))
+                nearest_of(intake_.take(part_of(rays, i, 1), 0), part_of(hits, i));
+        return;
+    }
     in_good_order(
         rays,
         [&](const RayStream<Real>& some, std::size_t first) {
@@ -82,6 +88,16 @@ void StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& hits) {
 
 template <class Real>
 void StreamWorker::occluded(const RayStream<Real>& rays, std::uint8_t* occluded) {
+    if (few_.can_answer(rays)) {
+        for (std::size_t i = 0; i < rays.count; ++i) {
+            const std::optional<bool> is = few_.occluded(rays, i);
+            if (is.has_value())
+                occluded[i] = *is ? 1 : 0;
+            else
+                occluded_of(intake_.take(part_of(rays, i, 1), 0), occluded + i);
+        }
+        return;
+    }
     in_good_order(
         rays,
         [&](const RayStream<Real>& some, std::size_t first) {

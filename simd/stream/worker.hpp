@@ -2,6 +2,7 @@
 
 #include "core/reference/search.hpp"
 #include "simd/query/query.hpp"
+#include "simd/stream/few_rays.hpp"
 #include "simd/stream/intake.hpp"
 #include "simd/stream/tile_order.hpp"
 
@@ -66,6 +67,7 @@ class StreamWorker {
     core::SolidSurfaces solid_surfaces_;
     Query query_;
     StreamIntake intake_;
+    FewRays few_;
     TileOrder tiles_;
     TileColumns tile_columns_;
     std::uint32_t* doubtful_ = nullptr; // lanes

@@ -12,6 +12,14 @@ namespace raylane::simd {
 
 struct Found;
 
+/// The part of a ray's slack that covers roundings of slack itself (FilterRays in
+/// kernel/shapes/filter.hpp).
+inline constexpr float slack_floor = 0x1p-68F;
+/// Returns the slack of a ray that rounding does not move. `rounding`: SceneView's.
+[[gnu::always_inline]] constexpr float least_slack(float rounding) {
+    return rounding * (1 + 0x1p-14F) + slack_floor;
+}
+
 /// Rays rounded to float (FilterRays in kernel/shapes/filter.hpp), with the ids of the shapes that
 /// they leave, first to last; no_shape twice if they leave none. Filters do not see these shapes.
 struct RoundedRays {

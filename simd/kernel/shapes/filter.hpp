@@ -32,8 +32,6 @@ struct FilterRays {
     Floats<Arch> slack;
 };
 
-inline constexpr float slack_floor = 0x1p-68F;
-
 /// Bounds on a ray's first crossing with one shape at t > 0, per lane. A member that the caller
 /// does not use costs nothing.
 template <class Arch>

@@ -84,8 +84,9 @@ struct BoxRays {
     using M = Mask<Arch>;
     float near_offset[3][16], far_offset[3][16], inverse[3][16];
 
-    void load(const SceneView& scene, const RoundedRays& rays, std::size_t begin) {
-        for (std::size_t from = 0; from < 16; from += F::size) {
+    void load(const SceneView& scene, const RoundedRays& rays, std::size_t begin,
+              std::size_t count = 16) {
+        for (std::size_t from = 0; from < count; from += F::size) {
             const std::size_t i = begin + from;
             const F slack = S::load(rays.slack + i);
             F reach(scene.reach); // a ray goes no further than 2^30 times this

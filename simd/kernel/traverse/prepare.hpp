@@ -47,7 +47,7 @@ struct Prepare : Streams<Arch> {
     }
 
     static void round_rays(std::size_t count, const RoundedRays& rays, float rounding) {
-        const float least = rounding * (1 + 0x1p-14F) + slack_floor;
+        const float least = least_slack(rounding);
         for (std::size_t i = 0; i < count; i += F::size) {
             if (rays.before != nullptr)
                 round_packet<true>(rays, i, least);

@@ -8,6 +8,7 @@
 #include "simd/kernel/traverse/in_flight/occluded.hpp"
 #include "simd/kernel/traverse/list/nearest.hpp"
 #include "simd/kernel/traverse/list/occluded.hpp"
+#include "simd/kernel/traverse/single_rays.hpp"
 
 namespace raylane::simd {
 
@@ -139,6 +140,9 @@ struct Trace : Streams<Arch> {
             EveryShape<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
         if (workspace.key == nullptr) {
             counters.one_by_one += count;
+        } else if (count <= SingleRays<Arch, Method>::most) {
+            counters.in_flight += count;
+            SingleRays<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
         } else if ((coherence != nullptr || makes_lists(scene, count)) &&
                    count <= workspace.capacity) {
             counters.in_lists += count;
@@ -160,6 +164,10 @@ struct Trace : Streams<Arch> {
                                                counters);
         if (workspace.key == nullptr) {
             counters.one_by_one += end - begin;
+        } else if (end - begin <= SingleRays<Arch, Method>::most) {
+            counters.in_flight += end - begin;
+            SingleRays<Arch, Method>::occluded(scene, end - begin, some, theirs, workspace,
+                                               counters);
         } else if ((coherence != nullptr || scene.small) && end - begin <= workspace.capacity) {
             counters.in_lists += end - begin;
             ListOccluded<Arch, Method>::occluded(scene, end - begin, some, theirs, workspace,

@@ -5,6 +5,7 @@
 #include "tests/support/catch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -116,6 +117,94 @@ TEST_CASE("rays in one call have the answers that they have alone") {
             CHECK(different == 0);
             CHECK(hits > ray_count / 8);
         }
+}
+
+namespace {
+
+/// Rays in double, next to the floats' and between them.
+struct DoubleRays {
+    std::vector<double> columns[6];
+
+    explicit DoubleRays(const Rays& rays) {
+        const std::vector<float>* const floats[] = {&rays.x,  &rays.y,  &rays.z,
+                                                    &rays.dx, &rays.dy, &rays.dz};
+        for (int k = 0; k < 6; ++k)
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                columns[k].push_back(static_cast<double>((*floats[k])[i]) *
+                                     (i % 3 == 0 ? 1.0 : 1.0 + 0x1p-40));
+    }
+    DoubleRaySpan part(std::size_t first, std::size_t count) const {
+        const auto of = [&](int k) { return std::span(columns[k]).subspan(first, count); };
+        return {of(0), of(1), of(2), of(3), of(4), of(5)};
+    }
+};
+
+/// Returns the number of rays whose answers in calls of one to five rays differ from those in one
+/// call.
+template <class AnyRays>
+int different_in_short_calls(const Tracer& tracer, const AnyRays& rays, std::size_t count) {
+    Hits together(count);
+    std::vector<std::uint8_t> blocked(count, 77);
+    tracer.intersect(rays.part(0, count), together.span());
+    tracer.occluded(rays.part(0, count), blocked);
+    int different = 0;
+    for (std::size_t first = 0, some = 0; first < count; first += some) {
+        some = std::min(some % 5 + 1, count - first);
+        Hits alone(some);
+        std::vector<std::uint8_t> blocked_alone(some, 77);
+        tracer.intersect(rays.part(first, some), alone.span());
+        tracer.occluded(rays.part(first, some), blocked_alone);
+        for (std::size_t k = 0; k < some; ++k) {
+            const std::size_t i = first + k;
+            const bool same = together.t[i] == alone.t[k] && together.nx[i] == alone.nx[k] &&
+                              together.ny[i] == alone.ny[k] && together.nz[i] == alone.nz[k] &&
+                              together.shape[i] == alone.shape[k] &&
+                              together.entering[i] == alone.entering[k] &&
+                              blocked[i] == blocked_alone[k];
+            different += same ? 0 : 1;
+        }
+    }
+    return different;
+}
+
+} // namespace
+
+TEST_CASE(
+    "rays have the same answers in short calls and in one call where spheres nearly coincide") {
+    Random random(8);
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    Rays rays;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 center{uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1)};
+        const float radius = uniform(random, 0.02, 0.05), other = std::nextafter(radius, 1.0F);
+        builder.add(Sphere{center, i % 2 == 0 ? radius : other}, material);
+        builder.add(Sphere{center, i % 2 == 0 ? other : radius}, material);
+        rays.add({uniform(random, -1, 2), uniform(random, -1, 2), -2},
+                 {uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5), 1});
+    }
+    const Tracer tracer(builder.build(), {.threads = 1});
+    CHECK(different_in_short_calls(tracer, rays, rays.size()) == 0);
+    CHECK(different_in_short_calls(tracer, DoubleRays(rays), rays.size()) == 0);
+}
+
+TEST_CASE("hard rays have the same answers in short calls and in one call") {
+    for (const bool lattice : {false, true}) {
+        auto [scene, rays] = heap(lattice, 12, 3);
+        const Tracer tracer(scene, {.threads = 1});
+        const std::size_t count = rays.size();
+        const Hits hits = intersect(tracer, rays);
+        CAPTURE(lattice);
+        CHECK(different_in_short_calls(tracer, rays, count) == 0);
+        CHECK(different_in_short_calls(tracer, DoubleRays(rays), count) == 0);
+        // Each limit is the t of a hit.
+        rays.t_max = hits.t;
+        CHECK(different_in_short_calls(tracer, rays, count) == 0);
+        rays.t_max.clear();
+        for (const float t : hits.t)
+            rays.t_min.push_back(t < infinity ? t : 0.0F);
+        CHECK(different_in_short_calls(tracer, rays, count) == 0);
+    }
 }
 
 namespace {
