@@ -25,10 +25,10 @@ struct Trace : Streams<Arch> {
     /// nothing but the ray in float.
     static_assert(Method::certifies && Method::rounded_alone);
 
-    /// The number of shapes that a frustum may list before it gives up: for rays to a light, and
-    /// for nearest hits. With more shapes its rays are faster by another traversal.
-    static constexpr int max_occluders = 512;
+    /// The number of shapes that a frustum may list before it gives up: for nearest hits, and for
+    /// some rays to a light. With more shapes its rays are faster by another traversal.
     static constexpr int max_candidates = 2048;
+    static int max_occluders(std::size_t rays) { return rays < 32 ? 32 : static_cast<int>(rays); }
 
     static bool makes_frusta(const Coherence* coherence) {
         return coherence != nullptr && !coherence->loose;
@@ -95,8 +95,9 @@ struct Trace : Streams<Arch> {
                 continue;
             }
             FrustumOcclusions<Arch, Method> found(scene, rays, occlusions, begin, end);
-            const bool done = Walk<false>(scene, frustum, workspace, counters, max_occluders)
-                                  .go(kind_bits, found);
+            const bool done =
+                Walk<false>(scene, frustum, workspace, counters, max_occluders(end - begin))
+                    .go(kind_bits, found);
             found.hand_back(occlusions, begin, end);
             if (!done) { // usually, the frusta that follow would give up, too
                 occluded_of_any(scene, kind_bits, nullptr, begin, count, rays, occlusions,
