@@ -42,6 +42,15 @@ inline DoubleDouble two_product(double a, double b) {
     return {product, std::fma(a, b, -product)};
 }
 
+/// Returns true if a * b = c * d, unless a product underflows or overflows. A product and its
+/// rounding error represent the exact product, so their equality is that of the products.
+inline bool are_equal_products(double a, double b, double c, double d) {
+    const DoubleDouble first = two_product(a, b), second = two_product(c, d);
+    const bool are_zero = (a == 0.0 || b == 0.0) && (c == 0.0 || d == 0.0);
+    return first.high == second.high && first.low == second.low &&
+           (are_zero || std::abs(first.high) > 0x1p-900);
+}
+
 } // namespace double_double
 
 inline DoubleDouble operator-(const DoubleDouble& a) {

@@ -12,11 +12,28 @@ namespace raylane::core {
 /// Returns the bounds of the frustum between two discs perpendicular to the axis.
 Bounds frustum_bounds(const Vec3d& base, const Vec3d& axis, double base_radius, double top_radius);
 
+/// Returns true if two vectors of doubles, as numbers with bounds, are certainly parallel: their
+/// cross product is exactly 0. Other numbers leave that to the formulas.
+template <class T>
+bool are_parallel(const Vec3<Bounded<T>>& v, const Vec3<Bounded<T>>& w) {
+    using double_double::are_equal_products;
+    const Vec3d a = convert<double>(v), b = convert<double>(w);
+    return are_equal_products(a.y, b.z, a.z, b.y) && are_equal_products(a.z, b.x, a.x, b.z) &&
+           are_equal_products(a.x, b.y, a.y, b.x);
+}
+template <class Real>
+bool are_parallel(const Vec3<Real>&, const Vec3<Real>&) {
+    return false;
+}
+
 /// A ray decomposed along and across the axis of a cylinder or cone: with f = origin - base,
 ///   height(t) = (f + t * direction) . axis, in [0, axis . axis] between the ends,
 ///   across(t) = across_origin + t * across_direction, the offset from the axis.
 /// The quotient axis / |axis|^2 is not rounded first. So the rounding error of the division by
 /// |axis|^2 is along the axis and affects `across` only at second order.
+///
+/// No bound on errors proves that `across_direction` is 0, but are_parallel() does. Axes and
+/// directions are exact doubles.
 template <class Real>
 struct AxialRay {
     Real axis_squared;
@@ -35,6 +52,7 @@ struct AxialRay {
         const Divisor<Real> by_axis_squared(axis_squared);
         across_origin = mul_add(Real(-(height_origin / by_axis_squared)), a, from_base);
         across_direction = mul_add(Real(-(height_direction / by_axis_squared)), a, ray.direction);
+        if (are_parallel(a, ray.direction)) across_direction = Vec3<Real>(Real(0.0));
     }
 
     /// Returns true if the crossing is between the ends, including the rims.

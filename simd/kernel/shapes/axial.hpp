@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/lanes/bounded.hpp"
 #include "simd/kernel/shapes/crossings.hpp"
 #include "simd/kernel/shapes/enclosing.hpp"
 
@@ -46,6 +47,27 @@ struct Axis {
     }
 };
 
+/// Same as core::are_parallel, per lane of numbers with bounds.
+template <class Arch>
+Mask<Arch> are_parallel(const Vectors<Arch>& a, const Vectors<Arch>& b) {
+    using D = typename Floats<Arch>::D;
+    using F = Floats<D>;
+    const auto have_equal_products = [](const F& p, const F& q, const F& r, const F& s) {
+        const auto first = DoubleDoubles<D>::two_product(p, q);
+        const auto second = DoubleDoubles<D>::two_product(r, s);
+        const F o = zero<D>();
+        const Mask<D> are_zero = ((p == o) | (q == o)) & ((r == o) | (s == o));
+        return (first.high == second.high) & (first.low == second.low) &
+               (are_zero | (abs(first.high) > F(0x1p-900)));
+    };
+    const F a_x = a.x.in_double(), a_y = a.y.in_double(), a_z = a.z.in_double();
+    const F b_x = b.x.in_double(), b_y = b.y.in_double(), b_z = b.z.in_double();
+    return Mask<Arch>(have_equal_products(a_y, b_z, a_z, b_y) &
+                          have_equal_products(a_z, b_x, a_x, b_z) &
+                          have_equal_products(a_x, b_y, a_y, b_x),
+                      Mask<D>(true));
+}
+
 template <class Arch>
 struct AxialRays {
     Floats<Arch> axis_squared, height_origin, height_direction;
@@ -59,6 +81,11 @@ struct AxialRays {
             mul_add<Arch>(negated(height_origin / axis.by_squared), axis.axis, from_base);
         across_direction =
             mul_add<Arch>(negated(height_direction / axis.by_squared), axis.axis, rays.direction);
+        if constexpr (requires { axis_squared.error; }) {
+            const Floats<Arch> o = zero<Arch>();
+            across_direction = select<Arch>(are_parallel<Arch>(axis.axis, rays.direction),
+                                            {o, o, o}, across_direction);
+        }
     }
 
     Mask<Arch> between_ends(const Floats<Arch>& t) const {

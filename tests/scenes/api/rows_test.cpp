@@ -210,6 +210,25 @@ TEST_CASE("the first crossing of a ray is its nearest hit with the same normal")
     }
 }
 
+TEST_CASE("rays along the axis of cylinders and cones need no more than the bounds in double") {
+    const Vec3 axis{0.3F, -0.7F, 1.1F}, along{0.6F, -1.4F, 2.2F};
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    builder.add(CappedCylinder{{0.1F, 0.2F, 0.3F}, axis, 2}, material);
+    builder.add(CappedCone{{0.1F, 0.2F, 0.3F}, along, 2, 3}, material);
+    builder.add(OpenCylinder{{0.1F, 0.2F, 0.3F}, along, 2.5F}, material);
+    Rays rays;
+    for (int i = 0; i < 64; ++i) {
+        const float u = 0.1F * static_cast<float>(i % 8), v = 0.1F * static_cast<float>(i / 8);
+        rays.add({u - 3, v + 7, u + v - 11}, along);
+        rays.add({u + 3, v - 7, u + v + 11}, {-axis.x, -axis.y, -axis.z});
+    }
+    CrossingStatistics statistics;
+    const CrossingRows rows = crossings(builder.build(), rays, {}, &statistics);
+    CHECK(rows.t.size() > 4 * rays.size() / 2);
+    CHECK(statistics.beyond_double == 0);
+}
+
 TEST_CASE("path lengths are the lengths inside of each material") {
     SceneBuilder builder;
     const MaterialIndex glass = builder.add_material({}), lead = builder.add_material({});

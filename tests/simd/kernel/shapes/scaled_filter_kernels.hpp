@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/lanes/doubles.hpp"
+#include "simd/kernel/lanes/bounded.hpp"
 #include "simd/kernel/shapes/crossings.hpp"
 #include "simd/units/scene_view.hpp"
 #include "tests/simd/kernel/shapes/scaled_filters.hpp"
