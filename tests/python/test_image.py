@@ -164,6 +164,7 @@ def run(code, **options):
         "raylane.Tracer(scene, 1).intersect(columns, [0, 0, -1], double=True)",
         "raylane.Tracer(scene, 1).crossings(many, [0, 0, -1])",
         "raylane.Tracer(scene, 1).contains(many)",
+        "deep.path_lengths(many, [0, 0, -1])",  # 262,144 of these rays take an hour
     ],
 )
 def test_ctrl_c_stops_a_call(scenes, work):
@@ -173,6 +174,9 @@ def test_ctrl_c_stops_a_call(scenes, work):
         scene = raylane.load({str(scenes / 'birthday.json')!r})
         many = np.broadcast_to(np.array([0, -2, 30.0]), (1 << 25, 3))
         columns = np.zeros((3, 1 << 25)).T
+        shells = raylane.SceneBuilder()
+        shells.add_spheres(np.zeros((20_000, 3)), np.arange(1, 20_001), material=shells.add_material())
+        deep = raylane.Tracer(shells.build(), 1)
         may_say = threading.Event()
 
         def say():

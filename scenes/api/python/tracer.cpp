@@ -5,6 +5,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <optional>
 
@@ -12,12 +14,31 @@ namespace raylane::python {
 
 namespace {
 
-/// Numbers of rays: `max_at_once` are traced between two checks for signals. `max_copied` rays
-/// that are not contiguous are copied at a time, by the thread that then traces them from its
+/// Numbers of rays: at most `max_at_once` are traced between two checks for signals. `max_copied`
+/// rays that are not contiguous are copied at a time, by the thread that then traces them from its
 /// cache.
 constexpr std::size_t max_at_once = std::size_t{1} << 20, max_copied = std::size_t{1} << 13;
-/// Number of rays between two checks for signals if the results are rows, which are concatenated.
+/// Largest number of rays between two checks for signals if the results are rows, which are
+/// concatenated.
 constexpr std::size_t max_rows = std::size_t{1} << 18;
+
+/// Sizes of parts of a call, such that each takes about a twentieth of a second if rays cost as
+/// much as those of the part before. The first part is small, as a ray may take milliseconds.
+class PartSize {
+  public:
+    explicit PartSize(std::size_t most) : most_(most) {}
+
+    std::size_t size() const { return std::min(size_, most_); }
+    void adapt(std::chrono::duration<double> taken) {
+        constexpr double aim = 0.05, max_growth = 16.0;
+        const double growth = std::min(aim / std::max(taken.count(), 1e-9), max_growth);
+        const double wanted = growth * static_cast<double>(size());
+        size_ = std::max(static_cast<std::size_t>(wanted), std::size_t{1});
+    }
+
+  private:
+    std::size_t most_, size_ = 16;
+};
 
 /// A tracer and a task arena for rays that have to be copied. Each thread of the arena copies the
 /// rays that it traces.
@@ -55,14 +76,19 @@ class SharedTracer {
 };
 
 /// Calls call(from, to) for consecutive parts of 0 to `count`, of at most `most` elements each,
-/// without Python's lock. Checks for signals between the parts.
+/// without Python's lock. Checks for signals between the parts, which are short.
 template <class Call>
 void in_turn(std::size_t count, std::size_t most, const Call& call) {
     const py::gil_scoped_release free;
-    for (std::size_t from = 0; from < count; from += most) {
-        const std::size_t to = std::min(count, from + most);
+    using Clock = std::chrono::steady_clock;
+    PartSize part(most);
+    for (std::size_t from = 0, to = 0; from < count; from = to) {
+        to = from + std::min(count - from, part.size());
+        const Clock::time_point begin = Clock::now();
         call(from, to);
-        if (to < count) look_for_signals();
+        if (to == count) return;
+        look_for_signals();
+        part.adapt(Clock::now() - begin);
     }
 }
 

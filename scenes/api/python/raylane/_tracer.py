@@ -163,8 +163,9 @@ class Tracer:
     and arrays of another type are converted first.
 
     With ``precision="exact"`` every result is the one that real arithmetic gives for exactly the given numbers. Calls
-    release the interpreter's lock, and any number of threads may use one tracer concurrently. Methods raise
-    :class:`InvalidValue` for arrays of a wrong shape or type.
+    release the interpreter's lock, and any number of threads may use one tracer concurrently. Ctrl-C interrupts a call
+    between two of its parts, which take about a twentieth of a second unless rays cost much more than those before
+    them. Methods raise :class:`InvalidValue` for arrays of a wrong shape or type.
 
     >>> from raylane import parse
     >>> scene = parse('{"camera": "auto", "materials": {"m": {}}, "objects":'
