@@ -67,7 +67,7 @@ RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const Shape
 /// cross are known. `first` is the index of the first ray of the batch that intake_ took together
 /// with this ray. Invalid rays are visited, too.
 template <class Real, class Visit>
-void RowWorker::for_each_ray(const RayStream<Real>& rays, const Visit& visit) {
+void RowWorker::for_each_ray(const RayStream<Real>& rays, bool with_normals, const Visit& visit) {
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
         count = intake_.take(rays, first).count;
         search_.take(intake_.paths().columns());
@@ -75,7 +75,7 @@ void RowWorker::for_each_ray(const RayStream<Real>& rays, const Visit& visit) {
             some = std::min(some, count - begin);
             while (!list_pairs(begin, begin + some))
                 some /= 2;
-            cross_pairs();
+            cross_pairs(with_normals);
             for (std::size_t lane = begin; lane < begin + some; ++lane)
                 visit(first, lane);
         }
@@ -137,10 +137,15 @@ bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
     return true;
 }
 
-void RowWorker::cross_pairs() {
+void RowWorker::cross_pairs(bool with_normals) {
     for (std::vector<double>* const column : {&high_, &low_, &error_})
         column->resize(2 * slot_.size());
     bits_.resize(2 * slot_.size());
+    float* normal[3] = {};
+    for (int axis = 0; with_normals && axis < 3; ++axis) {
+        normal_[axis].resize(2 * slot_.size());
+        normal[axis] = normal_[axis].data();
+    }
     const Paths& paths = intake_.paths();
     const double* const* const from = paths.origin;
     const double* const* const along = paths.exact_direction;
@@ -154,18 +159,18 @@ void RowWorker::cross_pairs() {
                                                        high_.data(),
                                                        low_.data(),
                                                        error_.data(),
-                                                       bits_.data()});
+                                                       bits_.data(),
+                                                       {normal[0], normal[1], normal[2]}});
 }
 
-/// Adds the crossings of a ray and returns true if the results of cross_pairs() suffice:
+/// Sorts the crossings of a ray that count into keys_ and returns true if the results of
+/// cross_pairs() suffice:
 ///   - All crossings are known, and each t rounds to one double with certainty.
 ///   - The order of the crossings is certain.
 ///   - It is certain which of the crossings are between the limits.
 ///   - The ray cannot meet the shape that it leaves again.
-/// Otherwise adds nothing and returns false.
-template <class Real>
-bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::size_t most,
-                            CrossingRows& rows) {
+template <class Real, class Counts>
+bool RowWorker::sort_at_once(const RayStream<Real>& rays, std::size_t lane, const Counts& counts) {
     if ((intake_.paths().origin_bits[lane] & origin_may_return) != 0) return false;
     const double unit = intake_.taken().unit[lane];
     const Limits<Real> limits(rays, lane);
@@ -175,7 +180,7 @@ bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::
         if ((bits_[k] & hit_doubtful) != 0 ||
             !core::rounds_surely(core::DoubleDouble(high_[k], low_[k]), error_[k]))
             return false;
-        if (scene_.looks_through() && !is_seen(rays, lane, k)) continue;
+        if (!counts(k)) continue;
         const Within within = limits.compare(high_[k] * unit, off_by(k) * unit);
         if (within == Within::unknown) return false;
         if (within == Within::yes) keys_.push_back({high_[k], k});
@@ -186,8 +191,15 @@ bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::
         if (!(high_[before] + off_by(before) < high_[k] - off_by(k))) return false;
     }
     counters_.order.by_bounds += keys_.empty() ? 0 : keys_.size() - 1;
+    return true;
+}
 
-    const std::size_t count = most == 0 ? keys_.size() : std::min(most, keys_.size());
+/// Adds the crossings in keys_.
+template <class Real>
+void RowWorker::add_keys(const RayStream<Real>& rays, std::size_t lane,
+                         const CrossingRequest& wanted, CrossingRows& rows) {
+    const double unit = intake_.taken().unit[lane];
+    const std::size_t count = wanted.most == 0 ? keys_.size() : std::min(wanted.most, keys_.size());
     const std::size_t begin = rows.t.size();
     rows.t.resize(begin + count);
     rows.shape.resize(begin + count);
@@ -196,13 +208,31 @@ bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::
         column->resize(begin + count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t k = keys_[i].crossing;
+        const SceneData::ShapeRecord shape = scene_.record_of(slot_[k / 2]);
         rows.t[begin + i] = std::clamp(high_[k] * unit, std::numeric_limits<double>::denorm_min(),
                                        std::numeric_limits<double>::max());
-        rows.shape[begin + i] = scene_.id_of(slot_[k / 2]);
-        rows.entering[begin + i] = scene_.record_of(slot_[k / 2]).is_entered(bits_[k]) ? 1 : 0;
+        rows.shape[begin + i] = shape.id;
+        rows.entering[begin + i] = shape.is_entered(bits_[k]) ? 1 : 0;
         rows.face[begin + i] = static_cast<std::uint8_t>(bits_[k] & hit_face);
     }
-    return true;
+    if (!wanted.normals) return;
+    for (std::size_t i = 0; i < count; ++i) {
+        const core::Vec3f normal = normal_of(rays, lane, keys_[i].crossing);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            rows.normal[axis].push_back(normal[static_cast<int>(axis)]);
+    }
+}
+
+/// Returns the normal of a crossing, on the outside of its solid.
+template <class Real>
+core::Vec3f RowWorker::normal_of(const RayStream<Real>& rays, std::size_t lane,
+                                 std::size_t k) const {
+    core::Vec3f normal(normal_[0][k], normal_[1][k], normal_[2][k]);
+    const core::Hit<double> hit = hit_at(k);
+    if (std::isnan(normal.x) || std::isnan(normal.y) || std::isnan(normal.z))
+        normal = core::rounded_normal(scene_.scene(), intake_.lone(rays, lane, lane).leaving(), hit,
+                                      normal);
+    return hit.reversed ? core::Vec3f(0.0F) - normal : normal; // no -0
 }
 
 /// Returns a bound on the difference between a crossing's exact t and `high_`.
@@ -215,6 +245,12 @@ core::Crossing<double> RowWorker::crossing_at(std::size_t k, const core::DoubleD
             (error_[k] + std::abs(t.low)) * (1.0 + 0x1p-50)};
 }
 
+core::Hit<double> RowWorker::hit_at(std::size_t k) const {
+    const SceneData::ShapeRecord shape = scene_.record_of(slot_[k / 2]);
+    return {crossing_at(k, {high_[k], low_[k]}), shape.id, shape.kind,
+            scene_.place_of(slot_[k / 2]), shape.reversed};
+}
+
 /// Returns true if a crossing is on a visible surface.
 template <class Real>
 bool RowWorker::is_seen(const RayStream<Real>& rays, std::size_t lane, std::size_t k) {
@@ -222,10 +258,8 @@ bool RowWorker::is_seen(const RayStream<Real>& rays, std::size_t lane, std::size
     const core::Scene& scene = scene_.scene();
     if (!scene.materials()[shape.material].is_seen(shape.is_entered(bits_[k]))) return false;
     if (!scene.solids().has(shape.id)) return true;
-    const core::Hit<double> hit(crossing_at(k, {high_[k], low_[k]}), shape.id, shape.kind,
-                                scene_.place_of(slot_[k / 2]), shape.reversed);
     const LoneRay ray = intake_.lone(rays, lane, lane);
-    return solid_surfaces_.is_surface(ray.leaving(), hit);
+    return solid_surfaces_.is_surface(ray.leaving(), hit_at(k));
 }
 
 /// Finds the crossings of one ray for which wanted(hit) is true, in order.
@@ -299,10 +333,14 @@ void RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wa
                           CrossingRows& rows, CrossingCounters& counters) {
     counters_ = {};
     const core::Scene& scene = scene_.scene();
-    for_each_ray(rays, [&](std::size_t first, std::size_t lane) {
+    for_each_ray(rays, wanted.normals, [&](std::size_t first, std::size_t lane) {
         const RayStream<Real> some = part_of(rays, first, rays.count - first);
-        if (intake_.is_ray(lane) &&
-            (wanted.normals || !add_at_once(some, lane, wanted.most, rows))) {
+        const auto counts = [&](std::size_t k) {
+            return !scene_.looks_through() || is_seen(some, lane, k);
+        };
+        if (intake_.is_ray(lane) && sort_at_once(some, lane, counts)) {
+            add_keys(some, lane, wanted, rows);
+        } else if (intake_.is_ray(lane)) {
             const LoneRay ray = intake_.lone(some, lane, lane);
             find(ray, lane, [&](const core::Hit<double>& hit) { return ray.finds(scene, hit); });
             leave_one_of_polygons();
@@ -380,7 +418,7 @@ void RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& rows) {
     // The crossings beyond a limit tell which solids contain the ray's point at this limit.
     RayStream<Real> lines = rays;
     lines.t_min = lines.t_max = nullptr;
-    for_each_ray(lines, [&](std::size_t first, std::size_t lane) {
+    for_each_ray(lines, /*with_normals=*/false, [&](std::size_t first, std::size_t lane) {
         const std::size_t i = first + lane;
         const bool has_limits = (rays.t_min == nullptr || !std::isnan(rays.t_min[i])) &&
                                 (rays.t_max == nullptr || !std::isnan(rays.t_max[i]));

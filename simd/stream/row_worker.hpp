@@ -52,12 +52,17 @@ class RowWorker {
     };
 
     template <class Real, class Visit>
-    void for_each_ray(const RayStream<Real>& rays, const Visit& visit);
+    void for_each_ray(const RayStream<Real>& rays, bool with_normals, const Visit& visit);
     bool list_pairs(std::size_t begin, std::size_t end);
-    void cross_pairs();
+    void cross_pairs(bool with_normals);
+    template <class Real, class Counts>
+    bool sort_at_once(const RayStream<Real>& rays, std::size_t lane, const Counts& counts);
     template <class Real>
-    bool add_at_once(const RayStream<Real>& rays, std::size_t lane, std::size_t most,
-                     CrossingRows& rows);
+    void add_keys(const RayStream<Real>& rays, std::size_t lane, const CrossingRequest& wanted,
+                  CrossingRows& rows);
+    template <class Real>
+    core::Vec3f normal_of(const RayStream<Real>& rays, std::size_t lane, std::size_t k) const;
+    core::Hit<double> hit_at(std::size_t k) const;
     double off_by(std::size_t k) const;
     core::Crossing<double> crossing_at(std::size_t k, const core::DoubleDouble& t) const;
     template <class Real>
@@ -89,6 +94,7 @@ class RowWorker {
     std::vector<std::uint32_t> listed_ray_, listed_slot_, first_of_ray_, ray_, slot_;
     std::vector<double> high_, low_, error_; // of their crossings
     std::vector<std::uint32_t> bits_;
+    std::vector<float> normal_[3]; // if wanted
 
     struct Key {
         double t;

@@ -195,6 +195,9 @@ struct CrossingPairs {
     /// error of at most `error`.
     double *high, *low, *error;
     std::uint32_t* hit; ///< hit_none, hit_doubtful where little is known, or face and hit_entering
+    /// Out: unit normals on the outside of the shapes, each component rounded to the nearest float,
+    /// or NaN where that is not certain. Null: not requested.
+    float* normal[3] = {};
 };
 
 /// Kernels for rays that remain in doubt.

@@ -128,6 +128,39 @@ class CrossAll {
         const Crossings<C> found = solver.crossings(certified<Wide<D>>(rays), starts_nowhere<C>());
         store(found.first, packet, 0);
         store(found.second, packet, 1);
+        if (pairs_.normal[0] == nullptr) return;
+        with_solver<Certified<D>>(kind_of(packet), [&]<class InDouble>() {
+            store_normals<InDouble>(reader, rays, found, packet);
+        });
+    }
+
+    /// Stores normals. They need no more digits than double has.
+    template <class Solver>
+    [[gnu::noinline]] void store_normals(const SlotReader<D>& reader, const Rays<D>& rays,
+                                         const Crossings<C>& found, const Packet& packet) const {
+        using InDouble = Certified<D>;
+        const Solver solver(CertifiedSlotReader<D, D>{reader});
+        const Rays<InDouble> exact = certified<D>(rays);
+        const Crossing<C>* const crossings[] = {&found.first, &found.second};
+        for (std::size_t which = 0; which < 2; ++which) {
+            const Crossing<C>& crossing = *crossings[which];
+            const Floats<InDouble> t(crossing.t.value.high,
+                                     (crossing.t.error + abs(crossing.t.value.low)) *
+                                         F(1.0 + 0x1p-50));
+            const Vectors<InDouble> normal =
+                solver.outward_normal(mul_add<InDouble>(t, exact.direction, exact.origin),
+                                      Floats<InDouble>(crossing.face.in_double()));
+            const Floats<InDouble>* const components[] = {&normal.x, &normal.y, &normal.z};
+            for (int axis = 0; axis < 3; ++axis) {
+                double numbers[width];
+                select(round_alike<D>(components[axis]->value, components[axis]->error),
+                       components[axis]->value, F(__builtin_nan("")))
+                    .store_unaligned(numbers);
+                for (std::size_t lane = 0; lane < packet.count; ++lane)
+                    pairs_.normal[axis][2 * packet.pair[lane] + which] =
+                        static_cast<float>(numbers[lane]) + 0.0F; // no -0
+            }
+        }
     }
 
     void store(const Crossing<C>& crossing, const Packet& packet, int which) const {

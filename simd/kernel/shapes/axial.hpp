@@ -124,7 +124,16 @@ template <class Arch>
 Vectors<Arch> offset_from_axis(const Vectors<Arch>& base, const Vectors<Arch>& axis,
                                const Vectors<Arch>& point) {
     const Vectors<Arch> from_base = point - base;
-    return mul_add<Arch>(negated(dot(from_base, axis) / squared_length(axis)), axis, from_base);
+    Vectors<Arch> across =
+        mul_add<Arch>(negated(dot(from_base, axis) / squared_length(axis)), axis, from_base);
+    if constexpr (requires { across.x.error; }) {
+        // No bound on errors proves that an offset from a coordinate axis has no part along it.
+        const Floats<Arch> o = zero<Arch>();
+        const Mask<Arch> no_x = axis.x == o, no_y = axis.y == o, no_z = axis.z == o;
+        across = {select(no_y & no_z, o, across.x), select(no_z & no_x, o, across.y),
+                  select(no_x & no_y, o, across.z)};
+    }
+    return across;
 }
 
 } // namespace raylane::simd
