@@ -17,11 +17,13 @@ bool is_good(const Extended& sum) {
     return sum.value.high > 0.0 && sum.error <= 0x1p-60 * sum.value.high;
 }
 
-} // namespace
-
-Bounded<DoubleDouble> PathLengths::End::t() const {
-    return crossing != nullptr ? crossing->wide_t() : Extended(limit);
+void sort_from(std::size_t first, std::vector<MaterialLength>& lengths) {
+    std::sort(
+        lengths.begin() + static_cast<std::ptrdiff_t>(first), lengths.end(),
+        [](const MaterialLength& a, const MaterialLength& b) { return a.material < b.material; });
 }
+
+} // namespace
 
 PathLengths::PathLengths(const Scene& scene)
     : scene_(scene), endless_(unbounded_solids(scene)), place_of_(scene.materials().size(), 0) {
@@ -45,9 +47,7 @@ PathLengths::OfMaterial& PathLengths::of(MaterialIndex material) {
 /// that it never crosses but that contain its end.
 void PathLengths::begin_around_start(const LeavingRay& from, std::span<const Hit<double>> hits,
                                      double t_min) {
-    const auto begin = [&](OfMaterial& material) {
-        if (material.depth++ == 0) material.begin = {nullptr, t_min};
-    };
+    const auto begin = [&](OfMaterial& material) { pass(material, true, limit_at(t_min)); };
     by_solid_.clear();
     for (std::size_t i = 0; i < hits.size(); ++i)
         by_solid_.emplace_back(scene_.solids().solid_of(hits[i].shape), i);
@@ -82,31 +82,16 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
     count_ = 0;
 
     begin_around_start(from, hits, t_min);
-    const auto limit_at = [](double t) { return End{nullptr, t}; };
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const Hit<double>& hit = hits[i];
-        End here{&sharp_[i], 0.0};
+        End here{false, {}, &sharp_[i]};
         if (compare_t(scene_, from, hit, t_min) <= 0)
             here = limit_at(t_min);
         else if (compare_t(scene_, from, hit, t_max) >= 0)
             here = limit_at(t_max);
-        OfMaterial& material = of(hit);
-        if (hit.enters()) {
-            if (material.depth++ == 0) material.begin = here;
-        } else if (--material.depth == 0) {
-            const bool is_none = material.begin.crossing == nullptr && here.crossing == nullptr &&
-                                 material.begin.limit == here.limit;
-            if (!is_none) material.parts.push_back({material.begin, here});
-        }
+        pass(of(hit), hit.enters(), here);
     }
-
-    // A material that the ray never leaves ends at t_max.
-    for (std::size_t i = 0; i < count_; ++i) {
-        OfMaterial& material = materials_[i];
-        const bool is_none = material.begin.crossing == nullptr && material.begin.limit == t_max;
-        if (material.depth > 0 && !is_none)
-            material.parts.push_back({material.begin, limit_at(t_max)});
-    }
+    end_at(t_max);
 
     const CrossingOrder order(scene_, from);
     const Extended speed = sqrt(squared_length(convert<Extended>(from.ray.direction)));
@@ -131,9 +116,62 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
         const double length = in_double(sum * speed).value;
         if (!material.parts.empty()) lengths.push_back({material.material, length});
     }
-    std::sort(
-        lengths.begin() + static_cast<std::ptrdiff_t>(first), lengths.end(),
-        [](const MaterialLength& a, const MaterialLength& b) { return a.material < b.material; });
+    sort_from(first, lengths);
+}
+
+bool PathLengths::add_certain(const Ray<double>& ray, std::span<const SolidCrossing> crossings,
+                              double t_min, double t_max, std::vector<MaterialLength>& lengths) {
+    if (!(t_min < t_max)) return true;
+    count_ = 0;
+    for (const SolidCrossing& crossing : crossings)
+        if (crossing.from_inside) pass(of(crossing.medium), true, limit_at(t_min));
+    for (const SolidCrossing& crossing : crossings) {
+        const Bounded<double> t = in_double(crossing.t);
+        const double off = t.error + 0x1p-52 * t.magnitude(); // covers the sums' roundings
+        End here{false, crossing.t, nullptr};
+        if (t.value + off <= t_min)
+            here = limit_at(t_min);
+        else if (t.value - off >= t_max)
+            here = limit_at(t_max);
+        else if (!(t.value - off > t_min && t.value + off < t_max))
+            return false;
+        pass(of(crossing.medium), crossing.enters, here);
+    }
+    end_at(t_max);
+
+    const Extended speed = sqrt(squared_length(convert<Extended>(ray.direction)));
+    const std::size_t first = lengths.size();
+    for (std::size_t i = 0; i < count_; ++i) {
+        const OfMaterial& material = materials_[i];
+        if (material.parts.empty()) continue;
+        const Extended sum = sum_of(material.parts);
+        if (!is_good(sum)) {
+            lengths.resize(first);
+            return false;
+        }
+        lengths.push_back({material.material, in_double(sum * speed).value});
+    }
+    sort_from(first, lengths);
+    return true;
+}
+
+/// Passes a crossing of one of the material's solids, or a limit in its place.
+void PathLengths::pass(OfMaterial& material, bool enters, const End& here) {
+    if (enters) {
+        if (material.depth++ == 0) material.begin = here;
+    } else if (--material.depth == 0) {
+        const bool is_none = here.is_limit && material.begin.is_limit_at(here.at.value.high);
+        if (!is_none) material.parts.push_back({material.begin, here});
+    }
+}
+
+/// Ends the materials that the ray never leaves at t_max.
+void PathLengths::end_at(double t_max) {
+    for (std::size_t i = 0; i < count_; ++i) {
+        OfMaterial& material = materials_[i];
+        if (material.depth > 0 && !material.begin.is_limit_at(t_max))
+            material.parts.push_back({material.begin, limit_at(t_max)});
+    }
 }
 
 Bounded<DoubleDouble> PathLengths::sum_of(const std::vector<Inside>& parts) const {
@@ -148,7 +186,7 @@ Bounded<DoubleDouble> PathLengths::exact_sum_of(const LeavingRay& from,
                                                 const std::vector<Inside>& parts) const {
     if (parts.empty()) return {};
     const auto t_within = [&](const End& end, int exponent) -> Dyadic {
-        if (end.crossing == nullptr) return end.limit;
+        if (end.crossing == nullptr) return end.at.value.high;
         const Hit<double>& hit = end.crossing->hit();
         return end.crossing->root(scene_, from).near(hit.t, hit.error, exponent);
     };

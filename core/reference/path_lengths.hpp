@@ -14,6 +14,14 @@ struct MaterialLength {
     double length; ///< in the scene's unit, within an ulp; infinite without an end
 };
 
+/// A ray's crossing with a shape that is a solid by itself.
+struct SolidCrossing {
+    MaterialIndex medium;
+    bool enters;
+    bool from_inside; ///< the ray starts inside of the shape, and leaves it here
+    Bounded<DoubleDouble> t;
+};
+
 /// Measures the length of a ray, from t_min to t_max, inside of each material's solids. A stretch
 /// inside of several solids of one material counts once. A solid that is cut open has no inside.
 /// For use by one thread.
@@ -26,15 +34,22 @@ class PathLengths {
     /// exits.
     void add(const LeavingRay& from, std::span<const Hit<double>> hits, double t_min, double t_max,
              std::vector<MaterialLength>& lengths);
+    /// Same for crossings whose order is certain, in scenes without compound solids. Returns false,
+    /// and appends nothing, if a limit or a length needs more digits.
+    bool add_certain(const Ray<double>& ray, std::span<const SolidCrossing> crossings, double t_min,
+                     double t_max, std::vector<MaterialLength>& lengths);
 
   private:
     /// An end of an interval inside of a material: a crossing, or a limit.
     struct End {
-        const SharpHit* crossing = nullptr;
-        double limit = 0.0;
+        bool is_limit = true;
+        Bounded<DoubleDouble> at{};         ///< of a limit or certain crossing
+        const SharpHit* crossing = nullptr; ///< of any other crossing
 
-        Bounded<DoubleDouble> t() const;
+        Bounded<DoubleDouble> t() const { return crossing != nullptr ? crossing->wide_t() : at; }
+        bool is_limit_at(double t) const { return is_limit && at.value.high == t; }
     };
+    static End limit_at(double t) { return {true, t, nullptr}; }
     struct Inside {
         End begin, end;
     };
@@ -47,6 +62,8 @@ class PathLengths {
 
     OfMaterial& of(MaterialIndex material);
     OfMaterial& of(const Hit<double>& hit) { return of(scene_.medium_index_of(hit.shape)); }
+    static void pass(OfMaterial& material, bool enters, const End& here);
+    void end_at(double t_max);
     void begin_around_start(const LeavingRay& from, std::span<const Hit<double>> hits,
                             double t_min);
     Bounded<DoubleDouble> sum_of(const std::vector<Inside>& parts) const;

@@ -413,6 +413,31 @@ void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, s
     }
 }
 
+/// Finds the lengths of one ray and returns true if the results of cross_pairs() suffice.
+template <class Real>
+bool RowWorker::add_lengths_at_once(const RayStream<Real>& lines, const LoneRay& ray,
+                                    std::size_t lane) {
+    if (scene_.scene().solids().any()) return false;
+    const auto counts = [&](std::size_t k) {
+        return is_solid(scene_.record_of(slot_[k / 2]).kind);
+    };
+    if (!sort_at_once(lines, lane, counts)) return false;
+    solid_crossings_.clear();
+    for (const Key& key : keys_) {
+        const std::uint32_t k = key.crossing;
+        const SceneData::ShapeRecord shape = scene_.record_of(slot_[k / 2]);
+        const bool enters = shape.is_entered(bits_[k]);
+        // A line enters a convex shape before it leaves it.
+        const bool from_inside = !enters && (bits_[k ^ 1] & hit_none) != 0;
+        solid_crossings_.push_back({shape.medium,
+                                    enters,
+                                    from_inside,
+                                    {core::double_double::two_sum(high_[k], low_[k]), error_[k]}});
+    }
+    return lengths_.add_certain(ray.ray, solid_crossings_, std::ldexp(ray.t_min, -ray.exponent),
+                                std::ldexp(ray.t_max, -ray.exponent), lengths_found_);
+}
+
 template <class Real>
 void RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& rows) {
     // The crossings beyond a limit tell which solids contain the ray's point at this limit.
@@ -424,15 +449,17 @@ void RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& rows) {
                                 (rays.t_max == nullptr || !std::isnan(rays.t_max[i]));
         if (intake_.is_ray(lane) && has_limits) {
             const LoneRay ray = intake_.lone(part_of(rays, first, rays.count - first), lane, lane);
-            find(ray, lane, [&](const core::Hit<double>& hit) {
-                return is_solid(hit.kind) || scene_.scene().solids().has(hit.shape);
-            });
-            hits_.clear();
-            for (const Crossed& crossed : crossed_)
-                hits_.push_back(crossed.hit);
             lengths_found_.clear();
-            lengths_.add(ray.leaving(), hits_, std::ldexp(ray.t_min, -ray.exponent),
-                         std::ldexp(ray.t_max, -ray.exponent), lengths_found_);
+            if (!add_lengths_at_once(lines, ray, lane)) {
+                find(ray, lane, [&](const core::Hit<double>& hit) {
+                    return is_solid(hit.kind) || scene_.scene().solids().has(hit.shape);
+                });
+                hits_.clear();
+                for (const Crossed& crossed : crossed_)
+                    hits_.push_back(crossed.hit);
+                lengths_.add(ray.leaving(), hits_, std::ldexp(ray.t_min, -ray.exponent),
+                             std::ldexp(ray.t_max, -ray.exponent), lengths_found_);
+            }
             for (const core::MaterialLength& found : lengths_found_) {
                 rows.material.push_back(found.material);
                 rows.length.push_back(found.length);

@@ -58,6 +58,8 @@ class RowWorker {
     template <class Real, class Counts>
     bool sort_at_once(const RayStream<Real>& rays, std::size_t lane, const Counts& counts);
     template <class Real>
+    bool add_lengths_at_once(const RayStream<Real>& lines, const LoneRay& ray, std::size_t lane);
+    template <class Real>
     void add_keys(const RayStream<Real>& rays, std::size_t lane, const CrossingRequest& wanted,
                   CrossingRows& rows);
     template <class Real>
@@ -105,6 +107,7 @@ class RowWorker {
     std::vector<core::SharpHit> sharp_;
     std::vector<std::uint32_t> order_;
     std::vector<core::Hit<double>> hits_;
+    std::vector<core::SolidCrossing> solid_crossings_;
     std::vector<core::MaterialLength> lengths_found_;
     std::vector<core::Containing> containing_;
     CrossingCounters counters_;
