@@ -31,6 +31,9 @@ class Query {
     /// within the error of the hit point in double. A ray that starts at the hit point in double
     /// then misses no surface.
     bool is_apart(const Paths& paths, std::size_t lane) const;
+    /// Returns true if the lane's hit was not certain at first. Otherwise its ray does not only
+    /// touch the shape, as certified solvers leave touches in doubt.
+    bool was_refined(std::size_t lane) const { return certifier_.was_refined(lane); }
     /// Returns lanes that meet several surfaces at one point, where only the reference tracer can
     /// go on. Their hits are the surface that comes first.
     std::span<const std::uint32_t> at_contacts() const { return certifier_.at_contacts(); }

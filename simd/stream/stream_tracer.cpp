@@ -48,16 +48,17 @@ void StreamTracer::answer(std::size_t count, const Answer& answer) const {
 
 /// Calls answer(worker, first, count, rows) for the same ranges, with separate rows for each, and
 /// joins these.
-template <class AnyRows, class Answer>
-void StreamTracer::answer_in_rows(std::size_t count, AnyRows& rows, const Answer& answer) const {
+template <class Worker, class AnyRows, class Answer>
+void StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t count, AnyRows& rows,
+                                  const Answer& answer) const {
     rows = {};
     if (count == 0) return;
     const DefaultRounding rounding;
-    const auto make = [&] { return std::make_unique<RowWorker>(*data_, tracing_, shapes_); };
+    const auto make = [&] { return std::make_unique<Worker>(*data_, tracing_, shapes_); };
     const Parts parts = parts_of(count);
     std::vector<AnyRows> found(parts.count);
     const auto answer_part = [&](std::size_t number) {
-        const Pool<RowWorker>::Lease worker(row_workers_, make);
+        const typename Pool<Worker>::Lease worker(workers, make);
         const std::size_t first = number * parts.size;
         answer(*worker, first, std::min(parts.size, count - first), found[number]);
     };
@@ -96,9 +97,15 @@ void StreamTracer::occluded(const RayStream<Real>& rays, std::uint8_t* occluded)
 template <class Real>
 void StreamTracer::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
                              CrossingRows& rows, CrossingCounters& counters) const {
+    if (wanted.most == 1 && tracing_.precision == core::Precision::exact)
+        return answer_in_rows(
+            workers_, rays.count, rows,
+            [&](StreamWorker& worker, std::size_t first, std::size_t count, CrossingRows& some) {
+                worker.first_crossings(part_of(rays, first, count), wanted.normals, some);
+            });
     std::mutex mutex;
     answer_in_rows(
-        rays.count, rows,
+        row_workers_, rays.count, rows,
         [&](RowWorker& worker, std::size_t first, std::size_t count, CrossingRows& some) {
             CrossingCounters counted;
             worker.crossings(part_of(rays, first, count), wanted, some, counted);
@@ -109,7 +116,7 @@ void StreamTracer::crossings(const RayStream<Real>& rays, const CrossingRequest&
 
 template <class Real>
 void StreamTracer::path_lengths(const RayStream<Real>& rays, LengthRows& rows) const {
-    answer_in_rows(rays.count, rows,
+    answer_in_rows(row_workers_, rays.count, rows,
                    [&](RowWorker& worker, std::size_t first, std::size_t count, LengthRows& some) {
                        worker.path_lengths(part_of(rays, first, count), some);
                    });
@@ -118,7 +125,7 @@ void StreamTracer::path_lengths(const RayStream<Real>& rays, LengthRows& rows) c
 template <class Real>
 void StreamTracer::containing(const PointStream<Real>& points, SolidRows& rows) const {
     answer_in_rows(
-        points.count, rows,
+        row_workers_, points.count, rows,
         [&](RowWorker& worker, std::size_t first, std::size_t count, SolidRows& some) {
             worker.containing(
                 PointStream<Real>{

@@ -68,8 +68,9 @@ class StreamTracer {
     Parts parts_of(std::size_t count) const;
     template <class Answer>
     void answer(std::size_t count, const Answer& answer) const;
-    template <class AnyRows, class Answer>
-    void answer_in_rows(std::size_t count, AnyRows& rows, const Answer& answer) const;
+    template <class Worker, class AnyRows, class Answer>
+    void answer_in_rows(Pool<Worker>& workers, std::size_t count, AnyRows& rows,
+                        const Answer& answer) const;
 
     static constexpr std::size_t fewest = 1024; ///< rays that are worth a thread
 

@@ -39,7 +39,8 @@ inline HitStream part_of(const HitStream& hits, std::size_t first) {
             from(hits.shape, first),
             from(hits.entering, first),
             from(hits.face, first),
-            from(hits.t_double, first)};
+            from(hits.t_double, first),
+            from(hits.touching, first)};
 }
 
 /// Store a hit in the requested columns, or that a ray has no hit.

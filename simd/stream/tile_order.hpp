@@ -66,6 +66,7 @@ class TileColumns {
         sorted.hits.shape = room_for(hits.shape, order.size());
         sorted.hits.entering = room_for(hits.entering, order.size());
         sorted.hits.face = room_for(hits.face, order.size());
+        sorted.hits.touching = room_for(hits.touching, order.size());
         return sorted;
     }
 
@@ -79,11 +80,12 @@ class TileColumns {
         scatter(sorted.entering, order, hits.entering);
         scatter(sorted.face, order, hits.face);
         scatter(sorted.t_double, order, hits.t_double);
+        scatter(sorted.touching, order, hits.touching);
     }
 
   private:
     /// Size of 8 columns of rays and all columns of hits.
-    static constexpr std::size_t bytes_a_ray = 9 * sizeof(double) + 5 * sizeof(float) + 2;
+    static constexpr std::size_t bytes_a_ray = 9 * sizeof(double) + 5 * sizeof(float) + 3;
 
     template <class Value>
     Value* room(std::size_t count) {

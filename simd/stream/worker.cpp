@@ -1,6 +1,7 @@
 #include "simd/stream/worker.hpp"
 
 #include "core/reference/crossing_order.hpp"
+#include "core/shapes/solve.hpp"
 #include "simd/query/as_core.hpp"
 
 #include <algorithm>
@@ -153,6 +154,7 @@ void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits
     LeftOver left{doubtful_, unsharp_, 0, 0};
     kernels().hand_over(scene_.view(), limits_of(rays), intake_.taken(),
                         query_.hits().found(intake_.paths(), 0, rays.count), hits, left);
+    if (hits.touching != nullptr) find_touching(rays, hits.touching);
     sharpen({unsharp_, left.unsharp_count}, hits);
     answer(rays, {doubtful_, left.doubtful_count}, hits);
 }
@@ -313,6 +315,71 @@ void StreamWorker::search(const LoneRay& ray, const HitStream& hits, std::size_t
                                                      : ray.as_answered(hit.t);
     store(hits, i, ray.t_of(scene_.scene(), hit), t_double, normal, hit.shape, hit.enters(),
           hit.face);
+    if (hits.touching != nullptr) hits.touching[i] = touches(ray, hit) ? 1 : 0;
+}
+
+/// Finds which of the hits that were found are those of rays that only touch the shape.
+template <class Real>
+void StreamWorker::find_touching(const RayStream<Real>& rays, std::uint8_t* touching) {
+    for (std::size_t lane = 0; lane < rays.count; ++lane)
+        touching[lane] = query_.was_refined(lane) && query_.hits().slot[lane] != no_slot &&
+                                 touches(intake_.lone(rays, lane, lane), hit_at(lane))
+                             ? 1
+                             : 0;
+}
+
+/// Returns true if the ray also enters the shape where it leaves it, or the other way round.
+bool StreamWorker::touches(const LoneRay& ray, const core::Hit<double>& hit) {
+    const core::Scene& scene = scene_.scene();
+    const core::CrossingOrder order(scene, ray.leaving());
+    return core::with_table(scene.shapes(), hit.kind, [&](const auto& table) {
+        std::uint64_t widened = 0;
+        const auto all =
+            core::solve(table.get(hit.place), ray.ray, ray.origins.start_on(hit.shape), widened);
+        return std::any_of(all.begin(), all.end(), [&](const core::Crossing<double>& crossing) {
+            const core::Hit<double> other(crossing, hit.shape, hit.kind, hit.place, hit.reversed);
+            return other.entering != hit.entering && order.compare(other, hit) == 0 &&
+                   ray.finds(scene, other) && solid_surfaces_.is_surface(ray.leaving(), other);
+        });
+    });
+}
+
+HitStream StreamWorker::Columns::take(std::size_t count, bool normals) {
+    const auto room = [count](auto& column) {
+        column.resize(count);
+        return column.data();
+    };
+    HitStream hits;
+    hits.t_double = room(t);
+    hits.shape = room(shape);
+    hits.entering = room(entering);
+    hits.face = room(face);
+    hits.touching = room(touching);
+    for (int axis = 0; normals && axis < 3; ++axis)
+        hits.normal[axis] = room(normal[axis]);
+    return hits;
+}
+
+template <class Real>
+void StreamWorker::first_crossings(const RayStream<Real>& rays, bool normals, CrossingRows& rows) {
+    for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
+        count = std::min(rays.count - first, TileOrder::most);
+        const HitStream hits = columns_.take(count, normals);
+        nearest(part_of(rays, first, count), hits);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (hits.shape[i] != core::no_shape) {
+                rows.t.push_back(hits.t_double[i]);
+                rows.shape.push_back(hits.shape[i]);
+                rows.entering.push_back(hits.entering[i]);
+                rows.face.push_back(hits.face[i]);
+                rows.tied.push_back(0);
+                rows.touching.push_back(hits.touching[i]);
+                for (std::size_t axis = 0; normals && axis < 3; ++axis)
+                    rows.normal[axis].push_back(hits.normal[axis][i]);
+            }
+            rows.first.push_back(rows.t.size());
+        }
+    }
 }
 
 template <class Real>
@@ -411,5 +478,7 @@ template void StreamWorker::nearest(const RayStream<float>&, const HitStream&);
 template void StreamWorker::nearest(const RayStream<double>&, const HitStream&);
 template void StreamWorker::occluded(const RayStream<float>&, std::uint8_t*);
 template void StreamWorker::occluded(const RayStream<double>&, std::uint8_t*);
+template void StreamWorker::first_crossings(const RayStream<float>&, bool, CrossingRows&);
+template void StreamWorker::first_crossings(const RayStream<double>&, bool, CrossingRows&);
 
 } // namespace raylane::simd

@@ -4,9 +4,11 @@
 #include "simd/query/query.hpp"
 #include "simd/stream/few_rays.hpp"
 #include "simd/stream/intake.hpp"
+#include "simd/stream/rows.hpp"
 #include "simd/stream/tile_order.hpp"
 
 #include <span>
+#include <vector>
 
 namespace raylane::simd {
 
@@ -19,6 +21,9 @@ class StreamWorker {
     void nearest(const RayStream<Real>& rays, const HitStream& hits);
     template <class Real>
     void occluded(const RayStream<Real>& rays, std::uint8_t* occluded);
+    /// Appends the first crossing of each ray to the rows. Requires Precision::exact.
+    template <class Real>
+    void first_crossings(const RayStream<Real>& rays, bool normals, CrossingRows& rows);
 
   private:
     bool is_exact() const { return tracing_.precision == core::Precision::exact; }
@@ -36,6 +41,9 @@ class StreamWorker {
     void nearest_of(const RayStream<Real>& rays, const HitStream& hits);
     template <class Real>
     void mark_unanswered(const RayStream<Real>& rays);
+    template <class Real>
+    void find_touching(const RayStream<Real>& rays, std::uint8_t* touching);
+    bool touches(const LoneRay& ray, const core::Hit<double>& hit);
     void sharpen(std::span<const std::uint32_t> lanes, const HitStream& hits);
     template <class Real>
     void answer(const RayStream<Real>& rays, std::span<std::uint32_t> lanes, const HitStream& hits);
@@ -73,6 +81,14 @@ class StreamWorker {
     std::uint32_t* doubtful_ = nullptr; // lanes
     std::uint32_t* unsharp_ = nullptr;
     std::uint8_t* state_ = nullptr;
+    /// Columns of hits for first_crossings().
+    struct Columns {
+        std::vector<double> t;
+        std::vector<core::ShapeId> shape;
+        std::vector<std::uint8_t> entering, face, touching;
+        std::vector<float> normal[3];
+        HitStream take(std::size_t count, bool normals);
+    } columns_;
     Arena arena_;
 };
 

@@ -63,6 +63,7 @@ struct HitStream {
     std::uint8_t* entering = nullptr; ///< 1: from outside (the front); 0: from inside, or no hit
     std::uint8_t* face = nullptr;     ///< for RayStream::origin_face
     double* t_double = nullptr;       ///< the double nearest to the exact t; infinity: no hit
+    std::uint8_t* touching = nullptr; ///< as in CrossingRows, with Precision::exact; 0: no hit
 
     [[gnu::always_inline]] bool wants_normals() const {
         return normal[0] != nullptr || normal[1] != nullptr || normal[2] != nullptr;

@@ -139,6 +139,16 @@ bool is_right(const CrossingRows& rows, std::size_t row, const oracle::Sight& si
     return at == end;
 }
 
+bool is_first(const CrossingRows& firsts, const CrossingRows& rows, std::size_t row) {
+    const std::uint64_t a = firsts.first[row], b = rows.first[row];
+    if (rows.first[row + 1] == b) return firsts.first[row + 1] == a;
+    return firsts.first[row + 1] == a + 1 && firsts.shape[a] == rows.shape[b] &&
+           firsts.t[a] == rows.t[b] && firsts.entering[a] == rows.entering[b] &&
+           firsts.face[a] == rows.face[b] && firsts.tied[a] == rows.tied[b] &&
+           firsts.touching[a] == rows.touching[b] && firsts.normal_x[a] == rows.normal_x[b] &&
+           firsts.normal_y[a] == rows.normal_y[b] && firsts.normal_z[a] == rows.normal_z[b];
+}
+
 std::string Tally::report() const {
     std::string text = std::to_string(lines) + " lines, " + std::to_string(rays) + " rays, " +
                        std::to_string(hits) + " hits, " + std::to_string(crossings) +
@@ -168,7 +178,8 @@ void Exam::ask(std::span<const core::Ray<float>> rays, Limits limits, Ways ways,
     tally.lines += static_cast<long>(rays.size());
     tally.rays += static_cast<long>(questions.rays.size());
     Answers answers{intersect(tracer_, questions.rays), occluded(tracer_, questions.rays)};
-    tracer_.crossings(questions.rays.span(), answers.rows);
+    tracer_.crossings(questions.rays.span(), answers.rows, {.normals = true});
+    tracer_.crossings(questions.rays.span(), answers.firsts, {.most = 1, .normals = true});
     for (std::size_t i = 0; i < questions.rays.size(); ++i)
         check(questions, i, answers, tally);
     check_others(questions.rays, answers, ways, tally);
@@ -213,6 +224,12 @@ void Exam::check(Questions& questions, std::size_t i, const Answers& answers, Ta
             return rays.t_min[i] < found.t && found.t <= rays.t_max[i] && counts_[found.shape] != 0;
         }))
         wrong(Fault::crossings);
+    if (!is_first(answers.firsts, answers.rows, i)) wrong(Fault::crossings);
+    if (const std::uint64_t first = answers.rows.first[i];
+        any && answers.rows.first[i + 1] != first &&
+        Vec3f(answers.rows.normal_x[first], answers.rows.normal_y[first],
+              answers.rows.normal_z[first]) != sight.normal_of(*truth, shapes_[truth->shape]))
+        wrong(Fault::normal);
     if (any ? hits.shape[i] != truth->shape : !hits.is_none(i)) wrong(Fault::shape);
     if (!any || hits.shape[i] != truth->shape) return;
     if (hits.t[i] != truth->t) wrong(Fault::t);

@@ -34,6 +34,9 @@ std::vector<char> which_count(const std::vector<Any>& shapes, Sides sides = Side
 bool is_right(const CrossingRows& rows, std::size_t row, const oracle::Sight& sight,
               const std::function<bool(const oracle::Found&)>& counts);
 
+/// Returns true if a row of at most one crossing has the first of all crossings, in each column.
+bool is_first(const CrossingRows& firsts, const CrossingRows& rows, std::size_t row);
+
 /// Faults of an answer.
 enum class Fault {
     shape,
@@ -80,7 +83,7 @@ class Exam {
     struct Answers {
         Hits hits;
         std::vector<std::uint8_t> blocked;
-        CrossingRows rows{};
+        CrossingRows rows{}, firsts{}; ///< all crossings, and at most one a ray
     };
 
     static void add(Questions& questions, const core::Ray<float>& ray, float t_min, float t_max);

@@ -87,6 +87,10 @@ TEST_CASE("all crossings come in order with ties and touches marked") {
           Strings{"+1@6", "+0@7.5", "-0@12.5", "-1@14"});
     CHECK(words(crossings(pin, one_ray({-10, 2.5F, 0}, {1, 0, 0}))).at(1) == "~+0@10");
     CHECK(words(crossings(pin, one_ray({-10, 2.5F, 0}, {1, 0, 0}))).at(2) == "=~-0@10");
+    CHECK(words(crossings(pin, one_ray({0, 2.5F, -20}, {0, 0, 1}), {.most = 1})).size() == 1);
+    const Scene ball = scene_of_materials(Sphere{{0, 0, 0}, 2.5F});
+    CHECK(words(crossings(ball, one_ray({-10, 2.5F, 0}, {1, 0, 0}), {.most = 1})) ==
+          Strings{"~+0@10"});
 
     // Coincident surfaces come in the order of their ids.
     const OpenCylinder cylinder{{0, 0, 0}, {0, 0, 1}, 1};
@@ -208,6 +212,13 @@ TEST_CASE("the first crossing of a ray is its nearest hit with the same normal")
         CHECK((rows.normal_x[k] == hits.nx[i] && rows.normal_y[k] == hits.ny[i] &&
                rows.normal_z[k] == hits.nz[i]));
     }
+}
+
+TEST_CASE("crossings behind the first are not compared if only the first is wanted") {
+    const Heap many = heap(false, 3, 7);
+    CrossingStatistics statistics;
+    CHECK(!crossings(many.scene, many.rays, {.most = 1}, &statistics).t.empty());
+    CHECK(statistics.by_bounds + statistics.by_digits + statistics.exactly == 0);
 }
 
 TEST_CASE("rays along the axis of cylinders and cones need no more than the bounds in double") {

@@ -90,12 +90,15 @@ struct CrossingRows {
 };
 
 struct CrossingOptions {
-    std::size_t most = 0; ///< maximum number of crossings of each ray, nearest first; 0: all
+    /// Maximum number of crossings of each ray, nearest first; 0: all. With 1, the search stops at
+    /// the first crossing, as that of intersect does. With other numbers it finds all crossings.
+    std::size_t most = 0;
     bool normals = false; ///< true: fill the normals
 };
 
 /// Counts of the comparisons of two crossings, by the arithmetic that decided their order, and of
-/// the pairs of ray and shape whose intersection needed more than double.
+/// the pairs of ray and shape whose intersection needed more than double. With
+/// CrossingOptions::most = 1 and Precision::exact, nothing is counted.
 struct CrossingStatistics {
     std::uint64_t by_bounds = 0;     ///< decided by error bounds in double
     std::uint64_t by_digits = 0;     ///< decided with twice the digits of double

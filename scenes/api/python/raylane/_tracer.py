@@ -245,7 +245,11 @@ class Tracer:
         most: int = 0,
         normals: bool = False,
     ) -> Crossings:
-        """Returns all crossings of each ray, or the first ``most``, in the order of their true t. Always exact."""
+        """Returns all crossings of each ray, or the first ``most``, in the order of their true t. Always exact.
+
+        ``most``: 0 for all. With 1, a ray costs little more than in :meth:`intersect`; otherwise all crossings are
+        found.
+        """
         rest = self._rest(t_min, t_max, leaving)
         return Crossings(**self._tracer.crossings(origins, directions, rest, most, normals))
 
