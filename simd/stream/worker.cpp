@@ -29,7 +29,7 @@ StreamWorker::StreamWorker(const SceneData& scene, const Tracing& tracing,
                            const ShapesByName& shapes)
     : scene_(scene), tracing_(tracing),
       searcher_(scene.scene(), core::Search::hierarchy, tracing.precision),
-      solid_surfaces_(scene.scene()), query_(scene, tracing, Asked::floats),
+      solid_surfaces_(scene.scene()), query_(scene, tracing, Asked::floats), expressions_(scene),
       intake_(scene, tracing, shapes, at_a_time()), few_(scene, tracing, shapes) {
     const std::size_t capacity = at_a_time();
     arena_ = arena_for([&](Arena& arena) {
@@ -150,7 +150,7 @@ void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits
     EngineCounters counters;
     query_.nearest(intake_.paths(), intake_.coherence(), counters,
                    is_exact() && rays.t_max != nullptr ? intake_.taken().t_limit : nullptr);
-    mark_unanswered(rays);
+    mark_unanswered(rays, hits.wants_normals());
     LeftOver left{doubtful_, unsharp_, 0, 0};
     kernels().hand_over(scene_.view(), limits_of(rays), intake_.taken(),
                         query_.hits().found(intake_.paths(), 0, rays.count), hits, left);
@@ -226,12 +226,10 @@ double StreamWorker::in_double(std::size_t lane, double t) const {
 /// Marks hits as doubtful that are not answers, or not the first: invisible sides, and hits of
 /// methods that certify nothing.
 template <class Real>
-void StreamWorker::mark_unanswered(const RayStream<Real>& rays) {
+void StreamWorker::mark_unanswered(const RayStream<Real>& rays, bool with_normals) {
+    if (scene_.looks_through()) find_surfaces(with_normals);
     const Hits& found = query_.hits();
     const auto mark = [&](std::size_t lane) { found.hit[lane] |= hit_doubtful; };
-    if (scene_.looks_through())
-        for (std::size_t lane = 0; lane < rays.count; ++lane)
-            if (found.slot[lane] != no_slot && !is_seen(lane)) mark(lane);
     if (is_exact()) return; // rays that meet several shapes at one point have the first
     for (const std::uint32_t lane : query_.at_contacts())
         mark(lane);
@@ -241,6 +239,24 @@ void StreamWorker::mark_unanswered(const RayStream<Real>& rays) {
             static_cast<double>(t_at(lane, intake_.lone(rays, lane, lane))) <=
                 static_cast<double>(rays.t_min[lane]))
             mark(lane);
+}
+
+/// Replaces hits that are not visible surfaces by the first ones that are. Marks those as doubtful
+/// for which the scalar search has to find it.
+void StreamWorker::find_surfaces(bool with_normals) {
+    const Hits& found = query_.hits();
+    const std::size_t count = intake_.paths().count;
+    std::size_t hidden = 0;
+    for (std::size_t lane = 0; lane < count; ++lane)
+        if (found.slot[lane] != no_slot && !is_seen(lane)) {
+            found.hit[lane] |= hit_doubtful;
+            unsharp_[hidden++] = static_cast<std::uint32_t>(lane);
+        }
+    if (hidden == 0 || !expressions_.any() || !is_exact()) return;
+    Found those = found.found(intake_.paths(), 0, count);
+    if (!with_normals) std::fill_n(those.normal, 3, nullptr);
+    tracing_.method().refine.first_surfaces(expressions_.nodes(), those, found.slot, unsharp_,
+                                            hidden);
 }
 
 /// Answers doubtful rays by the scalar search or, where only floats are in doubt, by their hits.
@@ -274,7 +290,7 @@ void StreamWorker::answer(const LoneRay& ray, const Widened& widened, std::size_
     core::Vec3f normal(0.0F);
     if (hits.wants_normals()) normal = normal_of(ray, hit, widened, k);
     store(hits, lane, t, hits.t_double != nullptr ? double_t_of(widened, k) : 0.0, normal,
-          hit.shape, hit.entering, hit.face);
+          hit.shape, hit.enters(), hit.face);
 }
 
 core::Vec3f StreamWorker::normal_of(const LoneRay& ray, const core::Hit<double>& hit,
@@ -288,8 +304,10 @@ core::Vec3f StreamWorker::normal_of(const LoneRay& ray, const core::Hit<double>&
         known[axis] = (widened.rounded[k] >> axis & 1) != 0
                           ? widened.normal[axis][k]
                           : std::numeric_limits<float>::quiet_NaN();
-    if (widened.rounded[k] == 7) return known + core::Vec3f(0.0F); // no -0
-    return core::rounded_normal(scene_.scene(), ray.leaving(), hit, known);
+    const core::Vec3f normal =
+        widened.rounded[k] == 7 ? known
+                                : core::rounded_normal(scene_.scene(), ray.leaving(), hit, known);
+    return (hit.reversed ? -normal : normal) + core::Vec3f(0.0F); // no -0
 }
 
 /// Returns true if the lane's hit is not beyond the upper limit.
@@ -423,14 +441,15 @@ void StreamWorker::settle(const RayStream<Real>& rays, std::size_t left, std::ui
     EngineCounters counters;
     query_.nearest(intake_.paths(), intake_.coherence() != nullptr ? &neighbours : nullptr,
                    counters, intake_.taken().t_limit);
+    if (scene_.looks_through()) find_surfaces(/*with_normals=*/false);
     for (std::size_t k = 0; k < left; ++k) {
         const std::size_t i = doubtful_[k];
         occluded[i] = 0;
         if (query_.hits().slot[k] == no_slot) continue;
         const LoneRay ray = intake_.lone(rays, i, k);
-        occluded[i] = scene_.looks_through() && !is_seen(k) ? is_occluded(ray)
-                      : is_before_t_max(k, ray)             ? 1
-                                                            : 0;
+        occluded[i] = (query_.hits().hit[k] & hit_doubtful) != 0 ? is_occluded(ray)
+                      : is_before_t_max(k, ray)                  ? 1
+                                                                 : 0;
     }
 }
 

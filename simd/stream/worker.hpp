@@ -2,6 +2,7 @@
 
 #include "core/reference/search.hpp"
 #include "simd/query/query.hpp"
+#include "simd/query/surface_expressions.hpp"
 #include "simd/stream/few_rays.hpp"
 #include "simd/stream/intake.hpp"
 #include "simd/stream/rows.hpp"
@@ -40,7 +41,8 @@ class StreamWorker {
     template <class Real>
     void nearest_of(const RayStream<Real>& rays, const HitStream& hits);
     template <class Real>
-    void mark_unanswered(const RayStream<Real>& rays);
+    void mark_unanswered(const RayStream<Real>& rays, bool with_normals);
+    void find_surfaces(bool with_normals);
     template <class Real>
     void find_touching(const RayStream<Real>& rays, std::uint8_t* touching);
     bool touches(const LoneRay& ray, const core::Hit<double>& hit);
@@ -74,6 +76,7 @@ class StreamWorker {
     core::Searcher<double> searcher_;
     core::SolidSurfaces solid_surfaces_;
     Query query_;
+    SurfaceExpressions expressions_;
     StreamIntake intake_;
     FewRays few_;
     TileOrder tiles_;

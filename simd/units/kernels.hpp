@@ -59,6 +59,9 @@ inline constexpr std::uint32_t hit_doubtful = 0x200; ///< not certain; other bit
 inline constexpr std::uint32_t hit_none = 0x400; ///< certainly no hit; other bits are meaningless
 inline constexpr std::uint32_t hit_normal_doubtful = 0x800; ///< too uncertain to round to float
 inline constexpr std::uint32_t hit_normal_unknown = 0x1000;
+/// The shape is a part of a solid whose outside counts, and the normal is that of the solid.
+/// Entering the shape is leaving the solid. Only RefineKernels::first_surfaces finds such hits.
+inline constexpr std::uint32_t hit_reversed = 0x2000;
 
 /// Kernels that trace with one core::Precision.
 struct MethodKernels {

@@ -200,6 +200,29 @@ struct CrossingPairs {
     float* normal[3] = {};
 };
 
+/// A node of an expression of shapes: a shape, or an intersection or union of the nodes that
+/// follow. A shape that is no part of a solid is an expression by itself.
+struct SurfaceNode {
+    std::uint32_t end;     ///< index behind the last descendant
+    std::uint32_t parent;  ///< meaningless for the root of an expression
+    const double* numbers; ///< of a shape; null: an intersection or union
+    core::Kind kind;
+    bool of_all;   ///< an intersection
+    bool is_part;  ///< a part of a solid
+    bool reversed; ///< a part whose outside counts as its inside
+    bool seen[2];  ///< whether the shape is visible where rays leave it, and enter it
+    std::uint32_t id;
+    std::uint32_t slot; ///< no_slot: rays do not cross it
+};
+
+/// The expressions of a scene, one after the other.
+struct SurfaceNodes {
+    static constexpr std::uint32_t most = 64;
+
+    const SurfaceNode* node;
+    std::uint32_t count; ///< at most `most`
+};
+
 /// Kernels for rays that remain in doubt.
 struct RefineKernels {
     /// Lists all shapes that ray i may cross before the limit, among those that
@@ -221,6 +244,12 @@ struct RefineKernels {
                      const RoundedRays& rays, const float* t_limit, const Pending& pending,
                      PairList& list);
     void (*cross_all)(const SceneView& scene, const CrossingPairs& pairs);
+    /// Finds the first visible surface of each of `count` rays of `found`, by their `lanes`, as
+    /// core::SolidSurfaces describes it. `slot` (in place of Found::slot) is out: no_slot for a ray
+    /// that has none. Rays that double arithmetic leaves in doubt are hit_doubtful. Normals are not
+    /// computed if Found::normal is null.
+    void (*first_surfaces)(const SurfaceNodes& nodes, const Found& found, std::uint32_t* slot,
+                           const std::uint32_t* lanes, std::size_t count);
 };
 
 } // namespace raylane::simd

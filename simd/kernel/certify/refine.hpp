@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/certify/gathered_rays.hpp"
 #include "simd/kernel/certify/slot_reader.hpp"
 #include "simd/kernel/certify/slots.hpp"
 #include "simd/kernel/shapes/certified_solver.hpp"
@@ -86,38 +87,16 @@ class Refine {
     using ExactReader = CertifiedSlotReader<D, Number>;
 
     /// The exact rays of a packet, with the readers of their shapes.
-    struct Loaded {
+    struct Loaded : GatheredRays<Arch> {
         Reader reader;
-        Rays<D> rays;
-        F length;
-        F t_after;
+        explicit Loaded(const TableView& table) : reader(table) {}
     };
 
     Loaded load(const Packet& packet, core::Kind kind) const {
-        const TableView& table = S::table_of(scene_, kind);
-        Loaded loaded{Reader(table), {}, {}, {}};
-        const bool stand_for_others = found_.exact_length != nullptr;
-        const double* const* const directions =
-            stand_for_others ? found_.exact_direction : found_.direction;
-        double numbers[8][width];
-        for (std::size_t lane = 0; lane < width; ++lane) {
-            // Unused lanes repeat the first one.
-            const std::size_t ray = packet.rays[lane < packet.count ? lane : 0];
-            loaded.reader.set(lane, found_.slot[ray]);
-            for (int axis = 0; axis < 3; ++axis) {
-                numbers[axis][lane] = found_.origin[axis][ray];
-                numbers[3 + axis][lane] = directions[axis][ray];
-            }
-            numbers[6][lane] = stand_for_others ? found_.exact_length[ray] : 1.0;
-            numbers[7][lane] = found_.t_after != nullptr ? found_.t_after[ray] : 0.0;
-        }
-        const auto vectors = [&](double(*from)[width]) {
-            return Vectors<D>{F::load_unaligned(from[0]), F::load_unaligned(from[1]),
-                              F::load_unaligned(from[2])};
-        };
-        loaded.rays = {vectors(numbers), vectors(numbers + 3)};
-        loaded.length = F::load_unaligned(numbers[6]);
-        loaded.t_after = F::load_unaligned(numbers[7]);
+        Loaded loaded(S::table_of(scene_, kind));
+        loaded.gather(found_, packet.rays, packet.count);
+        for (std::size_t lane = 0; lane < width; ++lane)
+            loaded.reader.set(lane, found_.slot[packet.rays[lane < packet.count ? lane : 0]]);
         return loaded;
     }
 
@@ -157,6 +136,31 @@ class Refine {
         return first_ahead<C>(crossings, none<C>());
     }
 
+    /// Returns the crossings that enter or leave the shape as those that were found. A line enters
+    /// a shape at most once, and leaves it at most once.
+    template <class Solver>
+    Crossing<Certified<Wide<D>>> crossing_like(const Solver& solver, const Loaded& loaded,
+                                               const Packet& packet) const {
+        using C = Certified<Wide<D>>;
+        const auto [first, second] =
+            solver.crossings(certified<Wide<D>>(loaded.rays), starts_nowhere<C>());
+        std::uint32_t entering = 0;
+        for (std::size_t lane = 0; lane < packet.count; ++lane)
+            entering |= ((found_.hit[packet.rays[lane]] & hit_entering) != 0 ? 1U : 0U) << lane;
+        const M is_first =
+            first.exists.answer & ~(first.entering.answer ^ Lanes<D>::from_bits(entering));
+        const auto of = [&](const Floats<C>& a, const Floats<C>& b) {
+            return Floats<C>(select(is_first, a.value, b.value),
+                             select(is_first, a.error, b.error));
+        };
+        const auto either = [&](const Mask<C>& a, const Mask<C>& b) {
+            return Mask<C>((is_first & a.answer) | (~is_first & b.answer),
+                           (is_first & a.known) | (~is_first & b.known));
+        };
+        return {either(first.exists, second.exists), of(first.t, second.t),
+                of(first.face, second.face), either(first.entering, second.entering)};
+    }
+
     /// Returns whether t is after the limit. The answer is unknown if t is certainly at a
     /// limit > 0.
     template <class C>
@@ -181,7 +185,7 @@ class Refine {
     [[gnu::noinline]] void store(const Loaded& loaded, const Packet& packet,
                                  const WideCrossings& wide) const {
         const Solver solver(ExactReader<Wide<D>>{loaded.reader});
-        const Crossing<Certified<Wide<D>>> first = crossing_of<Wide<D>>(solver, loaded);
+        const Crossing<Certified<Wide<D>>> first = crossing_like(solver, loaded, packet);
         const std::uint32_t known = Lanes<D>::bits(
             first.exists.surely() & (first.face.error == zero<D>()) & first.entering.known);
         const std::uint32_t entering = Lanes<D>::bits(first.entering.answer);

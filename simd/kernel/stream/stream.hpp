@@ -73,7 +73,8 @@ class CallerStream {
             if (hits.entering != nullptr)
                 for (std::size_t lane = 0; lane < here; ++lane)
                     hits.entering[i + lane] = static_cast<std::uint8_t>(
-                        bits >> lane & 1 & found.hit[i + lane] / hit_entering);
+                        bits >> lane & 1 &
+                        (found.hit[i + lane] / hit_entering ^ found.hit[i + lane] / hit_reversed));
             if (hits.face != nullptr)
                 for (std::size_t lane = 0; lane < here; ++lane)
                     hits.face[i + lane] = static_cast<std::uint8_t>(

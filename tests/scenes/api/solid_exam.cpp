@@ -1,9 +1,12 @@
 #include "tests/scenes/api/solid_exam.hpp"
 
 #include "core/shapes/shapes.hpp"
+#include "tests/scenes/api/exam.hpp"
 #include "tests/scenes/api/in_library.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 #include <sstream>
 
 namespace raylane::tests {
@@ -36,6 +39,32 @@ std::string word(core::ShapeId shape, double t, bool entering) {
     text.precision(17);
     text << (entering ? "+" : "-") << shape << "@" << t << " ";
     return text.str();
+}
+
+/// Returns the t of a hit, which is never 0, for the t of a crossing.
+float in_float(double t) {
+    return std::max(static_cast<float>(t), std::numeric_limits<float>::denorm_min());
+}
+
+/// Checks that hits, and single crossings, are the first of all crossings.
+void check_firsts(const Tracer& tracer, const RaySpan& rays, const CrossingRows& rows,
+                  SolidTally& wrong) {
+    Hits hits(rays.origin_x.size());
+    tracer.intersect(rays, hits.span());
+    CrossingRows firsts;
+    tracer.crossings(rays, firsts, {.most = 1, .normals = true});
+    for (std::size_t i = 0; i < hits.t.size(); ++i) {
+        if (!is_first(firsts, rows, i))
+            wrong.blame(wrong.firsts, "the one crossing of ray " + std::to_string(i));
+        const std::uint64_t k = rows.first[i];
+        const bool is_hit =
+            rows.first[i + 1] == k
+                ? hits.is_none(i)
+                : rows.shape[k] == hits.shape[i] && in_float(rows.t[k]) == hits.t[i] &&
+                      rows.entering[k] == hits.entering[i] && rows.normal_x[k] == hits.nx[i] &&
+                      rows.normal_y[k] == hits.ny[i] && rows.normal_z[k] == hits.nz[i];
+        if (!is_hit) wrong.blame(wrong.firsts, "the hit of ray " + std::to_string(i));
+    }
 }
 
 } // namespace
@@ -113,7 +142,8 @@ void ask(const Expression& expression, const Scene& scene,
     const bool has_clip = described(expression).find('/') != std::string::npos;
     const Tracer tracer(scene);
     CrossingRows rows;
-    tracer.crossings(rays.span(), rows);
+    tracer.crossings(rays.span(), rows, {.normals = true});
+    check_firsts(tracer, rays.span(), rows, wrong);
     const Hits hits = intersect(tracer, rays);
     std::vector<std::uint8_t> blocked(rays.size());
     tracer.occluded(rays.span(), blocked);
@@ -158,6 +188,38 @@ void ask(const Expression& expression, const Scene& scene,
             wrong.of = described(expression) + " by " + text.str();
         }
     }
+}
+
+void ask_onward(const Scene& scene, const std::vector<core::Ray<float>>& asked, SolidTally& wrong) {
+    Rays rays;
+    for (const core::Ray<float>& ray : asked)
+        rays.add({ray.origin.x, ray.origin.y, ray.origin.z},
+                 {ray.direction.x, ray.direction.y, ray.direction.z});
+    const Tracer tracer(scene);
+    CrossingRows rows;
+    tracer.crossings(rays.span(), rows);
+    Rays onward;
+    std::vector<ShapeId> shape;
+    std::vector<std::uint8_t> face, inward;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const std::uint64_t k = rows.first[i];
+        if (rows.first[i + 1] == k) continue;
+        const core::Ray<double> ray = rays.ray(i);
+        const core::Vec3f at =
+            core::convert<float>(core::mul_add(rows.t[k], ray.direction, ray.origin));
+        const std::size_t other = i % 2 == 0 ? i : (7 * i + 1) % rays.size();
+        onward.add({at.x, at.y, at.z}, {rays.dx[other], rays.dy[other], rays.dz[other]});
+        shape.push_back(rows.shape[k]);
+        face.push_back(rows.face[k]);
+        inward.push_back(i % 3 == 0 ? 1 - rows.entering[k] : rows.entering[k]);
+    }
+    RaySpan from = onward.span();
+    from.origin_shape = shape;
+    from.origin_face = face;
+    from.origin_inward = inward;
+    CrossingRows all;
+    tracer.crossings(from, all, {.normals = true});
+    check_firsts(tracer, from, all, wrong);
 }
 
 } // namespace raylane::tests

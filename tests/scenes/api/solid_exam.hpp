@@ -11,10 +11,10 @@
 namespace raylane::tests {
 
 struct SolidTally {
-    long rows = 0, hits = 0, blocked = 0, sides = 0, asked = 0, surfaces = 0;
+    long rows = 0, hits = 0, blocked = 0, sides = 0, firsts = 0, asked = 0, surfaces = 0;
     std::string first, of;
 
-    long wrong() const { return rows + hits + blocked + sides; }
+    long wrong() const { return rows + hits + blocked + sides + firsts; }
     void blame(long& kind, const std::string& what) {
         if (++kind == 1) first += what + "\n";
     }
@@ -30,5 +30,9 @@ std::optional<Scene> scene_of(const oracle::Expression& expression);
 /// Checks all answers of the library for rays and for their origins in the scene of a solid.
 void ask(const oracle::Expression& expression, const Scene& scene,
          const std::vector<core::Ray<float>>& asked, SolidTally& wrong);
+
+/// Checks that the nearest hits of rays that start on the first surfaces of these, on both sides of
+/// them, are the first of all their crossings.
+void ask_onward(const Scene& scene, const std::vector<core::Ray<float>>& asked, SolidTally& wrong);
 
 } // namespace raylane::tests
