@@ -146,6 +146,8 @@ ShapeId SceneBuilder::add_polygon(std::span<const AnyTriangle> triangles, Materi
                                invalid.field,
                            invalid.expectation);
     }
+    if (number = first_off_plane(triangles); number < triangles.size())
+        throw InvalidValue(std::to_string(number), "must be in one plane with the other triangles");
     require_material(material);
     require_room(triangles.size());
     const ShapeId first = append(triangles.front(), material);

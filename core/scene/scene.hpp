@@ -153,9 +153,10 @@ class SceneBuilder {
     template <class Shape>
     ShapeId add(const Shape& shape, MaterialIndex material);
 
-    /// Adds triangles that tile one flat polygon. A ray that leaves one of them cannot hit the
-    /// others, however close to a common edge it starts. Returns the first id; the others follow.
-    /// The field of an error starts with the triangle's index: "1/normals/0".
+    /// Adds triangles that tile one flat polygon; see first_off_plane() for what is flat. A ray
+    /// that leaves one of them cannot hit the others, however close to a common edge it starts.
+    /// Returns the first id; the others follow. The field of an error starts with the triangle's
+    /// index: "1/normals/0".
     template <class AnyTriangle>
     ShapeId add_polygon(std::span<const AnyTriangle> triangles, MaterialIndex material);
 

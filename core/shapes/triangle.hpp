@@ -4,6 +4,9 @@
 #include "core/shapes/flat.hpp"
 #include "core/shapes/types.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -73,6 +76,38 @@ Vec3<Real> triangle_normal(const Shape& triangle) {
 template <class Real, AnyTriangle Shape>
 Vec3<Real> outward_direction(const Shape& triangle, const Vec3<Real>&, Face) {
     return triangle_normal<Real>(triangle);
+}
+
+/// Returns the number of the first triangle with a corner outside of the plane of all, by more than
+/// the rounding of coordinates that have some five digits or are floats: 2^-14 of the distance
+/// between corners, and 2^-20 of the coordinates. Without one, returns the count.
+template <AnyTriangle Shape>
+std::size_t first_off_plane(std::span<const Shape> triangles) {
+    const auto normal_of = [](const Shape& triangle) { return triangle_normal<double>(triangle); };
+    const Shape& largest =
+        *std::max_element(triangles.begin(), triangles.end(), [&](const Shape& a, const Shape& b) {
+            return squared_length(normal_of(a)) < squared_length(normal_of(b));
+        });
+    const Vec3d of_largest = normal_of(largest), center = convert<double>(largest.a);
+    Vec3d sum(0.0);
+    double size = 0.0, coordinate = 0.0;
+    for (const Shape& triangle : triangles) {
+        const Vec3d normal = normal_of(triangle);
+        sum += dot(normal, of_largest) < 0.0 ? -normal : normal;
+        for (const auto& corner : {triangle.a, triangle.b, triangle.c}) {
+            size = std::max(size, length(convert<double>(corner) - center));
+            coordinate = std::max(coordinate, length(convert<double>(corner)));
+        }
+    }
+    const double most = 0x1p-14 * size + 0x1p-20 * coordinate;
+    const auto is_off = [&](const auto& corner) {
+        return std::abs(dot(sum, convert<double>(corner) - center)) > most * length(sum);
+    };
+    std::size_t number = 0;
+    while (number < triangles.size() && !is_off(triangles[number].a) &&
+           !is_off(triangles[number].b) && !is_off(triangles[number].c))
+        ++number;
+    return number;
 }
 
 /// Returns the corners' normals, weighted by the barycentric coordinates of `point`; the flat

@@ -314,3 +314,13 @@ def test_the_interpreter_goes_on_meanwhile(crowd):
     for thread in threads:
         thread.join()
     assert len(found) == 3 and all(np.array_equal(t, expected) for t in found)
+
+
+def test_a_polygon_must_be_flat():
+    builder = raylane.SceneBuilder()
+    material = builder.add_material()
+    square = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0], [0, 1, 0]]], float)
+    turn = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
+    assert len(builder.add_polygon((square @ turn + 3).astype(np.float32), material=material)) == 2
+    with pytest.raises(InvalidValue, match="^[01]: must be in one plane"):
+        builder.add_polygon(square + [[[0], [0], [0]], [[0], [0.01], [0]]] * np.array([0, 0, 1.0]), material=material)

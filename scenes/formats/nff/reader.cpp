@@ -1,6 +1,7 @@
 #include "scenes/formats/nff/reader.hpp"
 
 #include "core/scene/validate.hpp"
+#include "core/shapes/triangle.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/formats/nff/fields.hpp"
@@ -56,7 +57,13 @@ class Reader {
 
     template <class Triangle>
     void add_polygon(const std::vector<Triangle>& triangles) {
-        builder_.add_polygon<Triangle>(triangles, material(Visible::both));
+        const core::MaterialIndex of = material(Visible::both);
+        if (core::first_off_plane<Triangle>(triangles) == triangles.size()) {
+            builder_.add_polygon<Triangle>(triangles, of);
+            return;
+        }
+        for (const Triangle& triangle : triangles)
+            builder_.add(triangle, of);
     }
 
     void require_no_objects() const;

@@ -222,8 +222,8 @@ RAYLANE_API raylane_status raylane_add_quadrics(raylane_builder* builder,
 RAYLANE_API raylane_status raylane_add_ellipsoids(raylane_builder* builder,
                                                   const raylane_ellipsoid* shapes, size_t count,
                                                   uint32_t material, uint32_t* first);
-/** Adds triangles that tile one flat polygon. If a triangle is invalid, adds none, and the error
- * text gives its number. */
+/** Adds triangles that tile one flat polygon. If a triangle is invalid, or not in one plane with
+ * the others (see SceneBuilder::add_polygon), adds none, and the error text gives its number. */
 RAYLANE_API raylane_status raylane_add_polygon(raylane_builder* builder,
                                                const raylane_triangle* triangles, size_t count,
                                                uint32_t material, uint32_t* first);

@@ -114,7 +114,9 @@ class SceneBuilder {
 
     /// Adds one or more triangles that tile one flat polygon. No reflection or shadow of one of
     /// them falls on another. Returns the first id; the ids of the other triangles follow. Fields
-    /// in errors have the triangle's number as a prefix: "1/normals/0".
+    /// in errors have the triangle's number as a prefix: "1/normals/0". Also throws InvalidValue if
+    /// a corner is off the common plane by more than 2^-14 of the distance between corners and
+    /// 2^-20 of the coordinates.
     ShapeId add_polygon(std::span<const Triangle> triangles, MaterialIndex material);
     ShapeId add_polygon(std::span<const SmoothTriangle> triangles, MaterialIndex material);
     ShapeId add_polygon(std::span<const TriangleOf<double>> triangles, MaterialIndex material);

@@ -337,7 +337,8 @@ class SceneBuilder(Fields):
         """Adds triangles that tile one flat polygon. No reflection or shadow of one falls on another.
 
         ``corners``: (n, 3, 3), corners as rows. ``normals``: shading normals, (n, 3, 3), or None. If a triangle is
-        invalid, adds none; the field of the :class:`InvalidValue` gives the number of the triangle.
+        invalid, or off the common plane by more than 2^-14 of the distance between corners and 2^-20 of the
+        coordinates, adds none; the field of the :class:`InvalidValue` gives the number of the triangle.
         """
         return range(*self._builder.add_triangles(corners, normals, material, True))
 
