@@ -78,7 +78,8 @@ std::uint64_t Duplicates::hash_of_shape(const Item& item) const {
 }
 
 bool Duplicates::is_unique(ShapeId id) const {
-    return range_with(polygons_, id) != nullptr || (solids_ != nullptr && solids_->has(id));
+    return !merge_ || range_with(polygons_, id) != nullptr ||
+           (solids_ != nullptr && solids_->has(id));
 }
 
 } // namespace raylane::core

@@ -15,14 +15,15 @@ namespace raylane::core {
 
 /// Finds duplicate shapes: same kind, numbers and material. A scene needs only the first of them.
 /// Triangles of a larger polygon are never duplicates, because each has its own list of coplanar
-/// triangles. Parts of solids are never duplicates either.
+/// triangles. Parts of solids are never duplicates either. Without `merge`, no shape is one.
 class Duplicates {
   public:
     /// `material_of`: by id. `polygons`: those of more than one triangle, ascending. `solids`: null
     /// if the scene has no solids.
     Duplicates(const ShapeLists& lists, const MaterialIndices& material_of,
-               std::span<const IdRange> polygons, const Solids* solids = nullptr)
-        : lists_(lists), material_of_(material_of), polygons_(polygons), solids_(solids) {}
+               std::span<const IdRange> polygons, const Solids* solids = nullptr, bool merge = true)
+        : lists_(lists), material_of_(material_of), polygons_(polygons), solids_(solids),
+          merge_(merge) {}
 
     /// Returns the bounds of a part of a solid within the solid; null for other shapes.
     const Bounds* bounds_of_part(ShapeId id) const {
@@ -60,6 +61,7 @@ class Duplicates {
     const MaterialIndices& material_of_;
     std::span<const IdRange> polygons_;
     const Solids* solids_;
+    bool merge_;
 };
 
 } // namespace raylane::core

@@ -257,9 +257,10 @@ void SceneBuilder::build_shapes() {
     if (solids_.any()) solids_.list(lists_);
     Workers alone;
     Workers& threads = workers != nullptr ? *workers : alone;
-    scene_.hierarchy_ =
-        build_hierarchy(lists_, {lists_, scene_.material_of_, scene_.polygons_, &solids_.solids()},
-                        threads, scene_.shapes_);
+    scene_.hierarchy_ = build_hierarchy(
+        lists_,
+        {lists_, scene_.material_of_, scene_.polygons_, &solids_.solids(), merge_duplicates},
+        threads, scene_.shapes_);
     lists_ = {};
     scene_.material_of_.shrink_to_fit();
     pack_spheres(std::get<Table<Sphere>>(scene_.shapes_), shape_count(), pack_from, threads);

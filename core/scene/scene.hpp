@@ -131,7 +131,8 @@ class SceneBuilder {
     /// Which of camera, fog and lights build() computes. build() throws InvalidValue, field
     /// "camera", if the scene has nothing from which a camera could find its position.
     AutoCamera auto_camera;
-    bool wants_light = true; ///< true if build() refuses shapes without a light
+    bool merge_duplicates = true; ///< see Duplicates
+    bool wants_light = true;      ///< true if build() refuses shapes without a light
     /// If set, build() moves each point light that is on a surface off it, to the side that the
     /// camera sees, and calls this with the light's index. By default build() refuses such lights.
     std::function<void(std::size_t)> on_light_moved;

@@ -316,6 +316,17 @@ def test_the_interpreter_goes_on_meanwhile(crowd):
     assert len(found) == 3 and all(np.array_equal(t, expected) for t in found)
 
 
+def test_equal_shapes_stay_apart_if_asked_to():
+    for merge in (True, False):
+        builder = raylane.SceneBuilder(merge_duplicates=merge)
+        builder.add_spheres(np.zeros((3, 3)), 1, material=builder.add_material())
+        tracer = Tracer(builder.build())
+        every = [0] if merge else [0, 1, 2]
+        assert tracer.crossings([[0, 0, 5]], [0, 0, -1.0]).shape.tolist() == every * 2
+        assert tracer.contains([[0, 0, 0]]).shape.tolist() == every
+        assert tracer.intersect([[0, 0, 5]], [0, 0, -1.0]).shape.tolist() == [0]
+
+
 def test_a_polygon_must_be_flat():
     builder = raylane.SceneBuilder()
     material = builder.add_material()

@@ -91,6 +91,10 @@ raylane_status raylane_set_background(raylane_builder* builder, raylane_vec3 col
         [&] { checked("builder", builder).builder.background = converted<Color>(color); });
 }
 
+raylane_status raylane_set_merge_duplicates(raylane_builder* builder, int merge) {
+    return guarded([&] { checked("builder", builder).builder.merge_duplicates = merge != 0; });
+}
+
 raylane_status raylane_set_settings(raylane_builder* builder, const raylane_settings* settings) {
     return guarded([&] {
         checked("builder", builder).builder.settings =

@@ -145,6 +145,7 @@ SceneBuilder& SceneBuilder::operator=(SceneBuilder&& other) noexcept {
     fog = std::exchange(other.fog, {});
     settings = std::exchange(other.settings, {});
     wavelengths = std::exchange(other.wavelengths, {});
+    merge_duplicates = std::exchange(other.merge_duplicates, true);
     builder_ = std::move(other.builder_);
     return *this;
 }
@@ -223,6 +224,7 @@ Scene SceneBuilder::build() {
         library::copy(taken.fog, builder.fog);
         library::copy(taken.settings, builder.settings);
         builder.wavelengths = taken.wavelengths;
+        builder.merge_duplicates = taken.merge_duplicates;
         builder.wants_light = false;
         builder.workers = &workers;
         return owning(std::move(builder).build());

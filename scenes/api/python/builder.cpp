@@ -334,9 +334,14 @@ void bind_builder(py::module_& module) {
              })
         .def("build",
              [](SharedBuilder& builder, const py::object& camera, const py::object& background,
-                const py::object& fog, const py::object& settings, const py::object& wavelengths) {
+                const py::object& fog, const py::object& settings, const py::object& wavelengths,
+                const py::object& merge_duplicates) {
                  const Surroundings around(camera, background, fog, settings, wavelengths);
-                 return builder.change([&](SceneBuilder& whole) { return around.built(whole); });
+                 const bool merge = bool_from(merge_duplicates, "merge_duplicates");
+                 return builder.change([&](SceneBuilder& whole) {
+                     whole.merge_duplicates = merge;
+                     return around.built(whole);
+                 });
              });
     // Throws the errors of build() for these values, before build() empties the builder.
     module.def("check",

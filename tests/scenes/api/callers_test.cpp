@@ -5,6 +5,25 @@
 using namespace raylane;
 using namespace raylane::tests;
 
+TEST_CASE("equal shapes count once or, if they are kept apart, each") {
+    for (const bool merge : {true, false}) {
+        SceneBuilder builder;
+        builder.merge_duplicates = merge;
+        const MaterialIndex m = builder.add_material({});
+        for (int i = 0; i < 40; ++i) {
+            builder.add(Sphere{{0, 0, 0}, 1}, m);
+            builder.add(Plane{{0, 0, -2}, {0, 0, 1}}, m);
+        }
+        CHECK(builder.merge_duplicates == merge);
+        const Tracer tracer(builder.build());
+        CHECK(builder.merge_duplicates);
+        CrossingRows rows;
+        tracer.crossings(to_ball().span(), rows);
+        CHECK(rows.t.size() == (merge ? 3U : 120U));
+        CHECK(intersect(tracer, to_ball()).shape == std::vector<ShapeId>{0});
+    }
+}
+
 TEST_CASE("a polygon's triangles must be in one plane") {
     SceneBuilder builder;
     const MaterialIndex m = builder.add_material({});

@@ -182,6 +182,9 @@ RAYLANE_API raylane_status raylane_set_fog(raylane_builder* builder, const rayla
 RAYLANE_API raylane_status raylane_set_camera(raylane_builder* builder,
                                               const raylane_camera* camera);
 RAYLANE_API raylane_status raylane_set_background(raylane_builder* builder, raylane_vec3 color);
+/** Sets SceneBuilder::merge_duplicates. 0: shapes with equal numbers and the same material stay
+ * apart. Default: 1, they count as the first of them. */
+RAYLANE_API raylane_status raylane_set_merge_duplicates(raylane_builder* builder, int merge);
 RAYLANE_API raylane_status raylane_set_settings(raylane_builder* builder,
                                                 const raylane_settings* settings);
 

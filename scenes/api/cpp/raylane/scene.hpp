@@ -91,6 +91,12 @@ class SceneBuilder {
     /// index of glass at that wavelength. Empty: one image, with Material::index. Checked by
     /// build(), field "spectrum/wavelengths/0".
     std::vector<double> wavelengths;
+    /// If true, shapes with equal numbers and the same material index count as one shape, the
+    /// first: queries never return the ids of the others. This does not apply to triangles of
+    /// polygons and to parts of solids. If false, each of them counts, for example in tallies of
+    /// crossings. Thousands of equal shapes then slow down rays that meet them. save() to .json
+    /// does not store the choice.
+    bool merge_duplicates = true;
 
     SceneBuilder();
     ~SceneBuilder();

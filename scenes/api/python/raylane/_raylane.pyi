@@ -71,6 +71,7 @@ class Builder:
         fog: Fog,
         settings: Settings,
         wavelengths: List[float],
+        merge_duplicates: bool,
     ) -> Scene: ...
 
 def check(

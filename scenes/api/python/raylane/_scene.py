@@ -287,8 +287,13 @@ class SceneBuilder(Fields):
     settings: Settings
     wavelengths: List[float]
     """At most 64 wavelengths in nanometres, 380 to 780. Each is rendered with the index of glass at that wavelength."""
+    merge_duplicates: bool
+    """True: shapes with equal numbers and the same material index count as one shape, the first. Queries never return
+    the ids of the others. This does not apply to triangles of polygons and to parts of solids. False: each of them
+    counts, for example in tallies of crossings. Thousands of equal shapes then slow down rays that meet them."""
 
-    def __init__(self) -> None:
+    def __init__(self, merge_duplicates: bool = True) -> None:
+        self.merge_duplicates = merge_duplicates
         self._renew()
 
     def _renew(self) -> None:
@@ -405,7 +410,7 @@ class SceneBuilder(Fields):
         others = (self.background, self.fog, settings, self.wavelengths)
         _raylane.check(camera, *others)
         self._renew()
-        scene = Scene(builder.build(camera, *others))
+        scene = Scene(builder.build(camera, *others, self.merge_duplicates))
         if camera is not None or not np.all(np.less_equal(*scene.bounds)):
             return scene
         aspect = min(max(settings.width / settings.height, 1e-5), 1e5)
