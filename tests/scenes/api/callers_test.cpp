@@ -1,9 +1,20 @@
 #include "tests/scenes/api/ray_arrays.hpp"
 #include "tests/support/catch.hpp"
 
+#include <utility>
+
 /// Tests of rules of the library that callers meet by mistake.
 using namespace raylane;
 using namespace raylane::tests;
+
+TEST_CASE("a tracer that was moved from still answers") {
+    Tracer tracer(ball());
+    const Tracer moved = std::move(tracer);
+    const Rays rays = to_ball();
+    CHECK(intersect(moved, rays).t == std::vector<float>{4});
+    CHECK(intersect(tracer, rays).t == std::vector<float>{4}); // NOLINT: that it is moved from
+    CHECK(tracer.scene().shape_count() == 1);
+}
 
 TEST_CASE("equal shapes count once or, if they are kept apart, each") {
     for (const bool merge : {true, false}) {

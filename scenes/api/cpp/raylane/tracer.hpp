@@ -174,6 +174,11 @@ class Tracer {
     /// "RAYLANE_THREADS" if the environment variable is needed and invalid.
     explicit Tracer(const Scene& scene, const TracerOptions& options = {});
 
+    // No move operations: a tracer is never empty.
+    Tracer(const Tracer&) = default;
+    Tracer& operator=(const Tracer&) = default;
+    ~Tracer() = default;
+
     const Scene& scene() const { return scene_; }
 
     /// Finds the nearest crossing of each ray. Throws InvalidValue, a std::invalid_argument, if a
