@@ -158,7 +158,11 @@ struct TracerOptions {
 ///
 /// A line that touches a surface enters and leaves it at the same t. A line that lies in a flat or
 /// open surface, or in a quadric, does not hit it there. A line that lies in a face of a solid or
-/// along its side hits it where the line reaches it.
+/// along its side hits it where the line reaches it. The same holds for the parts of a constructed
+/// solid: along such a line, a sphere, box, cylinder, cone or ellipsoid counts as inside, also if
+/// it is subtracted, and a half-space or quadric as outside. So a line in a face that a subtraction
+/// has cut does not hit the solid, and a line in the common face of two united boxes does.
+/// `crossings` and `path_lengths` agree; `contains` reports points of such faces as on the surface.
 ///
 /// - The parts of a constructed Solid are hit only on the surface of the solid. Hits give the id of
 ///   the part; the normal and `entering` are those of the solid.
