@@ -2,7 +2,9 @@
 
 #include "core/hierarchy/bins.hpp"
 #include "core/hierarchy/sweep.hpp"
+#include "core/shapes/shapes.hpp"
 
+#include <numeric>
 #include <span>
 
 namespace raylane::core {
@@ -95,6 +97,48 @@ class TreeBuilder {
     Workers& workers_;
 };
 
+/// Number of shapes in a task: enough to be worth the overhead.
+constexpr std::size_t shapes_in_a_task = std::size_t{1} << 14;
+
+template <class Shape>
+Bounds bounds_of_listed(const ShapeList<Shape>& list, std::size_t i, const Duplicates& duplicates) {
+    if (const Bounds* of_part = duplicates.bounds_of_part(list[i].id)) return *of_part;
+    return list.has_doubles() ? bounds_of(list.exact(i)) : bounds_of(list[i].shape);
+}
+
+/// Writes the items of the shapes from `begin` to `end` - 1.
+template <class Shape>
+void add_items(const ShapeList<Shape>& list, std::size_t begin, std::size_t end,
+               const Duplicates& duplicates, Item* to, Workers& workers) {
+    const std::size_t tasks = (end - begin + shapes_in_a_task - 1) / shapes_in_a_task;
+    workers.each(tasks, [&](std::size_t task) {
+        const std::size_t first = begin + task * shapes_in_a_task;
+        const std::size_t last = std::min(first + shapes_in_a_task, end);
+        for (std::size_t i = first; i < last; ++i)
+            to[i - begin] = Item(bounds_of_listed(list, i, duplicates), kind_of<Shape>,
+                                 static_cast<std::uint32_t>(i));
+    });
+}
+
+/// Returns the items of all trees. Writes the end of each tree's items to `ends_of_items`.
+BigArray<Item> items_of(const ShapeLists& lists, std::span<const EndsOfLists> ends,
+                        const Duplicates& duplicates, std::vector<std::size_t>& ends_of_items,
+                        Workers& workers) {
+    BigArray<Item> items(std::accumulate(ends.back().begin(), ends.back().end(), std::size_t{0}));
+    std::size_t next = 0;
+    EndsOfLists begin{};
+    for (const EndsOfLists& end : ends) {
+        for_each_bounded_table(lists, [&]<class Shape>(const ShapeList<Shape>& list) {
+            constexpr auto kind = static_cast<std::size_t>(kind_of<Shape>);
+            add_items(list, begin[kind], end[kind], duplicates, items.data() + next, workers);
+            next += end[kind] - begin[kind];
+        });
+        begin = end;
+        ends_of_items.push_back(next);
+    }
+    return items;
+}
+
 } // namespace
 
 Positions::Positions(BigArray<Item> items) : memory_(std::move(items)) {
@@ -107,12 +151,20 @@ Positions::Positions(BigArray<Item> items) : memory_(std::move(items)) {
     memory_.forget_rest(memory_.size() * sizeof(std::uint32_t));
 }
 
-BinaryTree build_binary_tree(BigArray<Item> items, const Duplicates& duplicates, Workers& workers) {
-    BinaryTree tree;
+BinaryForest build_binary_forest(const ShapeLists& lists, std::span<const EndsOfLists> ends,
+                                 const Duplicates& duplicates, Workers& workers) {
+    std::vector<std::size_t> ends_of_items;
+    BigArray<Item> items = items_of(lists, ends, duplicates, ends_of_items, workers);
+    BinaryForest forest;
+    forest.trees.resize(ends.size());
     const std::span<Item> all(items.data(), items.size());
-    TreeBuilder(all, duplicates, workers).build(whole_range(all, workers), tree.root);
-    tree.positions = Positions(std::move(items));
-    return tree;
+    workers.each(ends.size(), [&](std::size_t i) {
+        const std::size_t first = i == 0 ? 0 : ends_of_items[i - 1];
+        const Range range = range_of(all, first, ends_of_items[i], workers);
+        TreeBuilder(all, duplicates, workers).build(range, forest.trees[i]);
+    });
+    forest.positions = Positions(std::move(items));
+    return forest;
 }
 
 } // namespace raylane::core

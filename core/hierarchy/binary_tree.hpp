@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace raylane::core {
@@ -68,16 +69,19 @@ class Positions {
     BigArray<Item> memory_;
 };
 
-/// The tree, and the items' positions in the order in which leaves refer to them.
-struct BinaryTree {
-    TreePart root;
+/// Trees, and the items' positions in the order in which leaves refer to them.
+struct BinaryForest {
+    std::vector<TreePart> trees;
     Positions positions;
-
-    const Bounds& bounds() const { return root.nodes.front().bounds; }
 };
 
-/// Builds the tree by the surface-area heuristic, and decides its collapse into wide nodes. `items`
-/// must not be empty and is consumed. The tree has one item of each set of duplicates.
-BinaryTree build_binary_tree(BigArray<Item> items, const Duplicates& duplicates, Workers& workers);
+/// An index of each list of bounded shapes.
+using EndsOfLists = std::array<std::size_t, kind_count>;
+
+/// Builds trees by the surface-area heuristic, and decides their collapse into wide nodes. The
+/// shapes of tree i end at ends[i], where those of the next tree begin; no tree is empty. A tree
+/// has one of each set of its duplicates.
+BinaryForest build_binary_forest(const ShapeLists& lists, std::span<const EndsOfLists> ends,
+                                 const Duplicates& duplicates, Workers& workers);
 
 } // namespace raylane::core

@@ -220,16 +220,16 @@ void partition_strips(std::span<Item> items, const Range& range, const IsLeft& i
 
 } // namespace
 
-Range whole_range(std::span<const Item> items, Workers& workers) {
-    std::vector<Range> strips(strips_of(items.size()));
+Range range_of(std::span<const Item> items, std::size_t first, std::size_t last, Workers& workers) {
+    Range whole{first, last, {}, {}};
+    std::vector<Range> strips(strips_of(whole.size()));
     workers.each(strips.size(), [&](std::size_t i) {
-        const std::size_t first = i * strip_size;
-        for (const Item& item : items.subspan(first, std::min(strip_size, items.size() - first))) {
+        const std::size_t begin = first + i * strip_size;
+        for (const Item& item : items.subspan(begin, std::min(strip_size, last - begin))) {
             strips[i].box.include(item);
             strips[i].centers.include(item.doubled_center());
         }
     });
-    Range whole{0, items.size(), {}, {}};
     for (const Range& strip : strips) {
         whole.box.include(strip.box);
         whole.centers.include(strip.centers);

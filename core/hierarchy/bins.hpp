@@ -20,8 +20,8 @@ struct Halves {
     Range left, right;
 };
 
-/// Returns the range of all items with the bounds of the items and of their doubled centres.
-Range whole_range(std::span<const Item> items, Workers& workers);
+/// Returns a range of the items with the bounds of its items and of their doubled centres.
+Range range_of(std::span<const Item> items, std::size_t first, std::size_t last, Workers& workers);
 
 /// Splits a range of more than one block by the surface-area heuristic over bins of centres (Wald,
 /// "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007). The cost counts blocks

@@ -1,17 +1,14 @@
 #include "core/hierarchy/duplicates.hpp"
 
+#include "core/hierarchy/hash.hpp"
 #include "core/shapes/shape_table.hpp"
 
 #include <cstring>
+#include <utility>
 
 namespace raylane::core {
 
 namespace {
-
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
-    hash = (hash ^ value) * 0x9E3779B97F4A7C15;
-    return hash ^ hash >> 32;
-}
 
 std::uint64_t hash_of_bounds(const Item& item) {
     auto hash = static_cast<std::uint64_t>(item.kind());
@@ -35,18 +32,38 @@ std::size_t Duplicates::drop_from(std::span<Item> items, std::vector<std::uint32
     const std::size_t size = std::bit_ceil(2 * items.size());
     room.assign(size, 0);
     std::uint32_t left = 0;
-    for (const Item& item : items) {
+    std::vector<MergedSphere> merged; // `first`: the index of the kept item
+    for (Item& item : items) {
         std::size_t at = (deep ? hash_of_shape(item) : hash_of_bounds(item)) & (size - 1);
         while (room[at] != 0 && !are_duplicates(items[room[at] - 1], item))
             at = (at + 1) & (size - 1);
         if (room[at] == 0) {
             items[left] = item;
             room[at] = ++left;
-        } else if (item.position() < items[room[at] - 1].position()) {
-            items[room[at] - 1] = item;
+        } else {
+            Item& kept = items[room[at] - 1];
+            if (id_of(item) < id_of(kept)) std::swap(item, kept);
+            if (item.kind() == Kind::sphere) merged.push_back({id_of(item), room[at] - 1});
         }
     }
+    if (merged.empty()) return left;
+    const std::lock_guard lock(mutex_);
+    for (const MergedSphere& sphere : merged)
+        merged_.push_back({sphere.id, id_of(items[sphere.first])});
     return left;
+}
+
+std::vector<MergedSphere> Duplicates::merged_spheres() const {
+    std::vector<MergedSphere> merged = merged_;
+    std::sort(merged.begin(), merged.end(),
+              [](const MergedSphere& a, const MergedSphere& b) { return a.id < b.id; });
+    return merged;
+}
+
+ShapeId Duplicates::id_of(const Item& item) const {
+    return with_shape_type(item.kind(), [&]<class Shape>(std::type_identity<Shape>) {
+        return std::get<ShapeList<Shape>>(lists_)[item.position()].id;
+    });
 }
 
 bool Duplicates::are_duplicates(const Item& a, const Item& b) const {

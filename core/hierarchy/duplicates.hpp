@@ -8,10 +8,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
 namespace raylane::core {
+
+/// A sphere that a scene does not store, because it equals the stored sphere `first`.
+struct MergedSphere {
+    ShapeId id, first; ///< first < id
+};
 
 /// Finds duplicate shapes: same kind, numbers and material. A scene needs only the first of them.
 /// Triangles of a larger polygon are never duplicates, because each has its own list of coplanar
@@ -30,10 +36,13 @@ class Duplicates {
         return solids_ != nullptr ? solids_->bounds_of(id) : nullptr;
     }
 
-    /// Moves one item of each distinct shape to the front and returns their number. Takes linear
-    /// time if few items have the same bounds, or if `deep`, which hashes the shapes rather than
-    /// the bounds. `room` is scratch memory.
+    /// Moves one item of each distinct shape to the front, that of the lowest id, and returns their
+    /// number. Takes linear time if few items have the same bounds, or if `deep`, which hashes the
+    /// shapes rather than the bounds. `room` is scratch memory.
     std::size_t drop_from(std::span<Item> items, std::vector<std::uint32_t>& room, bool deep) const;
+
+    /// Returns the spheres that drop_from() has dropped, in the order of their ids.
+    std::vector<MergedSphere> merged_spheres() const;
 
     /// Returns the unbounded shapes of a list without duplicates.
     template <class Shape>
@@ -54,6 +63,7 @@ class Duplicates {
 
   private:
     bool are_duplicates(const Item& a, const Item& b) const;
+    ShapeId id_of(const Item& item) const;
     std::uint64_t hash_of_shape(const Item& item) const;
     bool is_unique(ShapeId id) const;
 
@@ -62,6 +72,8 @@ class Duplicates {
     std::span<const IdRange> polygons_;
     const Solids* solids_;
     bool merge_;
+    mutable std::mutex mutex_; // of merged_
+    mutable std::vector<MergedSphere> merged_;
 };
 
 } // namespace raylane::core

@@ -7,6 +7,7 @@
 #include "core/shapes/shape_table.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace raylane::core {
 
@@ -47,6 +48,8 @@ struct alignas(64) WideNode {
 
     WideNode();
     Bounds bounds(int entry) const;
+    /// Returns the bounds of all entries.
+    Bounds bounds() const;
     void set(int entry, const Bounds& bounds, Child child);
 };
 
@@ -55,9 +58,16 @@ struct alignas(64) WideNode {
 struct Hierarchy {
     BigArray<WideNode> nodes; ///< the root first; empty without bounded shapes
     Bounds bounds;            ///< bounds of all its shapes
+    /// The cost of each node when its subtree was built (see Refit). Empty: as the bounds are now.
+    std::vector<float> built_costs;
 
-    std::size_t bytes() const { return nodes.bytes(); }
+    std::size_t bytes() const {
+        return nodes.bytes() + built_costs.capacity() * sizeof(built_costs.front());
+    }
 };
+
+/// Returns the hierarchy with these nodes.
+Hierarchy hierarchy_of(BigArray<WideNode> nodes);
 
 /// Builds the hierarchy by the binned surface-area heuristic, whose cost counts blocks of 16 rather
 /// than shapes, and collapses the binary tree into wide nodes. Fills the tables: each leaf is one

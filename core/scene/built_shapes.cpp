@@ -19,13 +19,6 @@ namespace {
     throw InvalidValue("", what);
 }
 
-Bounds bounds_of_node(const WideNode& node) {
-    Bounds bounds;
-    for (int entry = 0; entry < block_size; ++entry)
-        if (!node.children[entry].empty()) bounds.include(node.bounds(entry));
-    return bounds;
-}
-
 class Checker {
   public:
     Checker(const BuiltShapes& shapes, std::size_t material_count, Workers& workers)
@@ -37,6 +30,7 @@ class Checker {
         check_polygons();
         check_tree();
         for_each_table(shapes_.tables, [&](const auto& table) { check_table(table); });
+        check_merged();
         check_bounds();
     }
 
@@ -143,7 +137,24 @@ class Checker {
                     return false;
             return true;
         });
-        if (shapes > table.size()) refuse("more shapes than stated");
+        if (kind_of<Shape> == Kind::sphere ? shapes + shapes_.merged.size() != table.size()
+                                           : shapes > table.size())
+            refuse("other numbers of shapes than stated");
+    }
+
+    /// Checks that merged spheres are not stored, and that those that they equal are.
+    void check_merged() const {
+        if (shapes_.merged.empty()) return;
+        std::vector<bool> is_stored(shape_count());
+        for_each_shape(std::get<Table<Sphere>>(shapes_.tables),
+                       [&](const auto&, ShapeId id) { is_stored[id] = true; });
+        ShapeId next = 0;
+        for (const MergedSphere& sphere : shapes_.merged) {
+            if (sphere.id < next || sphere.id >= shape_count() || sphere.first >= sphere.id ||
+                is_stored[sphere.id] || !is_stored[sphere.first])
+                refuse("merged spheres out of order");
+            next = sphere.id + 1;
+        }
     }
 
     /// Filters look only at the ids of the shapes that they find, so an empty lane must contain
@@ -209,8 +220,7 @@ class Checker {
                     return false;
             return true;
         };
-        if (!child.is_block())
-            return contains(bounds_of_node(nodes()[child.index()]), std::less_equal());
+        if (!child.is_block()) return contains(nodes()[child.index()].bounds(), std::less_equal());
         bool is_in = false;
         with_table(shapes_.tables, child.kind(), [&]<class Shape>(const Table<Shape>& table) {
             if constexpr (is_bounded<Shape>)
@@ -246,13 +256,6 @@ class Checker {
 };
 
 } // namespace
-
-Hierarchy hierarchy_of(BigArray<WideNode> nodes) {
-    Hierarchy hierarchy;
-    if (!nodes.empty()) hierarchy.bounds = bounds_of_node(nodes.front());
-    hierarchy.nodes = std::move(nodes);
-    return hierarchy;
-}
 
 void check(const BuiltShapes& shapes, std::size_t material_count, Workers& workers) {
     Checker(shapes, material_count, workers).check();

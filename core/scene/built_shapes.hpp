@@ -15,15 +15,13 @@ namespace raylane::core {
 /// before. The scene must not have compound solids.
 struct BuiltShapes {
     Tables tables;
-    MaterialIndices material_of;   ///< by shape id
-    std::vector<IdRange> polygons; ///< polygons of more than one triangle, ascending
+    MaterialIndices material_of;      ///< by shape id
+    std::vector<IdRange> polygons;    ///< polygons of more than one triangle, ascending
+    std::vector<MergedSphere> merged; ///< spheres that are not in the tables, ascending
     Hierarchy hierarchy;
     AutoCamera auto_camera; ///< produced the camera, fog and lights
     std::size_t own_light_count = 0;
 };
-
-/// Returns the hierarchy with these nodes.
-Hierarchy hierarchy_of(BigArray<WideNode> nodes);
 
 /// Checks that untrusted shapes are such as a builder makes: shapes are valid, indices are in
 /// range, and the hierarchy is a tree with each shape in its bounds. Throws InvalidValue, without a

@@ -1,5 +1,6 @@
 #include "core/scene/scene.hpp"
 
+#include "core/hierarchy/moved_spheres.hpp"
 #include "core/scene/surface.hpp"
 #include "core/scene/validate.hpp"
 #include "core/shapes/shapes.hpp"
@@ -47,6 +48,7 @@ void Scene::find_transmissive() {
 std::size_t Scene::bytes() const {
     std::size_t bytes = hierarchy_.bytes() + solids_.bytes() + material_of_.bytes() +
                         polygons_.capacity() * sizeof(IdRange) +
+                        merged_.capacity() * sizeof(MergedSphere) +
                         materials_.capacity() * sizeof(Material);
     for_each_table(shapes_, [&](const auto& table) { bytes += table.bytes(); });
     return bytes;
@@ -257,10 +259,13 @@ void SceneBuilder::build_shapes() {
     if (solids_.any()) solids_.list(lists_);
     Workers alone;
     Workers& threads = workers != nullptr ? *workers : alone;
-    scene_.hierarchy_ = build_hierarchy(
-        lists_,
-        {lists_, scene_.material_of_, scene_.polygons_, &solids_.solids(), merge_duplicates},
-        threads, scene_.shapes_);
+    {
+        const Duplicates duplicates(lists_, scene_.material_of_, scene_.polygons_,
+                                    &solids_.solids(), merge_duplicates);
+        scene_.merges_duplicates_ = merge_duplicates;
+        scene_.hierarchy_ = build_hierarchy(lists_, duplicates, threads, scene_.shapes_);
+        scene_.merged_ = duplicates.merged_spheres();
+    }
     lists_ = {};
     scene_.material_of_.shrink_to_fit();
     pack_spheres(std::get<Table<Sphere>>(scene_.shapes_), shape_count(), pack_from, threads);
@@ -280,10 +285,8 @@ void SceneBuilder::finish(const NameOfShape& name_of_shape) {
                 on_light_moved(i);
                 continue;
             }
-        std::string name = name_of_shape ? name_of_shape(id) : "";
-        if (name.empty()) name = "shape " + std::to_string(id);
-        throw InvalidValue("lights/" + std::to_string(i) + "/position",
-                           "must not be on a surface, got a point of " + name);
+        const std::string name = name_of_shape ? name_of_shape(id) : "";
+        throw Scene::light_on(i, name.empty() ? "shape " + std::to_string(id) : name);
     }
     scene_.camera_ = camera;
     scene_.background_ = background;
@@ -312,6 +315,7 @@ Scene SceneBuilder::build(BuiltShapes shapes) && {
     scene_.shapes_ = std::move(shapes.tables);
     scene_.material_of_ = std::move(shapes.material_of);
     scene_.polygons_ = std::move(shapes.polygons);
+    scene_.merged_ = std::move(shapes.merged);
     scene_.hierarchy_ = std::move(shapes.hierarchy);
     finish(nullptr);
     scene_.auto_camera_ = shapes.auto_camera;
@@ -331,6 +335,41 @@ Scene Scene::seen(const AutoCamera& auto_camera, const View& view) && {
     lights_.insert(lights_.end(), view.lights.begin(), view.lights.end());
     return std::move(*this);
 }
+
+Scene Scene::seen_by(const Camera& camera) && {
+    AutoCamera auto_camera = auto_camera_;
+    auto_camera.fit_camera.reset(); // the new camera's position is given
+    Scene same = std::move(*this).seen(auto_camera, {camera, fog_, {}});
+    if (!auto_camera.any()) return same;
+    const View view = staged(same, auto_camera, same.settings());
+    return std::move(same).seen(auto_camera, view);
+}
+
+InvalidValue Scene::light_on(std::size_t light, const std::string& shape) {
+    return {"lights/" + std::to_string(light) + "/position",
+            "must not be on a surface, got a point of " + shape};
+}
+
+template <class Number>
+Scene Scene::with_positions(std::span<const Number> coordinates, Workers& workers) const {
+    Scene scene = *this;
+    move_spheres(coordinates,
+                 {scene.shapes_, scene.hierarchy_, scene.merged_, material_of_, polygons_, solids_,
+                  merges_duplicates_},
+                 workers);
+    if (solids_.any()) scene.solids_.find_places(scene.shapes_);
+    scene.transmissive_ = {};
+    scene.find_transmissive();
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        if (lights_[i].kind != LightKind::point) continue;
+        const ShapeId id = surface_through(scene, lights_[i].position);
+        if (id != no_shape) throw light_on(i, "shape " + std::to_string(id));
+    }
+    return auto_camera_.any() ? std::move(scene).seen_by(camera_) : scene;
+}
+
+template Scene Scene::with_positions(std::span<const float>, Workers&) const;
+template Scene Scene::with_positions(std::span<const double>, Workers&) const;
 
 #define RAYLANE_INSTANTIATE(Shape, name, text)                                                     \
     template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);                               \

@@ -84,12 +84,24 @@ class Scene {
     /// Returns the same shapes with another view. Throws InvalidValue if the camera or the fog is
     /// invalid.
     Scene seen(const AutoCamera& auto_camera, const View& view) &&;
+    /// Returns the same shapes with another camera. Lights and depth-cue fog that follow the camera
+    /// are computed again. Throws InvalidValue if the camera is invalid.
+    Scene seen_by(const Camera& camera) &&;
+
+    /// Returns a scene whose spheres have other centres, except parts of solids: see
+    /// move_spheres(), which throws InvalidValue. Lights and depth-cue fog that follow the camera
+    /// are computed again; the camera keeps its position. Also throws for point lights on surfaces.
+    template <class Number>
+    Scene with_positions(std::span<const Number> coordinates, Workers& workers) const;
 
     /// Returns the shapes in one flat polygon with `id`: only `id` itself unless added by
     /// add_polygon.
     IdRange coplanar_with(ShapeId id) const;
     /// Returns the polygons of more than one triangle, ascending.
     std::span<const IdRange> polygons() const { return polygons_; }
+
+    /// Returns the spheres that are not stored, in the order of their ids.
+    std::span<const MergedSphere> merged_spheres() const { return merged_; }
 
     /// Returns the bytes of shapes, materials and hierarchy.
     std::size_t bytes() const;
@@ -100,11 +112,15 @@ class Scene {
     friend class SceneBuilder;
     Scene() = default;
     void find_transmissive();
+    /// Returns the error for a point light on the surface of a shape.
+    static InvalidValue light_on(std::size_t light, const std::string& shape);
 
     Tables shapes_;
     MaterialIndices material_of_;   // by shape id
     std::vector<IdRange> polygons_; // of more than one triangle, ascending
     Hierarchy hierarchy_;
+    std::vector<MergedSphere> merged_; // ascending
+    bool merges_duplicates_ = true;
     Solids solids_;
     std::vector<Material> materials_;
     std::vector<std::string> material_names_; // a prefix: the rest have none

@@ -86,9 +86,10 @@ class ShapeList {
         shapes_.add(shape);
         if (has_doubles()) doubles_.add(to_doubles(shape));
     }
-    void add(const InDouble<Shape>& shape, ShapeId id) {
+    /// `as_doubles`: true stores doubles also if all numbers are floats.
+    void add(const InDouble<Shape>& shape, ShapeId id, bool as_doubles = false) {
         if (!has_doubles()) {
-            if (is_in_floats(shape)) return add(to_floats(shape), id);
+            if (!as_doubles && is_in_floats(shape)) return add(to_floats(shape), id);
             for (std::size_t i = 0; i < size(); ++i)
                 doubles_.add(to_doubles(shapes_[i]));
         }

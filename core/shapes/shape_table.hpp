@@ -148,6 +148,10 @@ class Table {
         packed_ = std::move(packed);
         blocks_ = {};
     }
+    void replace_blocks(Blocks<Shape> blocks) {
+        packed_ = decltype(packed_)();
+        blocks_ = std::move(blocks);
+    }
 
     /// Stores shapes that rays must not cross, at positions behind those of the blocks. Shape i of
     /// them is at hidden_place(i).

@@ -203,22 +203,28 @@ void SolidCollector::list(ShapeLists& lists) {
     }
 }
 
-Solids SolidCollector::finish(Tables& tables) {
-    for_each_table(tables, [&]<class Shape>(Table<Shape>& table) {
+void Solids::find_places(const Tables& tables) {
+    for_each_table(tables, [&]<class Shape>(const Table<Shape>& table) {
         for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
             for_each_in_block(table, block, [&](Place place, ShapeId id) {
-                if (const Index part = solids_.part_of(id); part != Solids::none)
-                    solids_.nodes_[part].place = place;
+                if (const Index part = part_of(id); part != none) nodes_[part].place = place;
             });
+        std::size_t hidden = 0;
+        for (Index index = 0; index < nodes_.size(); ++index)
+            if (is_hidden(index, kind_of<Shape>))
+                nodes_[index].place = table.hidden_place(hidden++);
+    });
+}
+
+Solids SolidCollector::finish(Tables& tables) {
+    for_each_table(tables, [&]<class Shape>(Table<Shape>& table) {
         ShapeList<Shape> hidden;
-        for (Index index = 0; index < solids_.nodes_.size(); ++index) {
-            Node& node = solids_.nodes_[index];
-            if (node.op != Solids::Op::part || node.traced || node.kind != kind_of<Shape>) continue;
-            node.place = table.hidden_place(hidden.size());
-            hidden.add(std::get<InDouble<Shape>>(shapes_[index]), no_shape);
-        }
+        for (Index index = 0; index < solids_.nodes_.size(); ++index)
+            if (solids_.is_hidden(index, kind_of<Shape>))
+                hidden.add(std::get<InDouble<Shape>>(shapes_[index]), no_shape);
         if (hidden.size() != 0) table.hide(hidden);
     });
+    solids_.find_places(tables);
     shapes_ = {};
     hulls_ = {};
     return std::move(solids_);

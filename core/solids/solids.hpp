@@ -119,6 +119,9 @@ class Solids {
     /// Returns the bounds of a whole solid, or of all parts of a union that counts.
     const Bounds& bounds(Index index) const { return bounds_[index]; }
 
+    /// Finds the places of all parts in the tables of the scene.
+    void find_places(const Tables& tables);
+
     std::size_t bytes() const {
         return nodes_.capacity() * sizeof(Node) + node_of_.capacity() * sizeof(Index) +
                bounds_.capacity() * sizeof(Bounds) + media_.capacity() * sizeof(MaterialIndex) +
@@ -127,6 +130,12 @@ class Solids {
 
   private:
     friend class SolidCollector;
+
+    /// Returns true for a part of this kind that rays do not cross.
+    bool is_hidden(Index index, Kind kind) const {
+        const Node& node = nodes_[index];
+        return node.op == Op::part && !node.traced && node.kind == kind;
+    }
 
     std::vector<Node> nodes_;
     std::vector<Index> node_of_;       // by shape

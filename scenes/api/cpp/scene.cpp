@@ -33,6 +33,17 @@ Scene owning(core::Scene&& scene) {
     return library::Internals::scene(std::make_shared<const core::Scene>(std::move(scene)));
 }
 
+template <class Number>
+Scene moved(const core::Scene& scene, std::span<const Vec3Of<Number>> positions) {
+    static_assert(sizeof(Vec3Of<Number>) == 3 * sizeof(Number));
+    return translated([&] {
+        simd::ParallelWorkers workers;
+        const std::span coordinates(reinterpret_cast<const Number*>(positions.data()),
+                                    3 * positions.size());
+        return owning(scene.with_positions(coordinates, workers));
+    });
+}
+
 /// Returns a path that names the file "-", which the readers and writers take for standard input or
 /// output.
 std::filesystem::path file_named(const std::filesystem::path& path) {
@@ -95,17 +106,16 @@ Settings Scene::settings() const {
 }
 
 Scene Scene::seen_by(const Camera& camera) const {
-    return translated([&] {
-        core::AutoCamera auto_camera = scene_->auto_camera();
-        auto_camera.fit_camera.reset(); // the new camera's position is given
-        core::Scene same = core::Scene(*scene_).seen(
-            auto_camera, {converted<core::Camera>(camera), scene_->fog(), {}});
-        if (auto_camera.any()) {
-            const core::View view = core::staged(same, auto_camera, same.settings());
-            same = std::move(same).seen(auto_camera, view);
-        }
-        return owning(std::move(same));
-    });
+    return translated(
+        [&] { return owning(core::Scene(*scene_).seen_by(converted<core::Camera>(camera))); });
+}
+
+Scene Scene::with_positions(std::span<const Vec3> positions) const {
+    return moved(*scene_, positions);
+}
+
+Scene Scene::with_positions(std::span<const Vec3Of<double>> positions) const {
+    return moved(*scene_, positions);
 }
 
 Camera Scene::camera_on_all(const Vec3& direction, float aspect) const {

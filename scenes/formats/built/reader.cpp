@@ -96,6 +96,8 @@ class Reader {
         shapes.material_of = materials(all);
         const auto polygons = directory_.array<core::IdRange>(layout::polygons);
         shapes.polygons.assign(polygons.begin(), polygons.end());
+        const auto merged = directory_.array<core::MergedSphere>(layout::merged);
+        shapes.merged.assign(merged.begin(), merged.end());
         shapes.hierarchy = core::hierarchy_of(directory_.array<core::WideNode>(layout::nodes));
         read_auto_camera(shapes);
         return shapes;

@@ -64,6 +64,24 @@ class Scene {
     /// has no bounded shapes, or if the camera would have to be beyond 1e30.
     Camera camera_on_all(const Vec3& direction = {0.0F, 0.0F, -1.0F}, float aspect = 1.0F) const;
 
+    /// Returns a scene whose spheres have moved. positions[i] becomes the centre of the i-th sphere
+    /// in the order of their ids, without spheres that are parts of constructed solids. Their
+    /// radii, materials and ids stay. Other shapes, parts of solids, lights, fog and the camera
+    /// stay, too, except that lights and depth-cue fog that follow an automatic camera are computed
+    /// again as by seen_by(). With Precision::exact, all answers and images have the bits of a
+    /// scene that is built of these shapes.
+    ///
+    /// `positions`: one for each sphere, within -1e30 to 1e30, used exactly as in SceneBuilder.
+    /// Throws InvalidValue, fields "positions" for another number of them, "positions/17/2" for an
+    /// invalid coordinate, "lights/0/position" for a point light on a surface, and
+    /// "RAYLANE_THREADS".
+    ///
+    /// Takes a fraction of the time of build() while the spheres stay near their places. Rebuilds
+    /// the parts of the hierarchy that no longer fit. Takes somewhat more than build() if the whole
+    /// hierarchy does not fit, or if equal spheres of one material meet or part.
+    Scene with_positions(std::span<const Vec3> positions) const;
+    Scene with_positions(std::span<const Vec3Of<double>> positions) const;
+
     // No move operations: a scene is never empty.
     Scene(const Scene&) = default;
     Scene& operator=(const Scene&) = default;
