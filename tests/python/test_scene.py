@@ -532,6 +532,39 @@ def test_remarks(tmp_path):
         raylane.parse(text, "a.pov", refuse)
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_spheres_move(random, dtype):
+    def built(centers):
+        builder = SceneBuilder()
+        material = builder.add_material()
+        builder.add_planes([0, 0, -9], [0, 0, 1], material=material)
+        builder.add_spheres(centers, dtype(0.3), material=material)
+        builder.add_solid(Solid.sphere((0, 0, 0), 0.5), material=material)
+        return builder.build()
+
+    before = random.normal(size=(300, 3)).astype(dtype)
+    after = before + random.normal(scale=0.2, size=before.shape).astype(dtype)
+    directions = random.normal(size=(2000, 3))
+    truth = Tracer(built(after)).intersect([0, 0, 5], directions)
+    for positions in (after, np.asfortranarray(after), np.repeat(after, 2, axis=0)[::2], after.tolist()):
+        if dtype == np.float32 and isinstance(positions, list):
+            continue
+        hits = Tracer(built(before).with_positions(positions)).intersect([0, 0, 5], directions)
+        assert np.array_equal(hits.t, truth.t) and np.array_equal(hits.shape, truth.shape)
+    scene = built(before)
+    wrong = after.copy()
+    wrong[17, 2] = np.inf
+    for positions, text in (
+        (wrong, "positions/17/2: must be a number from -1e30 to 1e30, got inf"),
+        (after[1:], "positions: must have one element for each of 300 spheres, got 299"),
+        (after[:, :2], r"positions: must have the shape \(n, 3\), got \(300, 2\)"),
+        (np.ma.masked_less(after, 0), "positions: must have no masked values"),
+        ("a", "positions: must be an array of numbers"),
+    ):
+        with pytest.raises(InvalidValue, match=text):
+            scene.with_positions(positions)
+
+
 def test_one_row_is_for_all():
     builder = SceneBuilder()
     material = builder.add_material()

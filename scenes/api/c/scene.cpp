@@ -19,6 +19,17 @@ raylane_status scene_of(raylane_scene** scene, const Make& make) noexcept {
     });
 }
 
+/// `positions` holds three numbers for each of `count` centres.
+template <class Number, class Positions>
+raylane_status with_positions(const raylane_scene* scene, const Positions* positions,
+                              std::size_t count, raylane_scene** moved) noexcept {
+    return scene_of(moved, [&] {
+        const auto* const centers =
+            reinterpret_cast<const Vec3Of<Number>*>(span_of("positions", positions, count).data());
+        return checked("scene", scene).scene.with_positions(std::span(centers, count));
+    });
+}
+
 } // namespace
 
 raylane_status raylane_build(raylane_builder* builder, raylane_scene** scene) {
@@ -58,6 +69,16 @@ void raylane_scene_bounds(const raylane_scene* scene, raylane_vec3* lower, rayla
     if (scene != nullptr) bounds = scene->scene.bounds();
     if (lower != nullptr) *lower = converted<raylane_vec3>(bounds.lower);
     if (upper != nullptr) *upper = converted<raylane_vec3>(bounds.upper);
+}
+
+raylane_status raylane_with_positions(const raylane_scene* scene, const raylane_vec3* positions,
+                                      size_t count, raylane_scene** moved) {
+    return with_positions<float>(scene, positions, count, moved);
+}
+
+raylane_status raylane_with_positions_doubles(const raylane_scene* scene, const double* positions,
+                                              size_t count, raylane_scene** moved) {
+    return with_positions<double>(scene, positions, count, moved);
 }
 
 raylane_settings raylane_scene_settings(const raylane_scene* scene) {

@@ -38,6 +38,16 @@ py::object for_each_shape(const py::object& shapes, const Call& call) {
     return result;
 }
 
+template <class Number>
+Scene with_positions(const Scene& scene, const py::object& positions) {
+    const Rows<Number> checked(positions, {3}, "positions");
+    const py::array_t<Number, py::array::c_style | py::array::forcecast> rows(
+        converted(positions, "positions"));
+    const std::span centers(reinterpret_cast<const Vec3Of<Number>*>(rows.data()), checked.count());
+    const py::gil_scoped_release free;
+    return scene.with_positions(centers);
+}
+
 } // namespace
 
 void bind_scene(py::module_& module) {
@@ -49,6 +59,11 @@ void bind_scene(py::module_& module) {
                  const Camera other = camera_from(camera);
                  const py::gil_scoped_release free;
                  return scene.seen_by(other);
+             })
+        .def("with_positions",
+             [](const Scene& scene, const py::object& positions) {
+                 return is_float(positions) ? with_positions<float>(scene, positions)
+                                            : with_positions<double>(scene, positions);
              })
         .def("camera_on_all",
              [](const Scene& scene, const py::object& direction, const py::object& aspect) {

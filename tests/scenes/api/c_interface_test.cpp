@@ -264,3 +264,45 @@ TEST_CASE("an error in C has a code and a line of text") {
     raylane_scene_release(nullptr);
     raylane_builder_release(nullptr);
 }
+
+TEST_CASE("spheres move in C as in C++") {
+    const SceneHandle scene = balls_in_c();
+    const raylane_vec3 positions[] = {{0, 0, 1}, {3, 0, 0}};
+    const double doubles[] = {0, 0, 1, 3, 0, 0};
+    Rays rays;
+    for (const float x : {0.5F, 2.5F, -0.5F})
+        rays.add({x, 0.25F, 9}, {0, 0, -1});
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    for (const raylane_vec3& at : positions)
+        builder.add(Sphere{{at.x, at.y, at.z}, 1}, material);
+    const Hits truth = intersect(Tracer(builder.build()), rays);
+    const auto check = [&](const auto& move) {
+        raylane_scene* moved = nullptr;
+        REQUIRE(move(&moved) == RAYLANE_OK);
+        const SceneHandle handle(moved);
+        const TracerHandle asked = tracer_of(handle);
+        Hits hits(rays.size());
+        const raylane_rays to_c = {rays.size(),    rays.x.data(),  rays.y.data(),  rays.z.data(),
+                                   rays.dx.data(), rays.dy.data(), rays.dz.data(), nullptr,
+                                   nullptr,        nullptr,        nullptr,        nullptr};
+        const raylane_hits from_c = {
+            hits.t.data(),     hits.nx.data(),       hits.ny.data(), hits.nz.data(),
+            hits.shape.data(), hits.entering.data(), nullptr,        nullptr};
+        CHECK(raylane_intersect(asked.get(), &to_c, &from_c) == RAYLANE_OK);
+        CHECK(hits == truth);
+    };
+    check([&](raylane_scene** moved) {
+        return raylane_with_positions(scene.get(), positions, 2, moved);
+    });
+    check([&](raylane_scene** moved) {
+        return raylane_with_positions_doubles(scene.get(), doubles, 2, moved);
+    });
+    raylane_scene* none = nullptr;
+    CHECK(raylane_with_positions(scene.get(), positions, 1, &none) == RAYLANE_INVALID_VALUE);
+    CHECK(raylane_error_text() ==
+          std::string("positions: must have one element for each of 2 spheres, got 1"));
+    CHECK(raylane_with_positions(scene.get(), nullptr, 2, &none) == RAYLANE_INVALID_VALUE);
+    CHECK(raylane_with_positions(nullptr, positions, 2, &none) == RAYLANE_INVALID_VALUE);
+    CHECK(none == nullptr);
+}

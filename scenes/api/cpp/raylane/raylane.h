@@ -251,6 +251,15 @@ RAYLANE_API size_t raylane_material_count(const raylane_scene* scene);
 RAYLANE_API void raylane_scene_bounds(const raylane_scene* scene, raylane_vec3* lower,
                                       raylane_vec3* upper);
 RAYLANE_API raylane_settings raylane_scene_settings(const raylane_scene* scene);
+/** Creates a scene whose spheres have moved, same as Scene::with_positions() in scene.hpp.
+ * `positions`: `count` centres, one for each sphere that is not a part of a constructed solid. */
+RAYLANE_API raylane_status raylane_with_positions(const raylane_scene* scene,
+                                                  const raylane_vec3* positions, size_t count,
+                                                  raylane_scene** moved);
+/** The same for doubles. `positions`: count x 3 numbers. */
+RAYLANE_API raylane_status raylane_with_positions_doubles(const raylane_scene* scene,
+                                                          const double* positions, size_t count,
+                                                          raylane_scene** moved);
 
 /** Rays, structure of arrays, same as RaySpan and DoubleRaySpan in tracer.hpp. Each array has
  * `count` values. t_min, t_max, origin_shape, origin_face and origin_inward may be NULL. */

@@ -95,6 +95,18 @@ class Scene:
         """Returns a scene with the same shapes and another camera. Takes little memory and time."""
         return Scene(self._scene.seen_by(camera))
 
+    def with_positions(self, positions: ArrayLike) -> Scene:
+        """Returns a scene whose spheres have moved; all else stays, such as their radii and ids.
+
+        ``positions``: shape (n, 3), float32 or float64, within -1e30 to 1e30. Row i becomes the centre of the i-th
+        sphere in the order of the ids, without spheres that are parts of constructed solids. Rows that are contiguous
+        are read in place. The camera stays; fit another one by :meth:`camera_on_all` and :meth:`seen_by`. All answers
+        and images have the bits of a scene that is built of these shapes. Raises :class:`InvalidValue` for another
+        number of rows (field ``positions``), for an invalid coordinate (``positions/17/2``), and for a point light on
+        a surface.
+        """
+        return Scene(self._scene.with_positions(positions))
+
     def camera_on_all(self, direction: Vector = (0.0, 0.0, -1.0), aspect: float = 1.0) -> Camera:
         """Returns a perspective camera that shows all bounded shapes as large as possible.
 
