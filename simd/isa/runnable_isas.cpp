@@ -3,7 +3,8 @@
 #include <cstdio>
 
 /// Prints the instruction sets that this processor runs, the widest one last, for
-/// RAYLANE_ISAS=runnable and native: semicolons between them, portable only if there is no other.
+/// RAYLANE_ISAS=runnable and native: semicolons between them. Prints portable if it runs none of
+/// them.
 int main() {
     using raylane::simd::Isa;
     constexpr struct {

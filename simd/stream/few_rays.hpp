@@ -7,8 +7,8 @@
 
 namespace raylane::simd {
 
-/// Answers rays one after the other. For calls of a few rays: what a stream needs around its rays
-/// takes longer there than the rays. A ray stays undecided if its floats are in doubt after the
+/// Answers rays one after the other. For calls of a few rays, in which the preparations of a stream
+/// take longer than the rays. A ray stays undecided if its floats are in doubt after the
 /// first steps, the search in float and the solver in double. So does an unusual ray: one that is
 /// very far away, very short or long, or invalid, or that may meet its origin surface again.
 class FewRays {

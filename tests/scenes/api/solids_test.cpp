@@ -156,7 +156,7 @@ struct Bench {
 };
 
 /// With `lattice` the axis is a coordinate axis, parts have whole numbers, and many rays touch them
-/// or meet several at one point. Of three rays, one is off the axis by an ulp.
+/// or meet several at one point. Every third ray is off the axis by an ulp.
 Bench any_bench(Random& random, bool lattice) {
     const core::Vec3f axis =
         lattice ? core::Vec3f(0, 0, 1)
