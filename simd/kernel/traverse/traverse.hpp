@@ -28,7 +28,7 @@ struct Trace : Streams<Arch> {
     /// The number of shapes that a frustum may list before it gives up: for nearest hits, and for
     /// some rays to a light. With more shapes its rays are faster by another traversal.
     static constexpr int max_candidates = 2048;
-    static int max_occluders(std::size_t rays) { return rays < 32 ? 32 : static_cast<int>(rays); }
+    static int max_occluders(std::size_t rays) { return static_cast<int>(rays); }
 
     static bool makes_frusta(const Coherence* coherence) {
         return coherence != nullptr && !coherence->loose;
