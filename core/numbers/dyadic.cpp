@@ -44,6 +44,13 @@ Dyadic::Dyadic(FromDouble, double value) : negative_(value < 0.0) {
     trim();
 }
 
+Dyadic Dyadic::power_of_2(int exponent) {
+    const int shift = ((exponent % digit_bits) + digit_bits) % digit_bits;
+    Dyadic power = std::ldexp(1.0, shift);
+    power.exponent_ += (exponent - shift) / digit_bits;
+    return power;
+}
+
 void Dyadic::trim() {
     std::size_t first = 0, last = digits_.size();
     while (last > 0 && digits_[last - 1] == 0)

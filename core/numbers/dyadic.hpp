@@ -25,6 +25,8 @@ class Dyadic {
     template <std::floating_point Real>
     Dyadic(Real value) : Dyadic(from_double, static_cast<double>(value)) {} // NOLINT: exact, finite
 
+    static Dyadic power_of_2(int exponent);
+
     int sign() const { return digits_.size() == 0 ? 0 : negative_ ? -1 : 1; }
     /// Returns the value with a relative error of at most 2^-50.
     Scaled approximately() const;

@@ -3,19 +3,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 namespace raylane::core {
-
-namespace {
-
-Dyadic power_of_2(int exponent) {
-    Dyadic power = 1.0;
-    for (; exponent < -1000; exponent += 1000)
-        power = power * Dyadic(0x1p-1000);
-    return power * Dyadic(std::ldexp(1.0, exponent));
-}
-
-} // namespace
 
 /// Returns the sign of G at the root. Let t = (-B + s sqrt(D)) / A with D = B^2 - A C, s = 1 where
 /// F rises and -1 where it falls, and
@@ -50,24 +40,32 @@ int compare(const ExactRoot& a, const ExactRoot& b) {
     return side > 0 ? (b_is_second ? 0 : 1) : side < 0 ? (b_is_second ? -1 : 0) : 0;
 }
 
-float ExactRoot::rounded_between(float low, float high, int exponent) const {
-    // Bisects over the bit patterns, which are in the order of the floats for floats that are not
+template <std::floating_point Real>
+Real ExactRoot::rounded_between(Real low, Real high, int exponent) const {
+    using Bits = std::conditional_t<std::is_same_v<Real, float>, std::uint32_t, std::uint64_t>;
+    const Dyadic scale = Dyadic::power_of_2(-exponent - 1);
+    // Bisects over the bit patterns, which are in the order of the numbers for numbers that are not
     // negative.
-    auto below = std::bit_cast<std::uint32_t>(low), above = std::bit_cast<std::uint32_t>(high);
+    auto below = std::bit_cast<Bits>(low), above = std::bit_cast<Bits>(high);
     while (below < above) {
-        const std::uint32_t next = below + (above - below) / 2;
-        const double middle = 0.5 * static_cast<double>(std::bit_cast<float>(next)) +
-                              0.5 * static_cast<double>(std::bit_cast<float>(next + 1));
-        const int side = sign_of(ExactQuadratic::minus(std::ldexp(middle, -exponent)));
+        const Bits next = below + (above - below) / 2;
+        const Dyadic sum =
+            Dyadic(std::bit_cast<Real>(next)) + Dyadic(std::bit_cast<Real>(Bits(next + 1)));
+        const int side = sign_of(ExactQuadratic::minus(sum * scale));
         if (side < 0 || (side == 0 && (next & 1) == 0))
             above = next;
         else
             below = next + 1;
     }
-    return std::bit_cast<float>(below);
+    return std::bit_cast<Real>(below);
 }
 
+template float ExactRoot::rounded_between(float, float, int) const;
+template double ExactRoot::rounded_between(double, double, int) const;
+
 Bounded<DoubleDouble> ExactRoot::in_wide(double t, double error) const {
+    // Smaller numbers may lose digits, and an infinite error has no half.
+    if (!(std::abs(t) > 0x1p-900 && std::isfinite(error))) return {t, error};
     DoubleDouble middle(t);
     double half = std::ldexp(1.0, std::ilogb(error) + 1); // a power of two: no sum is rounded
     while (half > 0x1p-101 * std::abs(t)) {
@@ -82,10 +80,16 @@ Bounded<DoubleDouble> ExactRoot::in_wide(double t, double error) const {
 Dyadic ExactRoot::near(double t, double error, int exponent) const {
     Dyadic middle = t;
     if (error == 0.0) return middle;
-    for (int half = std::ilogb(error); half >= exponent; --half) {
+    int half = std::ilogb(error);
+    if (std::isinf(error)) {
+        middle = 0.0;
+        for (half = 1024; sign_of(ExactQuadratic::minus(Dyadic::power_of_2(half))) > 0;)
+            half *= 2;
+    }
+    for (; half >= exponent; --half) {
         const int side = sign_of(ExactQuadratic::minus(middle));
         if (side == 0) break;
-        middle = side > 0 ? middle + power_of_2(half) : middle - power_of_2(half);
+        middle = side > 0 ? middle + Dyadic::power_of_2(half) : middle - Dyadic::power_of_2(half);
     }
     return middle;
 }

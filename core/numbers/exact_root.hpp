@@ -3,6 +3,7 @@
 #include "core/numbers/bounded.hpp"
 #include "core/numbers/dyadic.hpp"
 
+#include <concepts>
 #include <utility>
 
 namespace raylane::core {
@@ -35,14 +36,15 @@ class ExactRoot {
     int sign() const { return sign_of(ExactQuadratic::minus(0.0)); }
     /// Returns the order of two roots: -1 if a is less, 0 if they are equal, 1 if a is greater.
     friend int compare(const ExactRoot& a, const ExactRoot& b);
-    /// Returns the float nearest to root * 2^exponent, ties to even. That float must be one of
+    /// Returns the float or double nearest to root * 2^exponent, ties to even. It must be one of
     /// those from `low` to `high`, which are >= 0.
-    float rounded_between(float low, float high, int exponent) const;
-    /// Returns the root with a relative error of at most 2^-100. `t` must be within `error` of the
-    /// root.
+    template <std::floating_point Real>
+    Real rounded_between(Real low, Real high, int exponent) const;
+    /// Returns the root with a relative error of at most 2^-100, or unchanged if this is not in the
+    /// range of two doubles. `t` must be within `error` of the root.
     Bounded<DoubleDouble> in_wide(double t, double error) const;
     /// Returns the root with an absolute error of at most 2^exponent. `t` must be within `error` of
-    /// the root.
+    /// the root. The error may be infinite if the root is positive.
     Dyadic near(double t, double error, int exponent) const;
 
   private:

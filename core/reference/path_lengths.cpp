@@ -12,6 +12,15 @@ namespace {
 
 using Extended = Bounded<DoubleDouble>;
 
+/// Returns the length of a vector that is not 0, as a number times 2^exponent.
+Extended length_of(const Vec3d& v, int& exponent) {
+    exponent = std::ilogb(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
+    Vec3<Extended> scaled;
+    for (int axis = 0; axis < 3; ++axis)
+        scaled[axis] = std::ldexp(v[axis], -exponent); // tiny components do not matter
+    return sqrt(squared_length(scaled));
+}
+
 /// Returns true if the sum is certainly not 0, and accurate enough to be rounded to double.
 bool is_good(const Extended& sum) {
     return sum.value.high > 0.0 && sum.error <= 0x1p-60 * sum.value.high;
@@ -94,7 +103,8 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
     end_at(t_max);
 
     const CrossingOrder order(scene_, from);
-    const Extended speed = sqrt(squared_length(convert<Extended>(from.ray.direction)));
+    int of_speed = 0;
+    const Extended speed = length_of(from.ray.direction, of_speed);
     const std::size_t first = lengths.size();
     for (std::size_t i = 0; i < count_; ++i) {
         OfMaterial& material = materials_[i];
@@ -106,14 +116,15 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
             for (const End& end : {part.begin, part.end})
                 if (end.crossing != nullptr) end.crossing->widen(scene_, from);
         Extended sum = sum_of(material.parts);
+        int exponent = 0;
         if (!is_good(sum)) {
             std::erase_if(material.parts, [&](const Inside& part) {
                 return part.begin.crossing != nullptr && part.end.crossing != nullptr &&
                        order.compare(*part.begin.crossing, *part.end.crossing) == 0;
             });
-            sum = exact_sum_of(from, material.parts);
+            sum = exact_sum_of(from, material.parts, exponent);
         }
-        const double length = in_double(sum * speed).value;
+        const double length = std::ldexp(in_double(sum * speed).value, exponent + of_speed);
         if (!material.parts.empty()) lengths.push_back({material.material, length});
     }
     sort_from(first, lengths);
@@ -181,25 +192,30 @@ Bounded<DoubleDouble> PathLengths::sum_of(const std::vector<Inside>& parts) cons
     return sum;
 }
 
-/// Returns the sum of parts that are not empty, with as many digits as it takes.
+/// Returns the sum of parts that are not empty, with as many digits as it takes, as a number times
+/// 2^exponent.
 Bounded<DoubleDouble> PathLengths::exact_sum_of(const LeavingRay& from,
-                                                const std::vector<Inside>& parts) const {
+                                                const std::vector<Inside>& parts,
+                                                int& exponent) const {
     if (parts.empty()) return {};
-    const auto t_within = [&](const End& end, int exponent) -> Dyadic {
+    const auto t_within = [&](const End& end, int within) -> Dyadic {
         if (end.crossing == nullptr) return end.at.value.high;
         const Hit<double>& hit = end.crossing->hit();
-        return end.crossing->root(scene_, from).near(hit.t, hit.error, exponent);
+        return end.crossing->root(scene_, from).near(hit.t, hit.error, within);
     };
-    for (int exponent = -60;; exponent *= 2) {
+    for (int within = -60;; within *= 2) {
         Dyadic sum;
         for (const Inside& part : parts)
-            sum = sum + (t_within(part.end, exponent) - t_within(part.begin, exponent));
-        // Each end has an error of 2^exponent. The other terms bound the digits beyond two doubles
+            sum = sum + (t_within(part.end, within) - t_within(part.begin, within));
+        exponent = static_cast<int>(sum.approximately().exponent);
+        sum = sum * Dyadic::power_of_2(-exponent);
+        // Each end has an error of 2^within. The other terms bound the digits beyond two doubles
         // and underflow.
         const double high = sum.approximately().to_double();
         const double low = (sum - Dyadic(high)).approximately().to_double();
-        const double error = std::ldexp(2.0 * static_cast<double>(parts.size()), exponent) +
-                             0x1p-48 * std::abs(low) + std::numeric_limits<double>::min();
+        const double error =
+            std::ldexp(2.0 * static_cast<double>(parts.size()), within - exponent) +
+            0x1p-48 * std::abs(low) + std::numeric_limits<double>::min();
         const Extended known{{high, low}, error};
         if (is_good(known)) return known;
     }

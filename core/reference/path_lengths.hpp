@@ -67,8 +67,8 @@ class PathLengths {
     void begin_around_start(const LeavingRay& from, std::span<const Hit<double>> hits,
                             double t_min);
     Bounded<DoubleDouble> sum_of(const std::vector<Inside>& parts) const;
-    Bounded<DoubleDouble> exact_sum_of(const LeavingRay& from,
-                                       const std::vector<Inside>& parts) const;
+    Bounded<DoubleDouble> exact_sum_of(const LeavingRay& from, const std::vector<Inside>& parts,
+                                       int& exponent) const;
 
     const Scene& scene_;
     std::vector<Solids::Index> endless_; // solids without bounds that are not cut open

@@ -12,18 +12,25 @@ namespace raylane::core {
 
 namespace {
 
-using Limits = std::numeric_limits<float>;
 using Extended = Bounded<DoubleDouble>;
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Returns t in the range of a type's positive numbers.
+template <class Real>
+Real in_range_of(double t) {
+    using Limits = std::numeric_limits<Real>;
+    return static_cast<Real>(std::clamp(t, static_cast<double>(Limits::denorm_min()),
+                                        static_cast<double>(Limits::max())));
+}
 float float_of(double t) {
-    return static_cast<float>(std::clamp(t, static_cast<double>(Limits::denorm_min()),
-                                         static_cast<double>(Limits::max())));
+    return in_range_of<float>(t);
 }
 
 /// Lower and upper bound of a value with an error bound, which may be less than half an ulp.
 double below(double value, double error) {
-    return error == 0.0 ? value
-                        : std::nextafter(value - error, -std::numeric_limits<double>::infinity());
+    if (error == infinite) return -infinite;
+    return error == 0.0 ? value : std::nextafter(value - error, -infinite);
 }
 double above(double value, double error) {
     return -below(-value, error);
@@ -192,25 +199,25 @@ bool rounds_surely(double t, double error, float& t_rounded) {
 
 bool rounds_surely(const DoubleDouble& t, double error) {
     const double most = error * (1.0 + 0x1p-50);
-    return t.high + (t.low - most) == t.high && t.high + (t.low + most) == t.high;
+    return std::isnormal(t.high) && t.high + (t.low - most) == t.high &&
+           t.high + (t.low + most) == t.high;
 }
 
-double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
-    DoubleDouble known;
-    if (with_wide_t(scene, from, hit, [&](const Extended& t) {
-            known = t.value;
-            return rounds_surely(t.value, t.error);
-        }))
-        return known.high;
-    // t is between two adjacent doubles, close to their midpoint.
-    const double other =
-        std::nextafter(known.high, known.low < 0.0 ? 0.0 : std::numeric_limits<double>::infinity());
-    const ExactRoot root = SharpHit(hit).root(scene, from);
-    const int side =
-        root.sign_of(ExactQuadratic::minus(Dyadic(0.5) * (Dyadic(known.high) + Dyadic(other))));
-    const double nearer_0 = std::min(known.high, other), farther = std::max(known.high, other);
-    if (side != 0) return side < 0 ? nearer_0 : farther;
-    return (std::bit_cast<std::uint64_t>(nearer_0) & 1) == 0 ? nearer_0 : farther;
+double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit,
+                        int exponent) {
+    SharpHit sharp(hit);
+    sharp.widen(scene, from);
+    const Extended t = sharp.wide_t();
+    const double nearest = std::ldexp(t.value.high, exponent);
+    // Scaling rounds subnormal numbers again.
+    if (rounds_surely(t.value, t.error) && std::isnormal(nearest)) return nearest;
+    const Bounded<double> known = in_double(t);
+    const auto limit = [&](double bound, double towards) {
+        return in_range_of<double>(std::nextafter(std::ldexp(bound, exponent), towards));
+    };
+    return sharp.root(scene, from)
+        .rounded_between(limit(below(known.value, known.error), -infinite),
+                         limit(above(known.value, known.error), infinite), exponent);
 }
 
 int compare_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, double number) {

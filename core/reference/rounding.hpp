@@ -10,9 +10,9 @@ namespace raylane::core {
 /// Uses exact arithmetic only if the error of t leaves the rounding in doubt.
 float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, int exponent);
 
-/// Returns t, rounded to the nearest double, ties to even. Uses exact arithmetic only if the error
-/// of t leaves the rounding in doubt.
-double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit);
+/// The same for the nearest double.
+double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit,
+                        int exponent);
 
 /// Compares a crossing's true t with a number: -1 if t is less, 0 if both are equal, 1 if t is
 /// more. Uses exact arithmetic only if the error of t leaves the answer in doubt.
@@ -22,7 +22,8 @@ int compare_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit
 /// rounded_t(). Stores that float in `t_rounded`. Otherwise stores the least of the floats.
 bool rounds_surely(double t, double error, float& t_rounded);
 
-/// Returns true if every number within `error` of this sum rounds to its high part.
+/// Returns true if every number within `error` of this sum rounds to its high part, which must not
+/// be subnormal: it then still does after scaling by a power of two.
 bool rounds_surely(const DoubleDouble& t, double error);
 
 /// Returns the unit normal outside (in front) of the surface at the true point of a crossing, each

@@ -5,6 +5,7 @@
 #include "core/shapes/solve.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace raylane::core {
@@ -27,22 +28,28 @@ Hit<Real> contact_hit(const Contact<Real>& contact) {
 template <class Real>
 constexpr Real allowance = Real(1) + Real(std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-25);
 
-/// Returns the t >= 0 at which a ray enters the bounds of entry i, or -1 if the ray misses these
-/// bounds between 0 and t_limit. A direction component of 0 gives 0 * inf only if the origin is in
-/// a plane of the bounds. Either answer is then right, as no shape touches its bounds.
+/// Returns a limit of t with the tolerance. Subnormal numbers have a larger error.
 template <class Real>
-Real entry_t(const WideNode& node, int i, const Ray<Real>& ray, const Vec3<Real>& inverse,
-             Real t_limit) {
+Real allowed(Real limit) {
+    return limit * allowance<Real> + (std::is_same_v<Real, double> ? Real(0x1p-1060) : Real(0));
+}
+
+/// Returns the t >= 0 at which a ray enters the bounds of entry i, or -1 if the ray misses these
+/// bounds between 0 and t_limit. A direction component of 0 gives 0 / 0 only if the origin is in a
+/// plane of the bounds. Either answer is then right, as no shape touches its bounds. (The
+/// reciprocal of a tiny component would overflow.)
+template <class Real>
+Real entry_t(const WideNode& node, int i, const Ray<Real>& ray, Real t_limit) {
     Real near = 0, far = t_limit;
     for (int axis = 0; axis < 3; ++axis) {
         const Real to_lower = Real(node.lower[axis][i]) - ray.origin[axis];
         const Real to_upper = Real(node.upper[axis][i]) - ray.origin[axis];
-        const Real at_lower = to_lower * inverse[axis];
-        const Real at_upper = to_upper * inverse[axis];
+        const Real at_lower = to_lower / ray.direction[axis];
+        const Real at_upper = to_upper / ray.direction[axis];
         near = std::max(near, std::min(at_lower, at_upper));
         far = std::min(far, std::max(at_lower, at_upper));
     }
-    return near <= far * allowance<Real> ? near : Real(-1);
+    return near <= allowed(far) ? near : Real(-1);
 }
 
 } // namespace
@@ -146,7 +153,7 @@ Hit<Real> Searcher<Real>::look(const Ray<Real>& ray, const OriginSurfaces<Real>&
     best.t = t_limit;
     candidates_.clear();
     for_each_candidate(
-        ray, [&] { return best.t; },
+        ray, [&] { return std::isfinite(best.error) ? best.t : t_limit; },
         [&](Kind kind, std::uint32_t block) {
             cross_block(kind, block, ray, origins, [&](const Hit<Real>& hit) {
                 if (best.is_surely_before(hit) || !(hit.t < t_limit)) return;
@@ -252,12 +259,11 @@ void Searcher<Real>::for_each_candidate(const Ray<Real>& ray, const Most& t_limi
 template <class Real>
 template <class Most, class Visit>
 void Searcher<Real>::walk(const Ray<Real>& ray, const Most& t_limit, const Visit& visit) {
-    const Vec3<Real> inverse = Real(1) / ray.direction;
     pending_.assign(1, {Real(0), Child::node(0)});
     while (!pending_.empty()) {
         const Pending next = pending_.back();
         pending_.pop_back();
-        if (next.t > t_limit() * allowance<Real>) continue;
+        if (next.t > allowed(t_limit())) continue;
         if (next.child.is_block()) {
             if (!visit(next.child.kind(), next.child.index())) return;
             continue;
@@ -266,7 +272,7 @@ void Searcher<Real>::walk(const Ray<Real>& ray, const Most& t_limit, const Visit
         const WideNode& node = scene_.hierarchy().nodes[next.child.index()];
         const auto first = static_cast<std::ptrdiff_t>(pending_.size());
         for (int i = 0; i < block_size && !node.children[i].empty(); ++i) {
-            const Real t = entry_t(node, i, ray, inverse, t_limit());
+            const Real t = entry_t(node, i, ray, t_limit());
             if (t >= Real(0)) pending_.push_back({t, node.children[i]});
         }
         std::sort(pending_.begin() + first, pending_.end(),

@@ -15,8 +15,8 @@ namespace {
 template <class Shape>
 Shape unclipped(Shape shape) {
     if constexpr (kind_of<Shape> == Kind::quadric) {
-        shape.lower = Vec3d(-1e300);
-        shape.upper = Vec3d(1e300);
+        shape.lower = Vec3d(-infinity<double>);
+        shape.upper = Vec3d(infinity<double>);
     }
     return shape;
 }
@@ -56,6 +56,11 @@ Bounds bounds_of(const Somewhere& point) {
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
         const double error = point[axis].error * (1.0 + 0x1p-50);
+        if (!std::isfinite(point[axis].value) || !std::isfinite(error)) {
+            bounds.lower[axis] = -infinity<float>;
+            bounds.upper[axis] = infinity<float>;
+            continue;
+        }
         bounds.lower[axis] =
             std::nextafter(static_cast<float>(point[axis].value - error), -infinity<float>);
         bounds.upper[axis] =
@@ -79,6 +84,7 @@ template <class Shape>
 bool certainly_crosses(const Shape& shape, const LeavingRay& from, const Hit<double>& hit) {
     if constexpr (is_solid<Shape>) {
         if (hit.entering && from.origins.start_on(hit.shape).on_surface) return false;
+        if (!std::isfinite(hit.error)) return false;
         // Any point of the line would do. Rounding rarely hides the inside at this depth.
         const double depth = 0x1p20 * hit.error;
         const double t = hit.entering ? hit.t + depth : hit.t - depth;

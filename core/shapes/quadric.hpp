@@ -70,7 +70,8 @@ Real quadric_scale(const QuadricOf<Number>& q) {
                           std::abs(q.xz), std::abs(q.yz)}));
 }
 
-/// Solves Q(f + t direction) = A t^2 + 2 B t + C = 0, clipped to the box.
+/// Solves Q(f + t direction) = A t^2 + 2 B t + C = 0, clipped to the box. Its limits may be
+/// infinite.
 template <class Real, class Number>
 Crossings<Real> crossings(const QuadricOf<Number>& quadric, const Ray<Real>& ray,
                           const Start& start, ErrorPredicate<Real>& predicate) {
@@ -100,8 +101,11 @@ Crossings<Real> crossings(const QuadricOf<Number>& quadric, const Ray<Real>& ray
         const Vec3<Real> p = mul_add(root.t, ray.direction, from_center);
         bool inside = true;
         for (int axis = 0; axis < 3; ++axis)
-            inside = inside && !predicate.less(p[axis], Real(quadric.lower[axis])) &&
-                     !predicate.less(Real(quadric.upper[axis]), p[axis]);
+            inside = inside &&
+                     (std::isinf(quadric.lower[axis]) ||
+                      !predicate.less(p[axis], Real(quadric.lower[axis]))) &&
+                     (std::isinf(quadric.upper[axis]) ||
+                      !predicate.less(Real(quadric.upper[axis]), p[axis]));
         if (inside) kept.add(root);
     }
     return kept;

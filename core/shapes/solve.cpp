@@ -26,9 +26,18 @@ Crossings<double> solve_bounded(const Shape& shape, const Ray<double>& ray, cons
     return result;
 }
 
+/// Returns a bound on the error of a double that an Exact was converted to. A t beyond the range of
+/// doubles has an infinite error.
+double error_of(double t) {
+    constexpr double accuracy = 0x1p-48;
+    if (t == 0.0) return 0.0;
+    if (std::abs(t) == std::numeric_limits<double>::max())
+        return std::numeric_limits<double>::infinity();
+    return accuracy * std::abs(t) + std::numeric_limits<double>::denorm_min();
+}
+
 template <class Shape>
 Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, const Start& start) {
-    constexpr double accuracy = 0x1p-48; // relative error of an Exact as a double
     Crossings<double> result;
     for (int axis = 0; axis < 3; ++axis)
         if (!std::isfinite(ray.origin[axis]) || !std::isfinite(ray.direction[axis])) return result;
@@ -37,7 +46,7 @@ Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, cons
     double last = -std::numeric_limits<double>::infinity();
     for (const Crossing<Exact>& crossing : crossings(shape, exact, start, predicate)) {
         last = std::max(last, static_cast<double>(crossing.t)); // keeps the order despite rounding
-        result.add({last, crossing.face, crossing.entering, accuracy * std::abs(last)});
+        result.add({last, crossing.face, crossing.entering, error_of(last)});
     }
     return result;
 }

@@ -24,7 +24,9 @@ Crossings<float> solve(const Shape& shape, const Ray<float>& ray, const Start& s
 /// double: decides as real arithmetic does, with a relative error of t of at most 2^-27. Computes
 /// in double with error bounds first. If these leave a doubt, it computes again in double-double,
 /// which `widened` counts. If a ray is tangent or meets a rim or an edge beyond those digits, it
-/// computes in integers of any size. With plain_double, it uses the formulas as they are.
+/// computes in integers of any size. With plain_double, it uses the formulas as they are. The ray
+/// may be any doubles, however large or small. A t beyond the range of doubles is the largest
+/// double, with an infinite error; a t that underflows is the smallest double.
 template <OfDoubles Shape>
 Crossings<double> solve(const Shape& shape, const Ray<double>& ray, const Start& start,
                         std::uint64_t& widened, Precision precision = Precision::exact);

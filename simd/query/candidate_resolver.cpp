@@ -288,9 +288,16 @@ bool CandidateResolver::counts(std::size_t candidate,
                                 scene_.place_of(hits_.slot[candidate]), shape.reversed);
     const core::Ray<double> ray = ray_of(paths_, candidate);
     const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths_, candidate);
-    const int side =
-        core::compare_t(scene_.scene(), {ray, origins}, hit, paths_.t_after[candidate]);
-    return side > 0 || (side == 0 && (paths_.origin_bits[candidate] & stream_tie_counts) != 0);
+    const double t_after = paths_.t_after[candidate];
+    const std::uint32_t bits = paths_.origin_bits[candidate];
+    const core::LeavingRay from{ray, origins};
+    if ((bits & stream_half_ulp) != 0) {
+        if (hit.t - 2.0 * hit.error > t_after * (1.0 + 0x1p-51)) return true;
+        if (hit.t + 2.0 * hit.error < t_after) return false;
+        return core::nearest_double_t(scene_.scene(), from, hit, 0) > t_after;
+    }
+    const int side = core::compare_t(scene_.scene(), from, hit, t_after);
+    return side > 0 || (side == 0 && (bits & stream_tie_counts) != 0);
 }
 
 core::Hit<double> CandidateResolver::hit_of(std::size_t candidate) const {

@@ -25,7 +25,7 @@ inline constexpr float min_length = 0x1p-100F;
 
 /// Origin bit in addition to the kernels': the ray may cross again the shape that it starts on.
 inline constexpr std::uint32_t origin_may_return = 0x10000;
-static_assert(stream_tie_counts != origin_may_return);
+static_assert(((stream_tie_counts | stream_half_ulp) & origin_may_return) == 0);
 
 /// Rays in progress, structure of arrays: the members of core::ReferenceTracer::Path except for the
 /// depth, which a whole wave shares.

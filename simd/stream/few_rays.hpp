@@ -10,7 +10,8 @@ namespace raylane::simd {
 /// Answers rays one after the other. For calls of a few rays, in which the preparations of a stream
 /// take longer than the rays. A ray stays undecided if its floats are in doubt after the
 /// first steps, the search in float and the solver in double. So does an unusual ray: one that is
-/// very far away, very short or long, or invalid, or that may meet its origin surface again.
+/// very far away, very short or long, or refused, or that may meet its origin surface again. Throws
+/// InvalidStart as StreamTracer does.
 class FewRays {
   public:
     static constexpr std::size_t most = 4;

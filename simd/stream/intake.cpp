@@ -1,16 +1,104 @@
 #include "simd/stream/intake.hpp"
 
+#include "core/shapes/departure.hpp"
 #include "simd/query/as_core.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string>
 #include <type_traits>
 
 namespace raylane::simd {
 
 namespace {
+
+/// Returns whether a ray is refused: see StreamIntake::refused.
+template <class Real>
+bool is_refused(const RayStream<Real>& rays, std::size_t i) {
+    bool is_zero = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Real origin = rays.origin[axis][i], direction = rays.direction[axis][i];
+        if (!std::isfinite(origin) || !std::isfinite(direction)) return true;
+        is_zero = is_zero && direction == Real(0);
+    }
+    return is_zero || (rays.t_min != nullptr && std::isnan(rays.t_min[i])) ||
+           (rays.t_max != nullptr && std::isnan(rays.t_max[i]));
+}
+
+/// Returns the greatest float that is not above a number >= 0.
+float float_below(double number) {
+    constexpr float largest = std::numeric_limits<float>::max();
+    if (std::isinf(number)) return std::numeric_limits<float>::infinity();
+    if (!(number < static_cast<double>(largest))) return largest;
+    const auto nearest = static_cast<float>(number);
+    return static_cast<double>(nearest) <= number ? nearest : std::nextafter(nearest, 0.0F);
+}
+
+template <class Real>
+core::Ray<double> ray_in_double(const RayStream<Real>& rays, std::size_t i) {
+    const auto vector = [i](const Real* const(&columns)[3]) {
+        return core::convert<double>(core::Vec3<Real>(columns[0][i], columns[1][i], columns[2][i]));
+    };
+    return {vector(rays.origin), vector(rays.direction)};
+}
+
+/// The start of a ray on a face of a shape, as the caller gives it.
+struct GivenStart {
+    core::Ray<double> ray;
+    core::Face face;
+    const std::uint8_t* inward; ///< to the inside of the solid; null: the direction tells
+    bool reversed;              ///< the shape is a reversed part of the solid
+    double rounding;            ///< share of the shape's size
+};
+
+/// Returns true if a ray goes to the inside of the shape that it starts on. Throws InvalidValue if
+/// it cannot start there, or clearly goes to the other side than it says.
+template <class Shape>
+bool goes_inside(const Shape& shape, const GivenStart& start) {
+    constexpr int faces = core::face_count<Shape>();
+    if (start.face >= faces)
+        throw core::InvalidValue("origin_face", "must be less than the shape's number of faces, " +
+                                                    std::to_string(faces) + ", got " +
+                                                    std::to_string(start.face));
+    if (!core::may_start_on(shape, start.ray.origin, start.face, start.rounding))
+        throw core::InvalidValue("origin_shape",
+                                 "must be a shape that the origin is on, within rounding");
+    const int side = core::side_of_departure(shape, start.ray, start.face);
+    if (start.inward == nullptr) return side < 0;
+    const bool inward = (*start.inward != 0) != start.reversed;
+    if (side == (inward ? 1 : -1) &&
+        core::departs_clearly(shape, start.ray, start.face, start.rounding))
+        throw core::InvalidValue(
+            "origin_inward", *start.inward != 0 ? "must be 0 for a direction to the outside, got 1"
+                                                : "must be 1 for a direction to the inside, got 0");
+    return inward;
+}
+
+bool goes_inside(const core::Scene& scene, core::Kind kind, core::Place place,
+                 const GivenStart& start) {
+    return core::with_table(scene.shapes(), kind, [&](const auto& table) {
+        return goes_inside(table.get(place), start);
+    });
+}
+
+/// Returns a ray with its largest direction component in [1, 2), if scaling the direction by
+/// 2^-exponent is exact. Otherwise returns the ray itself, and the exponent 0.
+core::Ray<double> scaled(const core::Ray<double>& ray, int& exponent) {
+    const core::Vec3d& d = ray.direction;
+    exponent = std::ilogb(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}));
+    core::Ray<double> result = ray;
+    for (int axis = 0; axis < 3; ++axis) {
+        result.direction[axis] = std::ldexp(d[axis], -exponent);
+        if (std::ldexp(result.direction[axis], exponent) != d[axis]) {
+            exponent = 0;
+            return ray;
+        }
+    }
+    return result;
+}
 
 /// Returns the columns from lane `to` on. `to` is a multiple of 16.
 StreamRays from(StreamRays rays, std::size_t to) {
@@ -46,6 +134,8 @@ template <class Real>
 RayStream<Real> StreamIntake::take(const RayStream<Real>& rays, std::size_t first) {
     paths_.t_after = taken_.t_after;
     paths_.start = taken_.start;
+    apart_.clear();
+    refused_ = 0;
     const std::size_t left = rays.count - first;
     std::size_t count = std::min(left, together);
     take(part_of(rays, first, count), count, 0);
@@ -71,15 +161,62 @@ void StreamIntake::take(const RayStream<Real>& rays, std::size_t count, std::siz
     std::size_t none = 0;
     if constexpr (std::is_same_v<Real, float>)
         none = kernels().take(rays, from(taken_, to));
-    else
+    else {
         none = kernels().take_doubles(rays, from(taken_, to));
+        if (floats_) limit_floats(rays, count, to);
+    }
     if (rays.origin_shape == nullptr)
         for (std::uint32_t* const column :
              {paths_.origin_first, paths_.origin_last, paths_.origin_slot})
             std::fill_n(column + to, count, no_slot);
     else
         start_on(rays, count, to);
-    if (none != 0) stand_in(to, to + count);
+    if (none == 0) return;
+    sort_out(rays, count, to);
+    stand_in(to, to + count);
+}
+
+/// Replaces the limits of rays in double by the floats at or below them: a float is beyond both or
+/// neither.
+void StreamIntake::limit_floats(const RayStream<double>& rays, std::size_t count, std::size_t to) {
+    constexpr float endless = std::numeric_limits<float>::infinity();
+    constexpr float largest = std::numeric_limits<float>::max();
+    float_t_max_.resize(capacity_);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t lane = to + i;
+        const Limits limits = limits_of(rays, i);
+        const float after = float_below(limits.t_min), most = float_below(limits.t_max);
+        float_t_max_[lane] = most;
+        if (!is_ray(lane)) continue;
+        const auto next = static_cast<double>(std::nextafter(after, endless));
+        const double middle = after > 0.0F ? 0.5 * (static_cast<double>(after) + next) : 0.0;
+        const double unit = taken_.unit[lane], length = taken_.exact_length[lane];
+        taken_.t_after[lane] = middle / unit;
+        taken_.start[lane] = taken_.t_after[lane] * length;
+        const bool is_odd = (std::bit_cast<std::uint32_t>(after) & 1) != 0;
+        taken_.bits[lane] = after > 0.0F && is_odd ? stream_tie_counts : 0;
+        const auto beyond = static_cast<double>(std::nextafter(most, endless));
+        taken_.t_limit[lane] = !(after < most)  ? -1.0
+                               : most < largest ? beyond / unit * length * (1.0 + 0x1p-50)
+                                                : std::numeric_limits<double>::infinity();
+    }
+}
+
+/// Counts the refused rays, and lists the rays apart. The others have no interval between their
+/// limits.
+template <class Real>
+void StreamIntake::sort_out(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
+    constexpr auto most = static_cast<double>(std::numeric_limits<Real>::max());
+    for (std::size_t i = 0; i < count; ++i) {
+        if (is_ray(to + i)) continue;
+        if (is_refused(rays, i)) {
+            ++refused_;
+        } else if (const Limits limits = limits_of(rays, i);
+                   limits.t_min < std::min(limits.t_max, most)) {
+            taken_.t_limit[to + i] = apart;
+            apart_.push_back(static_cast<std::uint32_t>(to + i));
+        }
+    }
 }
 
 template <class Real>
@@ -87,12 +224,19 @@ void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,
               std::span<const std::uint32_t> slots, const RayStream<Real>& rays, std::size_t i) {
     const core::ShapeId shape = rays.origin_shape[i];
     const std::uint32_t slot = shape < slots.size() ? slots[shape] : no_slot;
-    if (slot == no_slot) return paths.start_nowhere(lane, lane + 1);
-    const bool inward = (rays.origin_inward != nullptr && rays.origin_inward[i] != 0) !=
-                        scene.scene().solids().is_reversed(shape);
-    const std::uint32_t face = rays.origin_face != nullptr ? rays.origin_face[i] : 0;
-    paths.start_on(lane, slot, scene.shape_named(shape, slot), face | (inward ? hit_entering : 0),
-                   /*through=*/true);
+    if (slot == no_slot || is_refused(rays, i)) return paths.start_nowhere(lane, lane + 1);
+    const SceneData::NamedShape named = scene.shape_named(shape, slot);
+    const GivenStart start{ray_in_double(rays, i),
+                           rays.origin_face != nullptr ? rays.origin_face[i] : core::body,
+                           from(rays.origin_inward, i), scene.scene().solids().is_reversed(shape),
+                           std::is_same_v<Real, float> ? 0x1p-6 : 0x1p-10};
+    try {
+        const bool inward = goes_inside(scene.scene(), named.kind, scene.place_of(slot), start);
+        paths.start_on(lane, slot, named, std::uint32_t{start.face} | (inward ? hit_entering : 0),
+                       /*through=*/true);
+    } catch (const core::InvalidValue& invalid) {
+        throw InvalidStart(invalid, &rays.origin_shape[i]);
+    }
 }
 
 template <class Real>
@@ -102,9 +246,9 @@ void StreamIntake::start_on(const RayStream<Real>& rays, std::size_t count, std:
     for (std::size_t i = 0; i < count; ++i) {
         if (i + ahead < count && rays.origin_shape[i + ahead] < slots.size())
             __builtin_prefetch(&slots[rays.origin_shape[i + ahead]]);
-        const std::uint32_t tie_counts = paths_.origin_bits[to + i];
+        const std::uint32_t of_limits = paths_.origin_bits[to + i];
         simd::start_on(paths_, to + i, scene_, slots, rays, i);
-        paths_.origin_bits[to + i] |= tie_counts;
+        paths_.origin_bits[to + i] |= of_limits;
     }
 }
 
@@ -132,20 +276,32 @@ void StreamIntake::keep(const std::uint32_t* lanes, std::size_t count) {
 }
 
 template <class Real>
-LoneRay StreamIntake::lone(const RayStream<Real>& rays, std::size_t i, std::size_t lane) const {
-    const double unit = taken_.unit[lane];
-    constexpr Real endless = std::numeric_limits<Real>::infinity();
-    const Real t_min = rays.t_min != nullptr ? std::max(Real(0), rays.t_min[i]) : Real(0);
-    const Real t_max = rays.t_max != nullptr ? rays.t_max[i] : endless;
-    const auto beyond = static_cast<double>(std::nextafter(t_max, endless));
-    return {ray_of(paths_, lane),
+LoneRay StreamIntake::lone(const RayStream<Real>& rays, std::size_t i, std::size_t lane) {
+    core::Ray<double> ray;
+    int exponent = 0;
+    if (is_apart(lane)) {
+        if (rays.origin_shape != nullptr)
+            simd::start_on(paths_, lane, scene_, shapes_.slots(), rays, i);
+        else
+            paths_.start_nowhere(lane, lane + 1);
+        ray = scaled(ray_in_double(rays, i), exponent);
+    } else {
+        ray = ray_of(paths_, lane);
+        exponent = -std::ilogb(taken_.unit[lane]);
+    }
+    const Limits limits = limits_of(rays, i);
+    // Beyond all t that round to the limit. A crossing's t may be off by 2^-27 of itself.
+    const double beyond = std::max(std::ldexp(limits.t_max * (1.0 + 0x1p-20) + 0x1p-149, exponent),
+                                   std::numeric_limits<double>::min());
+    return {ray,
             origin_surfaces_of(scene_, paths_, lane),
-            std::ilogb(unit),
-            static_cast<double>(t_min),
-            static_cast<double>(t_max),
-            std::is_same_v<Real, float>,
-            t_max < std::numeric_limits<Real>::max() ? beyond / unit
-                                                     : std::numeric_limits<double>::infinity()};
+            -exponent,
+            limits.t_min,
+            limits.t_max,
+            std::is_same_v<Real, float> || floats_,
+            limits.t_max < static_cast<double>(std::numeric_limits<Real>::max())
+                ? beyond
+                : std::numeric_limits<double>::infinity()};
 }
 
 template void start_on(const Paths&, std::size_t, const SceneData&, std::span<const std::uint32_t>,
@@ -154,7 +310,7 @@ template void start_on(const Paths&, std::size_t, const SceneData&, std::span<co
                        const RayStream<double>&, std::size_t);
 template RayStream<float> StreamIntake::take(const RayStream<float>&, std::size_t);
 template RayStream<double> StreamIntake::take(const RayStream<double>&, std::size_t);
-template LoneRay StreamIntake::lone(const RayStream<float>&, std::size_t, std::size_t) const;
-template LoneRay StreamIntake::lone(const RayStream<double>&, std::size_t, std::size_t) const;
+template LoneRay StreamIntake::lone(const RayStream<float>&, std::size_t, std::size_t);
+template LoneRay StreamIntake::lone(const RayStream<double>&, std::size_t, std::size_t);
 
 } // namespace raylane::simd

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace raylane::simd {
 
@@ -20,7 +21,7 @@ struct LoneRay {
     core::OriginSurfaces<double> origins;
     int exponent; ///< the caller's t is this ray's t times 2^exponent
     double t_min, t_max;
-    bool by_floats; ///< the limits are compared with the float nearest to t
+    bool by_floats; ///< the limits are compared with the float nearest to t, not with the double
     double t_limit; ///< no crossing counts from here on
 
     core::LeavingRay leaving() const { return {ray, origins}; }
@@ -30,7 +31,14 @@ struct LoneRay {
         return core::rounded_t(scene, leaving(), hit, exponent);
     }
     double double_t_of(const core::Scene& scene, const core::Hit<double>& hit) const {
-        return as_answered(core::nearest_double_t(scene, leaving(), hit));
+        return core::nearest_double_t(scene, leaving(), hit, exponent);
+    }
+    /// The same, for a t that is known in 106 bits.
+    double double_t_of(const core::Scene& scene, const core::Hit<double>& hit,
+                       const core::DoubleDouble& t, double error) const {
+        const double nearest = std::ldexp(t.high, exponent);
+        return core::rounds_surely(t, error) && std::isnormal(nearest) ? nearest
+                                                                       : double_t_of(scene, hit);
     }
     double as_answered(double t) const {
         return std::clamp(std::ldexp(t, exponent), std::numeric_limits<double>::denorm_min(),
@@ -42,24 +50,33 @@ struct LoneRay {
                is_before_t_max(scene, hit);
     }
     bool is_before_t_max(const core::Scene& scene, const core::Hit<double>& hit) const {
-        if (t_limit == std::numeric_limits<double>::infinity()) return true;
-        return by_floats ? static_cast<double>(t_of(scene, hit)) <= t_max
-                         : compare_t(scene, hit, t_max) <= 0;
+        const double largest = by_floats ? static_cast<double>(std::numeric_limits<float>::max())
+                                         : std::numeric_limits<double>::max();
+        if (t_max >= largest) return true; // t is never infinite
+        return compare_t(scene, hit, t_max) <= 0;
     }
 
   private:
     bool is_behind_t_min(const core::Scene& scene, const core::Hit<double>& hit) const {
         if (!(t_min > 0.0)) return true;
-        return by_floats ? static_cast<double>(t_of(scene, hit)) > t_min
-                         : compare_t(scene, hit, t_min) > 0;
+        return compare_t(scene, hit, t_min) > 0;
     }
+    /// Compares t as it is answered with a limit: -1 if it is less, 0 if both are equal.
     int compare_t(const core::Scene& scene, const core::Hit<double>& hit, double limit) const {
-        return core::compare_t(scene, leaving(), hit, std::ldexp(limit, -exponent));
+        // More than half an ulp of t, and than the rounding of both limits.
+        const double near = std::ldexp(hit.t, exponent);
+        const double off = std::ldexp(hit.error, exponent) * 2.0 +
+                           (by_floats ? 0x1p-22 : 0x1p-51) * near + 0x1p-140;
+        if (near + off < limit) return -1;
+        if (near - off > limit) return 1;
+        const double t =
+            by_floats ? static_cast<double>(t_of(scene, hit)) : double_t_of(scene, hit);
+        return t < limit ? -1 : t > limit ? 1 : 0;
     }
 };
 
-/// Starts a lane on the shape that ray i names, if it is a shape of the scene. `slots`: of the
-/// shapes, by id.
+/// Starts a lane on the shape that ray i names, if it is a shape of the scene and the ray is not
+/// refused. `slots`: of the shapes, by id. Throws InvalidStart if the ray cannot start there.
 template <class Real>
 void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,
               std::span<const std::uint32_t> slots, const RayStream<Real>& rays, std::size_t i);
@@ -74,6 +91,13 @@ class StreamIntake {
 
     void take_from(Arena& arena);
 
+    /// Says whether rays in double are answered with t in float alone. Their limits then compare
+    /// with that float.
+    void answer_floats(bool floats) { floats_ = floats; }
+    bool answers_floats() const { return floats_; }
+    /// Returns upper limits in float, by lane, of rays in double that are answered so.
+    const float* float_t_max() const { return float_t_max_.data(); }
+
     /// Takes rays in from `first` on. Returns those that were taken.
     template <class Real>
     RayStream<Real> take(const RayStream<Real>& rays, std::size_t first);
@@ -85,10 +109,19 @@ class StreamIntake {
     /// Returns the property that all taken rays share; null if they share none.
     const Coherence* coherence() const { return coherence_; }
     bool is_ray(std::size_t lane) const { return taken_.t_limit[lane] >= 0.0; }
+    /// Returns true for a ray whose numbers are beyond the kernels' range. Scalar code must trace
+    /// it.
+    bool is_apart(std::size_t lane) const { return taken_.t_limit[lane] == apart; }
+    /// Returns the lanes of the taken rays for which is_apart() is true, in ascending order.
+    std::span<const std::uint32_t> lanes_apart() const { return apart_; }
+    /// Returns the number of taken rays that are refused: those with an infinite or NaN component,
+    /// a direction of 0, or a limit that is NaN.
+    std::size_t refused() const { return refused_; }
 
-    /// Returns ray i of those that were taken, which is in this lane.
+    /// Returns ray i of those that were taken, which is in this lane. For a ray apart, replaces the
+    /// shapes that the lane's ray leaves.
     template <class Real>
-    LoneRay lone(const RayStream<Real>& rays, std::size_t i, std::size_t lane) const;
+    LoneRay lone(const RayStream<Real>& rays, std::size_t i, std::size_t lane);
 
   private:
     const StreamKernels& kernels() const { return tracing_.kernels->stream; }
@@ -96,10 +129,14 @@ class StreamIntake {
     void take(const RayStream<Real>& rays, std::size_t count, std::size_t to);
     template <class Real>
     void start_on(const RayStream<Real>& rays, std::size_t count, std::size_t to);
+    template <class Real>
+    void sort_out(const RayStream<Real>& rays, std::size_t count, std::size_t to);
+    void limit_floats(const RayStream<double>& rays, std::size_t count, std::size_t to);
     void stand_in(std::size_t begin, std::size_t end);
 
     /// Number of rays that are checked for a shared property.
     static constexpr std::size_t together = 1024;
+    static constexpr double apart = -2.0; ///< as t_limit; other rays without lanes have -1
 
     const SceneData& scene_;
     Tracing tracing_;
@@ -109,6 +146,10 @@ class StreamIntake {
     StreamRays taken_{}; // the columns of paths_, and those of limits
     Coherence in_common_{};
     const Coherence* coherence_ = nullptr;
+    bool floats_ = false;
+    std::vector<float> float_t_max_;
+    std::vector<std::uint32_t> apart_;
+    std::size_t refused_ = 0;
 };
 
 } // namespace raylane::simd

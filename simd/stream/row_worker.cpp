@@ -18,40 +18,25 @@ bool is_solid(core::Kind kind) {
 
 enum class Within : std::uint8_t { no, yes, unknown };
 
-/// A ray's limits, in the caller's units.
+/// Compares a t with the limits. It has the error `error`, and is the nearest double.
 template <class Real>
-class Limits {
-  public:
-    Limits(const RayStream<Real>& rays, std::size_t i) {
-        if (rays.t_min != nullptr) min_ = static_cast<double>(std::max(Real(0), rays.t_min[i]));
-        if (rays.t_max != nullptr) max_ = static_cast<double>(rays.t_max[i]);
+Within is_within(const Limits& limits, double t, double error) {
+    if (!(limits.t_min > 0.0) && limits.t_max == std::numeric_limits<double>::infinity())
+        return Within::yes;
+    if constexpr (std::is_same_v<Real, float>) {
+        float rounded = 0.0F;
+        if (!core::rounds_surely(t, error, rounded)) return Within::unknown;
+        t = static_cast<double>(rounded);
     }
-
-    /// Compares a t whose error is less than `error` with the limits.
-    Within compare(double t, double error) const {
-        if (!(min_ > 0.0) && max_ == std::numeric_limits<double>::infinity()) return Within::yes;
-        if constexpr (std::is_same_v<Real, float>) {
-            float rounded = 0.0F;
-            if (!core::rounds_surely(t, error, rounded)) return Within::unknown;
-            const auto answered = static_cast<double>(rounded);
-            return answered > min_ && answered <= max_ ? Within::yes : Within::no;
-        } else {
-            // The doubled error and the other term cover the rounding of t + off and t - off.
-            const double off = 2.0 * error + 0x1p-52 * t;
-            if (t + off < min_ || t - off > max_) return Within::no;
-            return t - off > min_ && t + off < max_ ? Within::yes : Within::unknown;
-        }
-    }
-
-  private:
-    double min_ = 0.0, max_ = std::numeric_limits<double>::infinity();
-};
+    return t > limits.t_min && t <= limits.t_max ? Within::yes : Within::no;
+}
 
 } // namespace
 
 RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes)
     : scene_(scene), tracing_{tracing.kernels, core::Precision::exact}, points_(scene.scene()),
       solid_surfaces_(scene.scene()), lengths_(scene.scene()),
+      searcher_(scene.scene(), core::Search::hierarchy),
       intake_(scene, tracing_, shapes, at_a_time), search_(scene, tracing_) {
     arena_ = arena_for([&](Arena& arena) {
         intake_.take_from(arena);
@@ -65,11 +50,14 @@ RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const Shape
 
 /// Calls visit(first, lane) for each ray, once the crossings of the ray with all shapes that it may
 /// cross are known. `first` is the index of the first ray of the batch that intake_ took together
-/// with this ray. Invalid rays are visited, too.
+/// with this ray. Invalid rays are visited, too. Returns the number of refused ones.
 template <class Real, class Visit>
-void RowWorker::for_each_ray(const RayStream<Real>& rays, bool with_normals, const Visit& visit) {
+std::size_t RowWorker::for_each_ray(const RayStream<Real>& rays, bool with_normals,
+                                    const Visit& visit) {
+    std::size_t refused = 0;
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
         count = intake_.take(rays, first).count;
+        refused += intake_.refused();
         search_.take(intake_.paths().columns());
         for (std::size_t begin = 0, some = count; begin < count; begin += some) {
             some = std::min(some, count - begin);
@@ -80,6 +68,7 @@ void RowWorker::for_each_ray(const RayStream<Real>& rays, bool with_normals, con
                 visit(first, lane);
         }
     }
+    return refused;
 }
 
 /// Lists the pairs of a ray in lanes `begin` to `end` - 1 and a shape that this ray may cross,
@@ -173,15 +162,16 @@ template <class Real, class Counts>
 bool RowWorker::sort_at_once(const RayStream<Real>& rays, std::size_t lane, const Counts& counts) {
     if ((intake_.paths().origin_bits[lane] & origin_may_return) != 0) return false;
     const double unit = intake_.taken().unit[lane];
-    const Limits<Real> limits(rays, lane);
+    const Limits limits = limits_of(rays, lane);
     keys_.clear();
     for (std::uint32_t k = 2 * first_of_ray_[lane]; k < 2 * first_of_ray_[lane + 1]; ++k) {
         if ((bits_[k] & hit_none) != 0) continue;
         if ((bits_[k] & hit_doubtful) != 0 ||
-            !core::rounds_surely(core::DoubleDouble(high_[k], low_[k]), error_[k]))
+            !core::rounds_surely(core::DoubleDouble(high_[k], low_[k]), error_[k]) ||
+            !std::isnormal(high_[k] * unit))
             return false;
         if (!counts(k)) continue;
-        const Within within = limits.compare(high_[k] * unit, off_by(k) * unit);
+        const Within within = is_within<Real>(limits, high_[k] * unit, off_by(k) * unit);
         if (within == Within::unknown) return false;
         if (within == Within::yes) keys_.push_back({high_[k], k});
     }
@@ -209,8 +199,7 @@ void RowWorker::add_keys(const RayStream<Real>& rays, std::size_t lane,
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t k = keys_[i].crossing;
         const SceneData::ShapeRecord shape = scene_.record_of(slot_[k / 2]);
-        rows.t[begin + i] = std::clamp(high_[k] * unit, std::numeric_limits<double>::denorm_min(),
-                                       std::numeric_limits<double>::max());
+        rows.t[begin + i] = high_[k] * unit;
         rows.shape[begin + i] = shape.id;
         rows.entering[begin + i] = shape.is_entered(bits_[k]) ? 1 : 0;
         rows.face[begin + i] = static_cast<std::uint8_t>(bits_[k] & hit_face);
@@ -225,8 +214,7 @@ void RowWorker::add_keys(const RayStream<Real>& rays, std::size_t lane,
 
 /// Returns the normal of a crossing, on the outside of its solid.
 template <class Real>
-core::Vec3f RowWorker::normal_of(const RayStream<Real>& rays, std::size_t lane,
-                                 std::size_t k) const {
+core::Vec3f RowWorker::normal_of(const RayStream<Real>& rays, std::size_t lane, std::size_t k) {
     core::Vec3f normal(normal_[0][k], normal_[1][k], normal_[2][k]);
     const core::Hit<double> hit = hit_at(k);
     if (std::isnan(normal.x) || std::isnan(normal.y) || std::isnan(normal.z))
@@ -269,6 +257,13 @@ void RowWorker::find(const LoneRay& ray, std::size_t lane, const Counts& wanted)
     const auto counts = [&](const core::Hit<double>& hit) {
         return wanted(hit) && solid_surfaces_.is_surface(ray.leaving(), hit);
     };
+    if (intake_.is_apart(lane)) {
+        searcher_.each(ray.ray, ray.origins, ray.t_limit, [&](const core::Hit<double>& hit) {
+            if (wanted(hit)) crossed_.push_back({hit, hit.t, hit.error});
+            return true;
+        });
+        return sort(ray);
+    }
     for (std::size_t pair = first_of_ray_[lane]; pair < first_of_ray_[lane + 1]; ++pair) {
         const SceneData::ShapeRecord shape = scene_.record_of(slot_[pair]);
         const core::Place place = scene_.place_of(slot_[pair]);
@@ -329,26 +324,28 @@ bool RowWorker::are_surely_in_order() const {
 }
 
 template <class Real>
-void RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
-                          CrossingRows& rows, CrossingCounters& counters) {
+std::size_t RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
+                                 CrossingRows& rows, CrossingCounters& counters) {
     counters_ = {};
     const core::Scene& scene = scene_.scene();
-    for_each_ray(rays, wanted.normals, [&](std::size_t first, std::size_t lane) {
+    const auto visit = [&](std::size_t first, std::size_t lane) {
         const RayStream<Real> some = part_of(rays, first, rays.count - first);
         const auto counts = [&](std::size_t k) {
             return !scene_.looks_through() || is_seen(some, lane, k);
         };
         if (intake_.is_ray(lane) && sort_at_once(some, lane, counts)) {
             add_keys(some, lane, wanted, rows);
-        } else if (intake_.is_ray(lane)) {
+        } else if (intake_.is_ray(lane) || intake_.is_apart(lane)) {
             const LoneRay ray = intake_.lone(some, lane, lane);
             find(ray, lane, [&](const core::Hit<double>& hit) { return ray.finds(scene, hit); });
             leave_one_of_polygons();
             add(ray, wanted, rows);
         }
         rows.first.push_back(rows.t.size());
-    });
+    };
+    const std::size_t refused = for_each_ray(rays, wanted.normals, visit);
     counters += counters_;
+    return refused;
 }
 
 /// Keeps one crossing where several triangles of a polygon meet at an edge: that of the first
@@ -398,8 +395,7 @@ void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, s
         const core::Hit<double>& hit = crossed.hit;
         const bool touches = hit.enters() ? is_among(left, all.end(), hit.shape)
                                           : is_among(all.begin(), left, hit.shape);
-        const bool is_sure = core::rounds_surely(crossed.t, crossed.error);
-        rows.t.push_back(is_sure ? ray.as_answered(crossed.t.high) : ray.double_t_of(scene, hit));
+        rows.t.push_back(ray.double_t_of(scene, hit, crossed.t, crossed.error));
         rows.shape.push_back(hit.shape);
         rows.entering.push_back(hit.enters() ? 1 : 0);
         rows.face.push_back(hit.face);
@@ -439,56 +435,69 @@ bool RowWorker::add_lengths_at_once(const RayStream<Real>& lines, const LoneRay&
 }
 
 template <class Real>
-void RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& rows) {
+std::size_t RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& rows) {
     // The crossings beyond a limit tell which solids contain the ray's point at this limit.
     RayStream<Real> lines = rays;
     lines.t_min = lines.t_max = nullptr;
-    for_each_ray(lines, /*with_normals=*/false, [&](std::size_t first, std::size_t lane) {
+    std::size_t without_limits = 0;
+    const auto visit = [&](std::size_t first, std::size_t lane) {
         const std::size_t i = first + lane;
         const bool has_limits = (rays.t_min == nullptr || !std::isnan(rays.t_min[i])) &&
                                 (rays.t_max == nullptr || !std::isnan(rays.t_max[i]));
-        if (intake_.is_ray(lane) && has_limits) {
+        const bool is_line = intake_.is_ray(lane) || intake_.is_apart(lane);
+        without_limits += is_line && !has_limits ? 1 : 0;
+        if (is_line && has_limits) {
             const LoneRay ray = intake_.lone(part_of(rays, first, rays.count - first), lane, lane);
             lengths_found_.clear();
-            if (!add_lengths_at_once(lines, ray, lane)) {
-                find(ray, lane, [&](const core::Hit<double>& hit) {
-                    return is_solid(hit.kind) || scene_.scene().solids().has(hit.shape);
-                });
-                hits_.clear();
-                for (const Crossed& crossed : crossed_)
-                    hits_.push_back(crossed.hit);
-                lengths_.add(ray.leaving(), hits_, std::ldexp(ray.t_min, -ray.exponent),
-                             std::ldexp(ray.t_max, -ray.exponent), lengths_found_);
-            }
+            if (intake_.is_apart(lane) || !add_lengths_at_once(lines, ray, lane))
+                find_lengths(ray, lane);
             for (const core::MaterialLength& found : lengths_found_) {
                 rows.material.push_back(found.material);
                 rows.length.push_back(found.length);
             }
         }
         rows.first.push_back(rows.material.size());
+    };
+    const std::size_t refused = for_each_ray(lines, /*with_normals=*/false, visit);
+    return refused + without_limits;
+}
+
+/// Finds the lengths of one ray by all its crossings.
+void RowWorker::find_lengths(LoneRay ray, std::size_t lane) {
+    ray.t_limit = std::numeric_limits<double>::infinity();
+    find(ray, lane, [&](const core::Hit<double>& hit) {
+        return is_solid(hit.kind) || scene_.scene().solids().has(hit.shape);
     });
+    hits_.clear();
+    for (const Crossed& crossed : crossed_)
+        hits_.push_back(crossed.hit);
+    lengths_.add(ray.leaving(), hits_, std::ldexp(ray.t_min, -ray.exponent),
+                 std::ldexp(ray.t_max, -ray.exponent), lengths_found_);
 }
 
 template <class Real>
-void RowWorker::containing(const PointStream<Real>& points, SolidRows& rows) {
+std::size_t RowWorker::containing(const PointStream<Real>& points, SolidRows& rows) {
+    std::size_t refused = 0;
     for (std::size_t i = 0; i < points.count; ++i) {
+        const core::Vec3<Real> point(points.at[0][i], points.at[1][i], points.at[2][i]);
+        if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
+            ++refused;
         containing_.clear();
-        points_.add_containing(core::convert<double>(core::Vec3<Real>(
-                                   points.at[0][i], points.at[1][i], points.at[2][i])),
-                               containing_);
+        points_.add_containing(core::convert<double>(point), containing_);
         for (const core::Containing& solid : containing_) {
             rows.shape.push_back(solid.shape);
             rows.on_surface.push_back(solid.on_surface ? 1 : 0);
         }
         rows.first.push_back(rows.shape.size());
     }
+    return refused;
 }
 
 #define RAYLANE_INSTANTIATE(Real)                                                                  \
-    template void RowWorker::crossings(const RayStream<Real>&, const CrossingRequest&,             \
-                                       CrossingRows&, CrossingCounters&);                          \
-    template void RowWorker::path_lengths(const RayStream<Real>&, LengthRows&);                    \
-    template void RowWorker::containing(const PointStream<Real>&, SolidRows&);
+    template std::size_t RowWorker::crossings(const RayStream<Real>&, const CrossingRequest&,      \
+                                              CrossingRows&, CrossingCounters&);                   \
+    template std::size_t RowWorker::path_lengths(const RayStream<Real>&, LengthRows&);             \
+    template std::size_t RowWorker::containing(const PointStream<Real>&, SolidRows&);
 RAYLANE_INSTANTIATE(float)
 RAYLANE_INSTANTIATE(double)
 #undef RAYLANE_INSTANTIATE

@@ -2,6 +2,7 @@
 
 #include "core/reference/containing.hpp"
 #include "core/reference/path_lengths.hpp"
+#include "core/reference/search.hpp"
 #include "core/reference/solid_surfaces.hpp"
 #include "simd/query/search.hpp"
 #include "simd/stream/intake.hpp"
@@ -34,14 +35,15 @@ class RowWorker {
   public:
     RowWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes);
 
-    /// Each of these appends to the rows.
+    /// Each of these appends to the rows. Returns the number of refused rays, as
+    /// StreamIntake::refused, or of points with an infinite or NaN coordinate.
     template <class Real>
-    void crossings(const RayStream<Real>& rays, const CrossingRequest& wanted, CrossingRows& rows,
-                   CrossingCounters& counters);
+    std::size_t crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
+                          CrossingRows& rows, CrossingCounters& counters);
     template <class Real>
-    void path_lengths(const RayStream<Real>& rays, LengthRows& rows);
+    std::size_t path_lengths(const RayStream<Real>& rays, LengthRows& rows);
     template <class Real>
-    void containing(const PointStream<Real>& points, SolidRows& rows);
+    std::size_t containing(const PointStream<Real>& points, SolidRows& rows);
 
   private:
     /// A crossing of one ray, with t in extended precision.
@@ -52,7 +54,7 @@ class RowWorker {
     };
 
     template <class Real, class Visit>
-    void for_each_ray(const RayStream<Real>& rays, bool with_normals, const Visit& visit);
+    std::size_t for_each_ray(const RayStream<Real>& rays, bool with_normals, const Visit& visit);
     bool list_pairs(std::size_t begin, std::size_t end);
     void cross_pairs(bool with_normals);
     template <class Real, class Counts>
@@ -63,7 +65,7 @@ class RowWorker {
     void add_keys(const RayStream<Real>& rays, std::size_t lane, const CrossingRequest& wanted,
                   CrossingRows& rows);
     template <class Real>
-    core::Vec3f normal_of(const RayStream<Real>& rays, std::size_t lane, std::size_t k) const;
+    core::Vec3f normal_of(const RayStream<Real>& rays, std::size_t lane, std::size_t k);
     core::Hit<double> hit_at(std::size_t k) const;
     double off_by(std::size_t k) const;
     core::Crossing<double> crossing_at(std::size_t k, const core::DoubleDouble& t) const;
@@ -74,6 +76,7 @@ class RowWorker {
     void sort(const LoneRay& ray);
     bool are_surely_in_order() const;
     void leave_one_of_polygons();
+    void find_lengths(LoneRay ray, std::size_t lane);
     void add(const LoneRay& ray, const CrossingRequest& wanted, CrossingRows& rows);
     void add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
                       bool normals, CrossingRows& rows);
@@ -86,6 +89,7 @@ class RowWorker {
     core::PointSearcher points_;
     core::SolidSurfaces solid_surfaces_;
     core::PathLengths lengths_;
+    core::Searcher<double> searcher_;
     StreamIntake intake_;
     CandidateSearch search_;
     float* t_limit_ = nullptr;

@@ -6,6 +6,7 @@
 #include "simd/threads/threads.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -30,29 +31,35 @@ StreamTracer::Parts StreamTracer::parts_of(std::size_t count) const {
     return {size, (count + size - 1) / size};
 }
 
-/// Calls answer(worker, first, count) for ranges that together cover all rays.
+/// Calls answer(worker, first, count) for ranges that together cover all rays. Returns the sum of
+/// the results.
 template <class Answer>
-void StreamTracer::answer(std::size_t count, const Answer& answer) const {
-    if (count == 0) return;
+std::size_t StreamTracer::answer(std::size_t count, const Answer& answer) const {
+    if (count == 0) return 0;
+    std::atomic<std::size_t> refused = 0;
     const DefaultRounding rounding;
     const auto make = [&] { return std::make_unique<StreamWorker>(*data_, tracing_, shapes_); };
     const Parts parts = parts_of(count);
     const auto answer_part = [&](std::size_t number) {
         const Pool<StreamWorker>::Lease worker(workers_, make);
         const std::size_t first = number * parts.size;
-        answer(*worker, first, std::min(parts.size, count - first));
+        refused += answer(*worker, first, std::min(parts.size, count - first));
     };
-    if (parts.count == 1) return answer_part(0);
-    on_threads(threads_, [&] { parallel_for(parts.count, answer_part); });
+    if (parts.count == 1)
+        answer_part(0);
+    else
+        on_threads(threads_, [&] { parallel_for(parts.count, answer_part); });
+    return refused;
 }
 
 /// Calls answer(worker, first, count, rows) for the same ranges, with separate rows for each, and
-/// joins these.
+/// joins these. Returns the sum of the results.
 template <class Worker, class AnyRows, class Answer>
-void StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t count, AnyRows& rows,
-                                  const Answer& answer) const {
+std::size_t StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t count, AnyRows& rows,
+                                         const Answer& answer) const {
     rows = {};
-    if (count == 0) return;
+    if (count == 0) return 0;
+    std::atomic<std::size_t> refused = 0;
     const DefaultRounding rounding;
     const auto make = [&] { return std::make_unique<Worker>(*data_, tracing_, shapes_); };
     const Parts parts = parts_of(count);
@@ -60,12 +67,12 @@ void StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t count, AnyR
     const auto answer_part = [&](std::size_t number) {
         const typename Pool<Worker>::Lease worker(workers, make);
         const std::size_t first = number * parts.size;
-        answer(*worker, first, std::min(parts.size, count - first), found[number]);
+        refused += answer(*worker, first, std::min(parts.size, count - first), found[number]);
     };
     if (parts.count == 1) {
         answer_part(0);
         rows = std::move(found[0]);
-        return;
+        return refused;
     }
     on_threads(threads_, [&] { parallel_for(parts.count, answer_part); });
     rows.first.reserve(count + 1);
@@ -78,56 +85,60 @@ void StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t count, AnyR
             some = {};
         });
     }
+    return refused;
 }
 
 template <class Real>
-void StreamTracer::nearest(const RayStream<Real>& rays, const HitStream& hits) const {
-    answer(rays.count, [&](StreamWorker& worker, std::size_t first, std::size_t count) {
-        worker.nearest(part_of(rays, first, count), part_of(hits, first));
+std::size_t StreamTracer::nearest(const RayStream<Real>& rays, const HitStream& hits) const {
+    return answer(rays.count, [&](StreamWorker& worker, std::size_t first, std::size_t count) {
+        return worker.nearest(part_of(rays, first, count), part_of(hits, first));
     });
 }
 
 template <class Real>
-void StreamTracer::occluded(const RayStream<Real>& rays, std::uint8_t* occluded) const {
-    answer(rays.count, [&](StreamWorker& worker, std::size_t first, std::size_t count) {
-        worker.occluded(part_of(rays, first, count), occluded + first);
+std::size_t StreamTracer::occluded(const RayStream<Real>& rays, std::uint8_t* occluded) const {
+    return answer(rays.count, [&](StreamWorker& worker, std::size_t first, std::size_t count) {
+        return worker.occluded(part_of(rays, first, count), occluded + first);
     });
 }
 
 template <class Real>
-void StreamTracer::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
-                             CrossingRows& rows, CrossingCounters& counters) const {
+std::size_t StreamTracer::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
+                                    CrossingRows& rows, CrossingCounters& counters) const {
     if (wanted.most == 1 && tracing_.precision == core::Precision::exact)
         return answer_in_rows(
             workers_, rays.count, rows,
             [&](StreamWorker& worker, std::size_t first, std::size_t count, CrossingRows& some) {
-                worker.first_crossings(part_of(rays, first, count), wanted.normals, some);
+                return worker.first_crossings(part_of(rays, first, count), wanted.normals, some);
             });
     std::mutex mutex;
-    answer_in_rows(
+    return answer_in_rows(
         row_workers_, rays.count, rows,
         [&](RowWorker& worker, std::size_t first, std::size_t count, CrossingRows& some) {
             CrossingCounters counted;
-            worker.crossings(part_of(rays, first, count), wanted, some, counted);
+            const std::size_t refused =
+                worker.crossings(part_of(rays, first, count), wanted, some, counted);
             const std::lock_guard lock(mutex);
             counters += counted;
+            return refused;
         });
 }
 
 template <class Real>
-void StreamTracer::path_lengths(const RayStream<Real>& rays, LengthRows& rows) const {
-    answer_in_rows(row_workers_, rays.count, rows,
-                   [&](RowWorker& worker, std::size_t first, std::size_t count, LengthRows& some) {
-                       worker.path_lengths(part_of(rays, first, count), some);
-                   });
+std::size_t StreamTracer::path_lengths(const RayStream<Real>& rays, LengthRows& rows) const {
+    return answer_in_rows(
+        row_workers_, rays.count, rows,
+        [&](RowWorker& worker, std::size_t first, std::size_t count, LengthRows& some) {
+            return worker.path_lengths(part_of(rays, first, count), some);
+        });
 }
 
 template <class Real>
-void StreamTracer::containing(const PointStream<Real>& points, SolidRows& rows) const {
-    answer_in_rows(
+std::size_t StreamTracer::containing(const PointStream<Real>& points, SolidRows& rows) const {
+    return answer_in_rows(
         row_workers_, points.count, rows,
         [&](RowWorker& worker, std::size_t first, std::size_t count, SolidRows& some) {
-            worker.containing(
+            return worker.containing(
                 PointStream<Real>{
                     count, {points.at[0] + first, points.at[1] + first, points.at[2] + first}},
                 some);
@@ -135,12 +146,12 @@ void StreamTracer::containing(const PointStream<Real>& points, SolidRows& rows) 
 }
 
 #define RAYLANE_INSTANTIATE(Real)                                                                  \
-    template void StreamTracer::nearest(const RayStream<Real>&, const HitStream&) const;           \
-    template void StreamTracer::occluded(const RayStream<Real>&, std::uint8_t*) const;             \
-    template void StreamTracer::crossings(const RayStream<Real>&, const CrossingRequest&,          \
-                                          CrossingRows&, CrossingCounters&) const;                 \
-    template void StreamTracer::path_lengths(const RayStream<Real>&, LengthRows&) const;           \
-    template void StreamTracer::containing(const PointStream<Real>&, SolidRows&) const;
+    template std::size_t StreamTracer::nearest(const RayStream<Real>&, const HitStream&) const;    \
+    template std::size_t StreamTracer::occluded(const RayStream<Real>&, std::uint8_t*) const;      \
+    template std::size_t StreamTracer::crossings(const RayStream<Real>&, const CrossingRequest&,   \
+                                                 CrossingRows&, CrossingCounters&) const;          \
+    template std::size_t StreamTracer::path_lengths(const RayStream<Real>&, LengthRows&) const;    \
+    template std::size_t StreamTracer::containing(const PointStream<Real>&, SolidRows&) const;
 RAYLANE_INSTANTIATE(float)
 RAYLANE_INSTANTIATE(double)
 #undef RAYLANE_INSTANTIATE

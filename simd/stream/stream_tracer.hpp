@@ -23,10 +23,12 @@ struct CrossingRequest;
 /// Answers streams of rays in one scene, which must outlive it. Any number of threads may call it
 /// at a time. The answer to a ray depends on the scene and that ray alone.
 ///
-/// For rays in float, a crossing counts by its t as it is answered: the nearest float, but never 0
-/// or infinity. For rays in double, it counts by its exact t. Sides that the material's `visible`
-/// hides do not count. A ray hits nothing if a component is outside of RayStream's range, its
-/// direction is 0, or a limit is NaN.
+/// A crossing counts by its t as it is answered: the nearest float for rays in float, the nearest
+/// double for rays in double, but never 0 or infinity. Sides that the material's `visible` hides do
+/// not count. A ray is refused, and hits nothing, if a component is infinite or NaN, its direction
+/// is 0, or a limit is NaN. Queries return the number of refused rays, or of points with such
+/// coordinates. They throw InvalidStart if a ray cannot start on the shape that it names; the
+/// answers are then incomplete.
 class StreamTracer {
   public:
     /// `threads`: 0 is default_threads(). `isa`: must be available; default: the best.
@@ -37,28 +39,29 @@ class StreamTracer {
     /// Finds the nearest crossing of each ray. At the same t, entering precedes leaving, then the
     /// lower id precedes.
     template <class Real>
-    void nearest(const RayStream<Real>& rays, const HitStream& hits) const;
+    std::size_t nearest(const RayStream<Real>& rays, const HitStream& hits) const;
 
     /// Writes 1 where a ray has any crossing, otherwise 0.
     template <class Real>
-    void occluded(const RayStream<Real>& rays, std::uint8_t* occluded) const;
+    std::size_t occluded(const RayStream<Real>& rays, std::uint8_t* occluded) const;
 
     /// Finds all crossings of each ray in their order, or the first ones. Replaces `rows`.
-    /// Crossings count as above. Where triangles of one polygon meet at an edge, the one with the
-    /// lower id counts. This function and the following ones are exact with every precision.
+    /// Crossings count as above. The triangle with the lowest id counts where triangles of one
+    /// polygon meet at an edge. This function and the following ones are exact with every
+    /// precision.
     template <class Real>
-    void crossings(const RayStream<Real>& rays, const CrossingRequest& wanted, CrossingRows& rows,
-                   CrossingCounters& counters) const;
+    std::size_t crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
+                          CrossingRows& rows, CrossingCounters& counters) const;
 
     /// Computes how much of each ray, between its limits, is inside of each material's solids,
     /// taken together as one solid. Lengths are in the scene's unit, within an ulp. Sides that
     /// cannot be seen count.
     template <class Real>
-    void path_lengths(const RayStream<Real>& rays, LengthRows& rows) const;
+    std::size_t path_lengths(const RayStream<Real>& rays, LengthRows& rows) const;
 
     /// Finds the solids that contain each point.
     template <class Real>
-    void containing(const PointStream<Real>& points, SolidRows& rows) const;
+    std::size_t containing(const PointStream<Real>& points, SolidRows& rows) const;
 
   private:
     /// Split of a call among threads: `count` parts of `size` rays.
@@ -67,10 +70,10 @@ class StreamTracer {
     };
     Parts parts_of(std::size_t count) const;
     template <class Answer>
-    void answer(std::size_t count, const Answer& answer) const;
+    std::size_t answer(std::size_t count, const Answer& answer) const;
     template <class Worker, class AnyRows, class Answer>
-    void answer_in_rows(Pool<Worker>& workers, std::size_t count, AnyRows& rows,
-                        const Answer& answer) const;
+    std::size_t answer_in_rows(Pool<Worker>& workers, std::size_t count, AnyRows& rows,
+                               const Answer& answer) const;
 
     static constexpr std::size_t fewest = 1024; ///< rays that are worth a thread
 

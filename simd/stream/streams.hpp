@@ -1,10 +1,12 @@
 #pragma once
 
 #include "core/numbers/vector.hpp"
+#include "core/shapes/invalid_value.hpp"
 #include "core/shapes/ray.hpp"
 #include "core/shapes/shape.hpp"
 #include "simd/units/stream_kernels.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -15,6 +17,25 @@ namespace raylane::simd {
 template <class Value>
 Value* from(Value* values, std::size_t first) {
     return values != nullptr ? values + first : nullptr;
+}
+
+/// Reports a ray that cannot start on the shape that it names. `field` is an array of RayStream.
+struct InvalidStart : core::InvalidValue {
+    InvalidStart(const core::InvalidValue& invalid, const std::uint32_t* ray_)
+        : core::InvalidValue(invalid), ray(ray_) {}
+
+    const std::uint32_t* ray; ///< its element of RayStream::origin_shape
+};
+
+/// The limits of a ray, in the caller's units.
+struct Limits {
+    double t_min, t_max;
+};
+template <class Real>
+Limits limits_of(const RayStream<Real>& rays, std::size_t i) {
+    return {rays.t_min != nullptr ? static_cast<double>(std::max(Real(0), rays.t_min[i])) : 0.0,
+            rays.t_max != nullptr ? static_cast<double>(rays.t_max[i])
+                                  : std::numeric_limits<double>::infinity()};
 }
 
 /// Return `count` rays from `first` on, and their hits.

@@ -5,7 +5,9 @@
 #include "simd/query/as_core.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace raylane::simd {
 
@@ -14,13 +16,6 @@ namespace {
 /// Converts a normal to float, without -0.
 core::Vec3f in_float(const core::Vec3d& normal) {
     return core::convert<float>(normal) + core::Vec3f(0.0F);
-}
-
-UpperLimits limits_of(const RayStream<float>& rays) {
-    return {rays.t_max, false};
-}
-UpperLimits limits_of(const RayStream<double>& rays) {
-    return {nullptr, rays.t_max != nullptr};
 }
 
 } // namespace
@@ -70,12 +65,15 @@ void StreamWorker::in_good_order(const RayStream<Real>& rays, const AsTheyAre& a
 }
 
 template <class Real>
-void StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& hits) {
+std::size_t StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& hits) {
+    refused_ = 0;
+    intake_.answer_floats(std::is_same_v<Real, float> ||
+                          (hits.t != nullptr && hits.t_double == nullptr));
     if (few_.can_answer(rays) && hits.t_double == nullptr) {
         for (std::size_t i = 0; i < rays.count; ++i)
             if (!few_.nearest(rays, i, hits))
                 nearest_of(intake_.take(part_of(rays, i, 1), 0), part_of(hits, i));
-        return;
+        return refused_;
     }
     in_good_order(
         rays,
@@ -85,10 +83,13 @@ void StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& hits) {
         [&](std::size_t first, std::size_t count) {
             nearest_in_tiles(part_of(rays, first, count), part_of(hits, first));
         });
+    return refused_;
 }
 
 template <class Real>
-void StreamWorker::occluded(const RayStream<Real>& rays, std::uint8_t* occluded) {
+std::size_t StreamWorker::occluded(const RayStream<Real>& rays, std::uint8_t* occluded) {
+    refused_ = 0;
+    intake_.answer_floats(std::is_same_v<Real, float>);
     if (few_.can_answer(rays)) {
         for (std::size_t i = 0; i < rays.count; ++i) {
             const std::optional<bool> is = few_.occluded(rays, i);
@@ -97,7 +98,7 @@ void StreamWorker::occluded(const RayStream<Real>& rays, std::uint8_t* occluded)
             else
                 occluded_of(intake_.take(part_of(rays, i, 1), 0), occluded + i);
         }
-        return;
+        return refused_;
     }
     in_good_order(
         rays,
@@ -107,6 +108,7 @@ void StreamWorker::occluded(const RayStream<Real>& rays, std::uint8_t* occluded)
         [&](std::size_t first, std::size_t count) {
             occluded_in_tiles(part_of(rays, first, count), occluded + first);
         });
+    return refused_;
 }
 
 /// Returns true if it is worthwhile to look for the tiles' order of the rays taken last and those
@@ -152,11 +154,19 @@ void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits
                    is_exact() && rays.t_max != nullptr ? intake_.taken().t_limit : nullptr);
     mark_unanswered(rays, hits.wants_normals());
     LeftOver left{doubtful_, unsharp_, 0, 0};
-    kernels().hand_over(scene_.view(), limits_of(rays), intake_.taken(),
+    UpperLimits limits{nullptr, rays.t_max != nullptr};
+    if constexpr (std::is_same_v<Real, float>)
+        limits = {rays.t_max, false};
+    else if (rays.t_max != nullptr && intake_.answers_floats())
+        limits = {intake_.float_t_max(), false};
+    kernels().hand_over(scene_.view(), limits, intake_.taken(),
                         query_.hits().found(intake_.paths(), 0, rays.count), hits, left);
     if (hits.touching != nullptr) find_touching(rays, hits.touching);
     sharpen({unsharp_, left.unsharp_count}, hits);
     answer(rays, {doubtful_, left.doubtful_count}, hits);
+    for (const std::uint32_t lane : intake_.lanes_apart())
+        search(intake_.lone(rays, lane, lane), hits, lane);
+    refused_ += intake_.refused();
 }
 
 /// Crossings of some lanes in extended precision.
@@ -210,17 +220,12 @@ StreamWorker::Widened StreamWorker::widen(std::span<const std::uint32_t> lanes,
 /// Returns a crossing's t for the caller.
 double StreamWorker::double_t_of(const Widened& widened, std::size_t k) const {
     const std::uint32_t lane = widened.lanes[k];
-    if (core::rounds_surely(widened.t(k), widened.error[k]))
-        return in_double(lane, widened.high[k]);
+    const double unit = intake_.taken().unit[lane], nearest = widened.high[k] * unit;
+    if (core::rounds_surely(widened.t(k), widened.error[k]) && std::isnormal(nearest))
+        return nearest;
     const core::LeavingRay from{ray_of(intake_.paths(), lane),
                                 origin_surfaces_of(scene_, intake_.paths(), lane)};
-    return in_double(lane, core::nearest_double_t(scene_.scene(), from, hit_at(lane)));
-}
-
-/// Converts a lane's t to the caller's.
-double StreamWorker::in_double(std::size_t lane, double t) const {
-    return std::clamp(t * intake_.taken().unit[lane], std::numeric_limits<double>::denorm_min(),
-                      std::numeric_limits<double>::max());
+    return core::nearest_double_t(scene_.scene(), from, hit_at(lane), std::ilogb(unit));
 }
 
 /// Marks hits as doubtful that are not answers, or not the first: invisible sides, and hits of
@@ -234,11 +239,13 @@ void StreamWorker::mark_unanswered(const RayStream<Real>& rays, bool with_normal
     for (const std::uint32_t lane : query_.at_contacts())
         mark(lane);
     if (rays.t_min == nullptr) return;
-    for (std::size_t lane = 0; lane < rays.count; ++lane)
-        if (intake_.is_ray(lane) && found.slot[lane] != no_slot &&
-            static_cast<double>(t_at(lane, intake_.lone(rays, lane, lane))) <=
-                static_cast<double>(rays.t_min[lane]))
-            mark(lane);
+    for (std::size_t lane = 0; lane < rays.count; ++lane) {
+        if (!intake_.is_ray(lane) || found.slot[lane] == no_slot) continue;
+        const LoneRay ray = intake_.lone(rays, lane, lane);
+        const double t =
+            ray.by_floats ? static_cast<double>(t_at(lane, ray)) : ray.as_answered(hit_at(lane).t);
+        if (t <= ray.t_min) mark(lane);
+    }
 }
 
 /// Replaces hits that are not visible surfaces by the first ones that are. Marks those as doubtful
@@ -282,7 +289,10 @@ void StreamWorker::answer(const LoneRay& ray, const Widened& widened, std::size_
     const std::uint32_t lane = widened.lanes[k];
     const core::Scene& scene = scene_.scene();
     core::Hit<double> hit = hit_at(lane);
-    if (is_exact()) hit = core::SharpHit(hit, widened.t(k), widened.error[k]).sharpened();
+    if (is_exact())
+        hit = core::SharpHit(hit, widened.t(k), widened.error[k]).sharpened();
+    else
+        hit.error = 0.0;
     const float t = is_exact() ? ray.t_of(scene, hit) : t_at(lane, ray);
     const bool counts =
         ray.by_floats ? static_cast<double>(t) <= ray.t_max : ray.is_before_t_max(scene, hit);
@@ -340,7 +350,8 @@ void StreamWorker::search(const LoneRay& ray, const HitStream& hits, std::size_t
 template <class Real>
 void StreamWorker::find_touching(const RayStream<Real>& rays, std::uint8_t* touching) {
     for (std::size_t lane = 0; lane < rays.count; ++lane)
-        touching[lane] = query_.was_refined(lane) && query_.hits().slot[lane] != no_slot &&
+        touching[lane] = intake_.is_ray(lane) && query_.was_refined(lane) &&
+                                 query_.hits().slot[lane] != no_slot &&
                                  touches(intake_.lone(rays, lane, lane), hit_at(lane))
                              ? 1
                              : 0;
@@ -379,11 +390,13 @@ HitStream StreamWorker::Columns::take(std::size_t count, bool normals) {
 }
 
 template <class Real>
-void StreamWorker::first_crossings(const RayStream<Real>& rays, bool normals, CrossingRows& rows) {
+std::size_t StreamWorker::first_crossings(const RayStream<Real>& rays, bool normals,
+                                          CrossingRows& rows) {
+    std::size_t refused = 0;
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
         count = std::min(rays.count - first, TileOrder::most);
         const HitStream hits = columns_.take(count, normals);
-        nearest(part_of(rays, first, count), hits);
+        refused += nearest(part_of(rays, first, count), hits);
         for (std::size_t i = 0; i < count; ++i) {
             if (hits.shape[i] != core::no_shape) {
                 rows.t.push_back(hits.t_double[i]);
@@ -398,6 +411,7 @@ void StreamWorker::first_crossings(const RayStream<Real>& rays, bool normals, Cr
             rows.first.push_back(rows.t.size());
         }
     }
+    return refused;
 }
 
 template <class Real>
@@ -420,14 +434,16 @@ void StreamWorker::occluded_of(const RayStream<Real>& rays, std::uint8_t* occlud
         for (std::size_t lane = 0; lane < rays.count; ++lane)
             if (rays.t_min[lane] > Real(0) && state_[lane] == blocked && intake_.is_ray(lane))
                 state_[lane] = doubtful;
+    refused_ += intake_.refused();
     std::size_t left = 0;
     for (std::size_t lane = 0; lane < rays.count; ++lane) {
         occluded[lane] = state_[lane] == blocked && intake_.is_ray(lane) ? 1 : 0;
         doubtful_[left] = static_cast<std::uint32_t>(lane);
-        left += state_[lane] == doubtful ? 1 : 0;
+        left += state_[lane] == doubtful && intake_.is_ray(lane) ? 1 : 0;
     }
-    if (left == 0) return;
-    if (is_exact())
+    for (const std::uint32_t lane : intake_.lanes_apart())
+        occluded[lane] = is_occluded(intake_.lone(rays, lane, lane));
+    if (is_exact() && left != 0)
         settle(rays, left, occluded);
     else
         for (std::size_t k = 0; k < left; ++k)
@@ -493,11 +509,11 @@ core::Hit<double> StreamWorker::hit_at(std::size_t lane) const {
     return hit_of(scene_, intake_.paths(), query_.hits(), lane);
 }
 
-template void StreamWorker::nearest(const RayStream<float>&, const HitStream&);
-template void StreamWorker::nearest(const RayStream<double>&, const HitStream&);
-template void StreamWorker::occluded(const RayStream<float>&, std::uint8_t*);
-template void StreamWorker::occluded(const RayStream<double>&, std::uint8_t*);
-template void StreamWorker::first_crossings(const RayStream<float>&, bool, CrossingRows&);
-template void StreamWorker::first_crossings(const RayStream<double>&, bool, CrossingRows&);
+template std::size_t StreamWorker::nearest(const RayStream<float>&, const HitStream&);
+template std::size_t StreamWorker::nearest(const RayStream<double>&, const HitStream&);
+template std::size_t StreamWorker::occluded(const RayStream<float>&, std::uint8_t*);
+template std::size_t StreamWorker::occluded(const RayStream<double>&, std::uint8_t*);
+template std::size_t StreamWorker::first_crossings(const RayStream<float>&, bool, CrossingRows&);
+template std::size_t StreamWorker::first_crossings(const RayStream<double>&, bool, CrossingRows&);
 
 } // namespace raylane::simd

@@ -18,13 +18,14 @@ class StreamWorker {
   public:
     StreamWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes);
 
+    /// Each of these returns the number of refused rays: see StreamIntake::refused.
     template <class Real>
-    void nearest(const RayStream<Real>& rays, const HitStream& hits);
+    std::size_t nearest(const RayStream<Real>& rays, const HitStream& hits);
     template <class Real>
-    void occluded(const RayStream<Real>& rays, std::uint8_t* occluded);
+    std::size_t occluded(const RayStream<Real>& rays, std::uint8_t* occluded);
     /// Appends the first crossing of each ray to the rows. Requires Precision::exact.
     template <class Real>
-    void first_crossings(const RayStream<Real>& rays, bool normals, CrossingRows& rows);
+    std::size_t first_crossings(const RayStream<Real>& rays, bool normals, CrossingRows& rows);
 
   private:
     bool is_exact() const { return tracing_.precision == core::Precision::exact; }
@@ -65,7 +66,6 @@ class StreamWorker {
     bool is_seen(std::size_t lane);
     bool is_before_t_max(std::size_t lane, const LoneRay& ray) const;
     float t_at(std::size_t lane, const LoneRay& ray) const;
-    double in_double(std::size_t lane, double t) const;
     Widened widen(std::span<const std::uint32_t> lanes, bool with_normals) const;
     double double_t_of(const Widened& widened, std::size_t k) const;
     core::Vec3f normal_of(const LoneRay& ray, const core::Hit<double>& hit, const Widened& widened,
@@ -92,6 +92,7 @@ class StreamWorker {
         std::vector<float> normal[3];
         HitStream take(std::size_t count, bool normals);
     } columns_;
+    std::size_t refused_ = 0;
     Arena arena_;
 };
 

@@ -13,10 +13,9 @@ struct Coherence;
 struct Found;
 
 /// `count` rays, structure of arrays: the points origin + t direction with t_min < t <= t_max.
-/// Component a of ray i is origin[a][i]. Directions may have any length but zero. Doubles are 0 or
-/// of magnitude 2^-149 to 2^128, like floats. However, components of a direction may be as small as
-/// 2^-276 of its largest. Values beyond `count` must not be read. Float limits are compared with
-/// the float nearest to t, double limits with the exact t.
+/// Component a of ray i is origin[a][i]. Directions may have any length but zero. Values beyond
+/// `count` must not be read. Limits are compared with the number of their type that is nearest to
+/// t.
 template <class Real>
 struct RayStream {
     std::size_t count = 0;
@@ -26,8 +25,8 @@ struct RayStream {
     const Real* t_max = nullptr; ///< null: infinity
     /// Ids of shapes that rays leave, or no_shape. Such a ray starts exactly on that surface, on
     /// the face that HitStream::face reported. It goes to the inside (the back) if origin_inward is
-    /// 1, otherwise to the outside. Null: no ray leaves a shape; the face is the body; all go to
-    /// the outside.
+    /// 1, otherwise to the outside. Null: no ray leaves a shape; the face is the body; the
+    /// direction decides.
     const std::uint32_t* origin_shape = nullptr;
     const std::uint8_t* origin_face = nullptr;
     const std::uint8_t* origin_inward = nullptr;
@@ -35,8 +34,10 @@ struct RayStream {
 
 /// Rays in the kernels' format, structure of arrays of whole packets of 16. The exact directions
 /// (`exact_direction`) are the caller's, scaled to about length 1 by a power of two. Scaling is
-/// exact and prevents overflow and underflow of products in the solvers. A ray that is invalid, or
-/// has no interval between its limits, has t_limit < 0; its other numbers are meaningless.
+/// exact and prevents overflow and underflow of products in the solvers. These are proven for
+/// coordinates that are 0 or of magnitude 2^-149 to 2^128, like floats, and for components of
+/// directions down to 2^-276 of the largest. A ray with other doubles, an invalid one, and one that
+/// has no interval between its limits has t_limit < 0; its other numbers are meaningless.
 struct StreamRays {
     double* origin[3];
     double* direction[3]; ///< unit
@@ -46,7 +47,8 @@ struct StreamRays {
     double*
         per_unit; ///< the same per t of the unit direction, with a relative error of at most 2^-51
     /// Lower limit in t of the exact ray. Crossings before it do not count. Crossings at it count
-    /// only with stream_tie_counts. 0: all crossings with t > 0 count.
+    /// only with stream_tie_counts. With stream_half_ulp, the limit is half an ulp more than this
+    /// double. 0: all crossings with t > 0 count.
     double* t_after;
     double* start;   ///< t_after times the direction's length: where the ray begins to count
     double* t_limit; ///< the upper limit, likewise times the length; no crossing behind it counts
@@ -54,6 +56,8 @@ struct StreamRays {
 };
 /// Bit of StreamRays::bits: a crossing at t_after counts.
 inline constexpr std::uint32_t stream_tie_counts = 0x20000;
+/// The limit is half way from t_after to the next double.
+inline constexpr std::uint32_t stream_half_ulp = 0x40000;
 
 /// Hits of rays, by ray. Null: not requested.
 struct HitStream {
@@ -71,10 +75,10 @@ struct HitStream {
 };
 
 /// Upper limits of hits. `t_max`, if not null: the caller's floats, compared with the float nearest
-/// to t. Otherwise, if `truly`: StreamRays::t_limit.
+/// to t. Otherwise, if `are_doubles`: StreamRays::t_limit, and half an ulp more.
 struct UpperLimits {
     const float* t_max;
-    bool truly;
+    bool are_doubles;
 };
 
 /// Lanes that need more work, as kernels list them.

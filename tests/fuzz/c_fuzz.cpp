@@ -252,8 +252,8 @@ void ask(const raylane_tracer* tracer, Bytes& bytes, const Intersect& intersect,
     }
     rays.t_min = reals.make(true, number);
     rays.t_max = reals.make(true, number);
-    rays.origin_shape =
-        ids.make(true, [&] { return static_cast<std::uint32_t>(bytes.byte() - 2); });
+    // Ids without a shape: rays that cannot start on their shape would be errors.
+    rays.origin_shape = ids.make(true, [&] { return ~static_cast<std::uint32_t>(bytes.byte()); });
     rays.origin_face = flags.make(true, [&] { return static_cast<std::uint8_t>(bytes.byte()); });
     rays.origin_inward = flags.make(true, [&] { return static_cast<std::uint8_t>(bytes.byte()); });
     Arrays<float> floats(count, bytes);

@@ -106,6 +106,20 @@ bool is_a_ray(const Rays& rays, std::size_t i) {
     return ray.direction != Vec3d(0.0);
 }
 
+/// Lets the rays start on no shape that cannot start on the one that they name.
+void drop_invalid_starts(const Tracer& tracer, Asked& asked) {
+    for (bool again = true; again;) {
+        again = false;
+        try {
+            Hits hits(asked.rays.size());
+            tracer.intersect(asked.part(0, asked.rays.size()), hits.span());
+        } catch (const InvalidRay& invalid) {
+            asked.shape[invalid.ray] = no_shape;
+            again = true;
+        }
+    }
+}
+
 void check_by_oracle(const std::vector<tests::AnyShape>& shapes, const Asked& asked,
                      const Hits& hits) {
     const oracle::Neighbours neighbours(shapes);
@@ -136,9 +150,10 @@ void ask_spans(Bytes& bytes) {
     const Precision precision = precisions[bytes.below(6)];
     const tests::Sides sides = sides_of(bytes);
     const std::vector<tests::AnyShape> shapes = shapes_of<tests::AnyShape>(bytes);
-    const Asked asked = any_rays(bytes, shapes);
+    Asked asked = any_rays(bytes, shapes);
     const std::size_t count = asked.rays.size();
     const Tracer tracer(tests::scene_of(shapes, sides), {.threads = 1, .precision = precision});
+    drop_invalid_starts(tracer, asked);
     Hits hits(count);
     std::vector<std::uint8_t> face(count, 77), blocked(count, 77);
     std::vector<double> t_double(count, -1.0);

@@ -1,5 +1,7 @@
 #include "tests/oracle/root.hpp"
 
+#include <cmath>
+
 namespace raylane::oracle {
 
 int sign_at(const Root& t, const Exact& a, const Exact& b, const Exact& c) {
@@ -58,13 +60,14 @@ double rounded_to_double(const Root& root, const Number& digits) {
     double low = std::nextafter(static_cast<double>(digits), 0.0);
     for (int steps = 0; steps < 3; ++steps) {
         const double next = std::nextafter(low, std::numeric_limits<double>::infinity());
+        if (std::isinf(next)) break;
         int side = compare_digits(digits, (Number(low) + Number(next)) / 2);
         if (side == 0) side = sign_at(root, -(Exact(low) + Exact(next)), Exact(2));
         const bool low_is_even = (__builtin_bit_cast(std::uint64_t, low) & 1) == 0;
         if (side < 0 || (side == 0 && low_is_even)) break;
         low = next;
     }
-    return low;
+    return low == 0.0 ? std::numeric_limits<double>::denorm_min() : low;
 }
 
 } // namespace raylane::oracle

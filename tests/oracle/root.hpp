@@ -70,7 +70,7 @@ float nearest_float(const Number& digits, const Compare& compare) {
 float rounded(const Root& root, const Number& digits);
 float rounded(const Root& root);
 
-/// Returns the double nearest to a positive root, ties to even.
+/// Returns the double nearest to a positive root, ties to even, but never 0 or infinity.
 double rounded_to_double(const Root& root, const Number& digits);
 
 } // namespace raylane::oracle

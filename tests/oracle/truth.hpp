@@ -4,6 +4,7 @@
 #include "tests/support/any_shape.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -25,8 +26,11 @@ class Neighbours {
         const Ball& ball = balls_[shape];
         const Vec3d from = ray.origin - ball.center;
         const double reach = ball.radius + 0x1p-40 * core::length(from);
-        return core::length(core::cross(from, ray.direction)) <=
-               reach * core::length(ray.direction) * (1.0 + 0x1p-20);
+        // Scaled, so that no product underflows. Those that overflow are certain of nothing.
+        const Vec3d d =
+            ray.direction / std::max({std::abs(ray.direction.x), std::abs(ray.direction.y),
+                                      std::abs(ray.direction.z)});
+        return !(core::length(core::cross(from, d)) > reach * core::length(d) * (1.0 + 0x1p-20));
     }
 
   private:
@@ -38,9 +42,11 @@ struct Found {
     Hit hit;
     core::ShapeId shape;
     float t; ///< t as the library returns it
+    double t_double;
 
     Found(const Hit& crossing, core::ShapeId with)
-        : hit(crossing), shape(with), t(rounded(hit.root, hit.t)) {}
+        : hit(crossing), shape(with), t(rounded(hit.root, hit.t)),
+          t_double(rounded_to_double(hit.root, hit.t)) {}
 
     /// Orders by t. At the same t, entering comes before leaving, then the lower shape id.
     bool is_before(const Found& other) const {

@@ -368,7 +368,7 @@ def test_scenes_too_large_for_a_camera():
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             scene = builder.build()
-        assert Tracer(scene).intersect([0, 0, 0], [0, 0, 1]).t[0] == np.float32(radius)
+        assert Tracer(scene).intersect([0, 0, 0], [0, 0, 1]).t[0] == radius
         if radius < 2.5e29:
             assert not caught and scene.camera == scene.camera_on_all()
             continue

@@ -2,8 +2,10 @@
 
 import copy
 import pickle
+import re
 import sys
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -314,6 +316,119 @@ def test_the_interpreter_goes_on_meanwhile(crowd):
     for thread in threads:
         thread.join()
     assert len(found) == 3 and all(np.array_equal(t, expected) for t in found)
+
+
+def test_finite_doubles_of_any_size_are_traced():
+    builder = raylane.SceneBuilder()
+    builder.add_spheres([[0, 0, 0]], 1.0, material=builder.add_material())
+    tracer = Tracer(builder.build())
+    for k in range(107, 1070, 107):
+        tiny = 2.0**-k * 0.7
+        for o, d in (([[tiny, 0, 5]], [0, 0, -1]), ([[0, 0, 5]], [tiny, 0, -7.0]), ([[0, 0, 5]], [0, 0, -tiny])):
+            hits = tracer.intersect(o, np.array(d, float), t_max=np.float64(np.inf))
+            assert hits.hit[0] and tracer.occluded(o, d)[0], (k, o, d)
+            rows = tracer.crossings(o, np.array(d, float))
+            assert rows.shape.tolist() == [0, 0] and rows.t[0] == hits.t[0]
+            assert hits.t[0] == pytest.approx(4 / np.abs(d).max())
+            assert tracer.path_lengths(o, np.array(d, float)).total()[0] == pytest.approx(2, rel=1e-15)
+    # Which side of x = 0 decides whether a line meets the ball that x = 0 touches.
+    builder = raylane.SceneBuilder()
+    builder.add_spheres([[1, 0, 0]], 1.0, material=builder.add_material())
+    touched = Tracer(builder.build())
+    x = np.array([-5e-324, -1e-200, 0.0, 5e-324, 1e-200])
+    origins = np.stack([x, 0 * x, 0 * x + 5], 1)
+    assert touched.crossings(origins, [0, 0, -1]).counts().tolist() == [0, 0, 2, 2, 2]
+    assert touched.occluded(origins, [0, 0, -1]).tolist() == [False, False, True, True, True]
+
+
+def test_refused_rays_are_counted(ball):
+    tracer = Tracer(ball)
+    o = np.array([[0, 0, 5], [0, np.nan, 5], [0, 0, 5], [0, 0, 5]], float)
+    d = np.array([[0, 0, -1], [0, 0, -1], [0, 0, 0], [0, 0, np.inf]], float)
+    for call in (tracer.intersect, tracer.occluded, tracer.crossings, tracer.path_lengths):
+        for dtype in (np.float32, np.float64):
+            with pytest.warns(RuntimeWarning, match="^3 rays are refused") as warned:
+                call(o.astype(dtype), d.astype(dtype))
+            assert len(warned) == 1 and warned[0].filename == __file__
+        with pytest.warns(RuntimeWarning, match="^4 rays"):
+            call(o, d, t_min=np.nan)
+    with pytest.warns(RuntimeWarning, match="^1 points are refused"):
+        tracer.contains(o)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tracer.intersect(o[:1], d[:1], t_min=2.0, t_max=1.0)  # an interval without t is no fault
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_limits_compare_t_as_it_is_returned(crowd, dtype):
+    tracer = Tracer(crowd, 1)
+    o, d = rays(3000, dtype, 7)
+    hits = tracer.intersect(o, d, double=True)
+    assert hits.t.dtype == dtype and hits.t_double.dtype == np.float64
+    o, d, t = o[hits.hit], d[hits.hit], hits.t[hits.hit]
+    assert len(t) > 500
+    limits = [t, t.astype(np.float64)] + ([hits.t_double[hits.hit]] if dtype == np.float64 else [])
+    for limit in limits:
+        behind = tracer.intersect(o, d, t_min=limit)
+        assert (behind.t > t).all()
+        assert np.array_equal(tracer.intersect(o, d, t_max=limit).t, t)
+        assert tracer.occluded(o, d, t_max=limit).all()
+        assert not tracer.occluded(o, d, t_max=np.nextafter(t, dtype(0))).any()
+    # Step by step, each crossing is found once.
+    rows = tracer.crossings(o[:100].astype(np.float64), d[:100].astype(np.float64))
+    after, found = np.zeros(100), [[] for _ in range(100)]
+    while True:
+        step = tracer.intersect(o[:100].astype(np.float64), d[:100].astype(np.float64), t_min=after)
+        if not step.hit.any():
+            break
+        for i in np.flatnonzero(step.hit):
+            found[i].append(step.t[i])
+        after = np.where(step.hit, step.t, np.inf)
+    for i in range(100):
+        assert found[i] == list(dict.fromkeys(rows.t[rows.first[i] : rows.first[i + 1]]))
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_rays_go_on_from_hits(crowd, dtype):
+    tracer = Tracer(crowd)
+    o, d = rays(2000, dtype, 3)
+    hits = tracer.intersect(o, d)
+    away = rays(2000, dtype, 4)[1]
+    points, leaving = hits.onward(away)
+    assert points.dtype == dtype and points.shape == (2000, 3)
+    assert np.isnan(points[~hits.hit]).all() and np.isfinite(points[hits.hit]).all()
+    with pytest.warns(RuntimeWarning, match=f"^{(~hits.hit).sum()} rays"):
+        after = tracer.intersect(points, away, leaving=leaving)
+    here = hits.hit
+    side = np.einsum("ij,ij->i", hits.normal, away) < 0
+    assert np.array_equal(leaving.inward, side)
+    # Without a side, the direction decides; where it is nearly a tangent, both may differ.
+    steep = here & (np.abs(np.einsum("ij,ij->i", hits.normal, away)) > 1e-3 * np.linalg.norm(away, axis=1))
+    given = tracer.intersect(points[steep], away[steep], leaving=Leaving(hits.shape[steep], hits.face[steep]))
+    assert np.array_equal(given.t, after.t[steep]) and np.array_equal(given.shape, after.shape[steep])
+    with pytest.raises(ValueError):
+        Hits(3).onward([0, 0, 1])
+
+
+def test_a_ray_must_start_on_the_shape_that_it_leaves(ball):
+    tracer = Tracer(ball)
+    on, into = np.array([[0, 0, 9.0], [0, 0, 1.0]]), [0, 0, -1]
+    shapes = [NO_SHAPE, 0]
+    for call in (tracer.intersect, tracer.occluded, tracer.crossings):
+        for leaving, field in (
+            (Leaving(shapes, 0, 0), "leaving.inward/1: must be 1"),
+            (Leaving(shapes, 77, 1), "leaving.face/1: must be less than"),
+            (Leaving(0, 0, 1), "leaving.shape/0: must be a shape that the origin is on"),
+        ):
+            for order in (np.asarray, np.asfortranarray):
+                with pytest.raises(InvalidValue, match=re.escape(field)):
+                    call(order(on), into, leaving=leaving)
+        call(on, into, leaving=Leaving(shapes, 0, 1))
+    # The number is that among all rays, also if they are copied in parts.
+    many = np.zeros((20000, 3)) + [0, 0, 1.0]
+    many[17000] = [0, 0, 50]
+    with pytest.raises(InvalidValue, match="leaving.shape/17000:"):
+        tracer.intersect(many, into, leaving=Leaving(0, 0))
 
 
 def test_equal_shapes_stay_apart_if_asked_to():

@@ -23,6 +23,11 @@ BasicRaySpan<Real> rays_from(const CRays* from) {
             span_of(rays.origin_inward, n)};
 }
 
+template <class CRays>
+void store(const QueryStatistics& statistics, const CRays* rays) {
+    if (rays->refused != nullptr) *rays->refused = statistics.refused;
+}
+
 template <class Real, class CRays>
 raylane_status intersect(const raylane_tracer* tracer, const CRays* rays,
                          const raylane_hits* hits) noexcept {
@@ -30,11 +35,15 @@ raylane_status intersect(const raylane_tracer* tracer, const CRays* rays,
         const BasicRaySpan<Real> asked = rays_from<Real>(rays);
         const raylane_hits& to = checked("hits", hits);
         const std::size_t n = rays->count;
+        QueryStatistics statistics;
         checked("tracer", tracer)
-            .tracer.intersect(asked, HitSpan{span_of(to.t, n), span_of(to.normal_x, n),
-                                             span_of(to.normal_y, n), span_of(to.normal_z, n),
-                                             span_of(to.shape, n), span_of(to.entering, n),
-                                             span_of(to.face, n), span_of(to.t_double, n)});
+            .tracer.intersect(asked,
+                              HitSpan{span_of(to.t, n), span_of(to.normal_x, n),
+                                      span_of(to.normal_y, n), span_of(to.normal_z, n),
+                                      span_of(to.shape, n), span_of(to.entering, n),
+                                      span_of(to.face, n), span_of(to.t_double, n)},
+                              &statistics);
+        store(statistics, rays);
     });
 }
 
@@ -43,7 +52,10 @@ raylane_status occluded(const raylane_tracer* tracer, const CRays* rays,
                         std::uint8_t* result) noexcept {
     return guarded([&] {
         const BasicRaySpan<Real> asked = rays_from<Real>(rays);
-        checked("tracer", tracer).tracer.occluded(asked, span_of("occluded", result, rays->count));
+        QueryStatistics statistics;
+        checked("tracer", tracer)
+            .tracer.occluded(asked, span_of("occluded", result, rays->count), &statistics);
+        store(statistics, rays);
     });
 }
 

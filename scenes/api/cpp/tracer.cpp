@@ -6,6 +6,7 @@
 #include "simd/stream/stream_tracer.hpp"
 #include "simd/threads/threads.hpp"
 
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -57,19 +58,36 @@ simd::HitStream stream_of(const HitSpan& hits, std::size_t count) {
             optional("t_double", hits.t_double, count)};
 }
 
+/// Calls query() for a stream of rays, and names the ray whose start is invalid.
+template <class Real, class Query>
+std::size_t answered(const simd::RayStream<Real>& stream, const Query& query) {
+    try {
+        return query();
+    } catch (const simd::InvalidStart& invalid) {
+        throw InvalidRay(invalid.field, static_cast<std::size_t>(invalid.ray - stream.origin_shape),
+                         invalid.expectation);
+    }
+}
+
+/// Stores the number of refused rays or points.
+void store(std::size_t refused, QueryStatistics* statistics) {
+    if (statistics != nullptr) *statistics = {refused};
+}
+
 template <class Real>
 void find_nearest(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& rays,
-                  const HitSpan& hits) {
+                  const HitSpan& hits, QueryStatistics* statistics) {
     const simd::RayStream<Real> stream = stream_of(rays);
-    tracer.nearest(stream, stream_of(hits, stream.count));
+    const simd::HitStream to = stream_of(hits, stream.count);
+    store(answered(stream, [&] { return tracer.nearest(stream, to); }), statistics);
 }
 
 template <class Real>
 void find_occluded(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& rays,
-                   std::span<std::uint8_t> occluded) {
+                   std::span<std::uint8_t> occluded, QueryStatistics* statistics) {
     const simd::RayStream<Real> stream = stream_of(rays);
     require_length("occluded", occluded.size(), stream.count);
-    tracer.occluded(stream, occluded.data());
+    store(answered(stream, [&] { return tracer.occluded(stream, occluded.data()); }), statistics);
 }
 
 template <class Real>
@@ -78,37 +96,102 @@ void find_crossings(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& 
                     CrossingStatistics* statistics) {
     simd::CrossingRows found;
     simd::CrossingCounters counters;
-    tracer.crossings(stream_of(rays), {options.most, options.normals}, found, counters);
+    const simd::RayStream<Real> stream = stream_of(rays);
+    const std::size_t refused = answered(stream, [&] {
+        return tracer.crossings(stream, {options.most, options.normals}, found, counters);
+    });
     rows = {std::move(found.first),    std::move(found.t),         std::move(found.shape),
             std::move(found.entering), std::move(found.face),      std::move(found.tied),
             std::move(found.touching), std::move(found.normal[0]), std::move(found.normal[1]),
             std::move(found.normal[2])};
     if (statistics != nullptr)
         *statistics = {counters.order.by_bounds, counters.order.by_digits, counters.order.exactly,
-                       counters.widened};
+                       counters.widened, refused};
 }
 
 template <class Real>
 void find_solids(const simd::StreamTracer& tracer, const BasicPointSpan<Real>& points,
-                 SolidRows& rows) {
+                 SolidRows& rows, QueryStatistics* statistics) {
     const std::size_t count = points.x.size();
     require_length("y", points.y.size(), count, "points");
     require_length("z", points.z.size(), count, "points");
     simd::SolidRows found;
-    tracer.containing(
-        simd::PointStream<Real>{count, {points.x.data(), points.y.data(), points.z.data()}}, found);
+    const simd::PointStream<Real> stream{count,
+                                         {points.x.data(), points.y.data(), points.z.data()}};
+    store(tracer.containing(stream, found), statistics);
     rows = {std::move(found.first), std::move(found.shape), std::move(found.on_surface)};
 }
 
 template <class Real>
 void find_lengths(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& rays,
-                  LengthRows& rows) {
+                  LengthRows& rows, QueryStatistics* statistics) {
     simd::LengthRows found;
-    tracer.path_lengths(stream_of(rays), found);
+    const simd::RayStream<Real> stream = stream_of(rays);
+    store(answered(stream, [&] { return tracer.path_lengths(stream, found); }), statistics);
     rows = {std::move(found.first), std::move(found.material), std::move(found.length)};
 }
 
+template <class Real>
+OnwardRays<Real> rays_onward(const BasicRaySpan<Real>& rays, const HitSpan& hits,
+                             const std::span<const Real> (&directions)[3]) {
+    const simd::RayStream<Real> from = stream_of(rays);
+    const std::size_t count = from.count;
+    const char* const names[] = {"direction_x", "direction_y", "direction_z"};
+    const std::span<float> normal[] = {hits.normal_x, hits.normal_y, hits.normal_z};
+    const char* const normals[] = {"normal_x", "normal_y", "normal_z"};
+    for (int axis = 0; axis < 3; ++axis) {
+        require_length(names[axis], directions[axis].size(), count);
+        require_length(normals[axis], normal[axis].size(), count);
+    }
+    if (hits.t_double.empty())
+        require_length("t", hits.t.size(), count);
+    else
+        require_length("t_double", hits.t_double.size(), count);
+    require_length("shape", hits.shape.size(), count);
+    require_length("face", hits.face.size(), count);
+
+    OnwardRays<Real> onward;
+    onward.shape.assign(hits.shape.begin(), hits.shape.end());
+    onward.face.assign(hits.face.begin(), hits.face.end());
+    onward.inward.resize(count);
+    std::vector<Real>* const origins[] = {&onward.origin_x, &onward.origin_y, &onward.origin_z};
+    for (int axis = 0; axis < 3; ++axis) {
+        origins[axis]->resize(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double t =
+                hits.t_double.empty() ? static_cast<double>(hits.t[i]) : hits.t_double[i];
+            const double at = static_cast<double>(from.origin[axis][i]) +
+                              t * static_cast<double>(from.direction[axis][i]);
+            (*origins[axis])[i] = hits.shape[i] == no_shape ? std::numeric_limits<Real>::quiet_NaN()
+                                                            : static_cast<Real>(at);
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        double along = 0.0;
+        for (int axis = 0; axis < 3; ++axis)
+            along +=
+                static_cast<double>(normal[axis][i]) * static_cast<double>(directions[axis][i]);
+        onward.inward[i] = along < 0.0 ? 1 : 0;
+    }
+    onward.direction_x = directions[0];
+    onward.direction_y = directions[1];
+    onward.direction_z = directions[2];
+    return onward;
+}
+
 } // namespace
+
+OnwardRays<float> onward(const RaySpan& rays, const HitSpan& hits,
+                         std::span<const float> direction_x, std::span<const float> direction_y,
+                         std::span<const float> direction_z) {
+    return rays_onward<float>(rays, hits, {direction_x, direction_y, direction_z});
+}
+
+OnwardRays<double> onward(const DoubleRaySpan& rays, const HitSpan& hits,
+                          std::span<const double> direction_x, std::span<const double> direction_y,
+                          std::span<const double> direction_z) {
+    return rays_onward<double>(rays, hits, {direction_x, direction_y, direction_z});
+}
 
 void library::require_threads(int threads) {
     if (threads < 0 || threads > simd::max_threads)
@@ -136,20 +219,24 @@ Tracer::Tracer(const Scene& scene, const TracerOptions& options) : scene_(scene)
     });
 }
 
-void Tracer::intersect(const RaySpan& rays, const HitSpan& hits) const {
-    find_nearest(*tracer_, rays, hits);
+void Tracer::intersect(const RaySpan& rays, const HitSpan& hits,
+                       QueryStatistics* statistics) const {
+    find_nearest(*tracer_, rays, hits, statistics);
 }
 
-void Tracer::intersect(const DoubleRaySpan& rays, const HitSpan& hits) const {
-    find_nearest(*tracer_, rays, hits);
+void Tracer::intersect(const DoubleRaySpan& rays, const HitSpan& hits,
+                       QueryStatistics* statistics) const {
+    find_nearest(*tracer_, rays, hits, statistics);
 }
 
-void Tracer::occluded(const RaySpan& rays, std::span<std::uint8_t> occluded) const {
-    find_occluded(*tracer_, rays, occluded);
+void Tracer::occluded(const RaySpan& rays, std::span<std::uint8_t> occluded,
+                      QueryStatistics* statistics) const {
+    find_occluded(*tracer_, rays, occluded, statistics);
 }
 
-void Tracer::occluded(const DoubleRaySpan& rays, std::span<std::uint8_t> occluded) const {
-    find_occluded(*tracer_, rays, occluded);
+void Tracer::occluded(const DoubleRaySpan& rays, std::span<std::uint8_t> occluded,
+                      QueryStatistics* statistics) const {
+    find_occluded(*tracer_, rays, occluded, statistics);
 }
 
 void Tracer::crossings(const RaySpan& rays, CrossingRows& rows, const CrossingOptions& options,
@@ -162,20 +249,23 @@ void Tracer::crossings(const DoubleRaySpan& rays, CrossingRows& rows,
     find_crossings(*tracer_, rays, rows, options, statistics);
 }
 
-void Tracer::contains(const PointSpan& points, SolidRows& rows) const {
-    find_solids(*tracer_, points, rows);
+void Tracer::contains(const PointSpan& points, SolidRows& rows, QueryStatistics* statistics) const {
+    find_solids(*tracer_, points, rows, statistics);
 }
 
-void Tracer::contains(const DoublePointSpan& points, SolidRows& rows) const {
-    find_solids(*tracer_, points, rows);
+void Tracer::contains(const DoublePointSpan& points, SolidRows& rows,
+                      QueryStatistics* statistics) const {
+    find_solids(*tracer_, points, rows, statistics);
 }
 
-void Tracer::path_lengths(const RaySpan& rays, LengthRows& rows) const {
-    find_lengths(*tracer_, rays, rows);
+void Tracer::path_lengths(const RaySpan& rays, LengthRows& rows,
+                          QueryStatistics* statistics) const {
+    find_lengths(*tracer_, rays, rows, statistics);
 }
 
-void Tracer::path_lengths(const DoubleRaySpan& rays, LengthRows& rows) const {
-    find_lengths(*tracer_, rays, rows);
+void Tracer::path_lengths(const DoubleRaySpan& rays, LengthRows& rows,
+                          QueryStatistics* statistics) const {
+    find_lengths(*tracer_, rays, rows, statistics);
 }
 
 } // namespace raylane

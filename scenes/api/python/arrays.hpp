@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -64,11 +65,6 @@ inline bool is_float(const py::object& values) {
     const py::dtype type = converted(values, "").dtype();
     return type.kind() == 'f' && type.itemsize() == sizeof(float);
 }
-/// Returns true also for objects without a dtype: a plain number takes the type of the other
-/// arrays.
-inline bool is_float_or_plain(const py::object& values) {
-    return !py::hasattr(values, "dtype") || is_float(values);
-}
 
 /// Returns the values as an array of type Value, converted if necessary. Throws InvalidValue if
 /// they are not numbers, or are floating-point numbers of more than 64 bits.
@@ -79,6 +75,18 @@ py::array_t<Value, py::array::forcecast> array_of(const py::handle& values, cons
     if (kind != 'b' && kind != 'i' && kind != 'u' && !(kind == 'f' && array.itemsize() <= 8))
         throw InvalidValue(field, "must be an array of numbers, of 64 bits at most");
     return py::array_t<Value, py::array::forcecast>(array);
+}
+
+/// Returns true also for objects without a dtype, as a plain number takes the type of the other
+/// arrays, and for arrays of another type whose values are all float32 values: limits that are
+/// hits' t, converted to float64.
+inline bool are_floats_or_plain(const py::object& values, const char* field) {
+    if (!py::hasattr(values, "dtype") || is_float(values)) return true;
+    const py::array_t<double, py::array::c_style | py::array::forcecast> all(
+        array_of<double>(values, field));
+    return std::all_of(all.data(), all.data() + all.size(), [](double value) {
+        return std::isnan(value) || static_cast<double>(static_cast<float>(value)) == value;
+    });
 }
 
 /// Returns whole numbers from 0 to `most` as an array of type Value. Throws InvalidValue for other

@@ -6,9 +6,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <optional>
+#include <string_view>
 
 namespace raylane::python {
 
@@ -92,6 +94,19 @@ void in_turn(std::size_t count, std::size_t most, const Call& call) {
     }
 }
 
+/// Calls call(), and names an invalid ray by its number among all of the caller's rays. `from`:
+/// that of the first ray of the call.
+template <class Call>
+void naming_rays(std::size_t from, const Call& call) {
+    try {
+        call();
+    } catch (const InvalidRay& invalid) {
+        const std::string column = invalid.array.substr(std::string_view("origin_").size());
+        throw InvalidValue("leaving." + column + "/" + std::to_string(from + invalid.ray),
+                           invalid.expectation);
+    }
+}
+
 /// The arrays of n rays, with any strides.
 template <class Real>
 class RayColumns {
@@ -160,13 +175,14 @@ class RayColumns {
         in_turn(count(), max_at_once, [&](std::size_t from, std::size_t to) {
             if (!copied) {
                 Rooms rooms;
-                return answer(asked, part(from, to, rooms), from, to);
+                return naming_rays(from, [&] { answer(asked, part(from, to, rooms), from, to); });
             }
             tbb::enumerable_thread_specific<Rooms> rooms;
             tracer.for_each((to - from + max_copied - 1) / max_copied, [&](std::size_t number) {
                 const std::size_t first = from + number * max_copied;
                 const std::size_t last = std::min(to, first + max_copied);
-                answer(asked, part(first, last, rooms.local()), first, last);
+                naming_rays(first,
+                            [&] { answer(asked, part(first, last, rooms.local()), first, last); });
             });
         });
     }
@@ -175,7 +191,7 @@ class RayColumns {
     void one_by_one(SharedTracer& tracer, const Answer& answer) const {
         Rooms rooms;
         in_turn(count(), max_rows, [&](std::size_t from, std::size_t to) {
-            answer(tracer.all(), part(from, to, rooms));
+            naming_rays(from, [&] { answer(tracer.all(), part(from, to, rooms)); });
         });
     }
 
@@ -208,14 +224,19 @@ std::span<Value> out(const py::object& array, std::size_t count, const char* fie
     return {values.mutable_data(), count};
 }
 
-/// Calls `call` with the type float if all arrays are of float32, otherwise with double. A plain
-/// number as a limit takes the type of the rays.
+/// Returns true if rays are float rays: all arrays are of float32, or limits with such values.
+bool are_floats(const py::object& origins, const py::object& directions, const py::object& t_min,
+                const py::object& t_max) {
+    return is_float(origins) && is_float(directions) && are_floats_or_plain(t_min, "t_min") &&
+           are_floats_or_plain(t_max, "t_max");
+}
+
+/// Calls `call` with the type float for float rays, otherwise with double.
 template <class Call>
 auto by_type(const py::object& origins, const py::object& directions, const py::object& t_min,
              const py::object& t_max, const Call& call) {
-    const bool are_floats = is_float(origins) && is_float(directions) && is_float_or_plain(t_min) &&
-                            is_float_or_plain(t_max);
-    return are_floats ? call(std::type_identity<float>()) : call(std::type_identity<double>());
+    return are_floats(origins, directions, t_min, t_max) ? call(std::type_identity<float>())
+                                                         : call(std::type_identity<double>());
 }
 
 /// Calls `answer` with the rays. `rest`: t_min, t_max, and the shapes, faces and sides that the
@@ -230,10 +251,13 @@ auto with_rays(const py::object& origins, const py::object& directions, const py
                    });
 }
 
-void intersect(SharedTracer& tracer, const py::object& origins, const py::object& directions,
-               const py::tuple& rest, const py::tuple& to) {
+/// Each query returns the number of refused rays or points, or stores it as "refused".
+std::uint64_t intersect(SharedTracer& tracer, const py::object& origins,
+                        const py::object& directions, const py::tuple& rest, const py::tuple& to) {
+    std::atomic<std::uint64_t> refused = 0;
     with_rays(origins, directions, rest, [&](const auto& rays) {
         const std::size_t n = rays.count();
+        const auto t_double = out<double>(to[7], n, to[0].is_none() ? "out.t" : "out.t_double");
         const HitSpan all{.t = out<float>(to[0], n, "out.t"),
                           .normal_x = out<float>(to[1], n, "out.normal"),
                           .normal_y = out<float>(to[2], n, "out.normal"),
@@ -241,22 +265,27 @@ void intersect(SharedTracer& tracer, const py::object& origins, const py::object
                           .shape = out<ShapeId>(to[4], n, "out.shape"),
                           .entering = out<std::uint8_t>(to[5], n, "out.entering"),
                           .face = out<std::uint8_t>(to[6], n, "out.face"),
-                          .t_double = out<double>(to[7], n, "out.t_double")};
+                          .t_double = t_double};
         rays.share_out(
             tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
                 const auto of = [&](auto span) {
                     return span.empty() ? span : span.subspan(from, end - from);
                 };
-                asked.intersect(part, {.t = of(all.t),
-                                       .normal_x = of(all.normal_x),
-                                       .normal_y = of(all.normal_y),
-                                       .normal_z = of(all.normal_z),
-                                       .shape = of(all.shape),
-                                       .entering = of(all.entering),
-                                       .face = of(all.face),
-                                       .t_double = of(all.t_double)});
+                QueryStatistics statistics;
+                asked.intersect(part,
+                                {.t = of(all.t),
+                                 .normal_x = of(all.normal_x),
+                                 .normal_y = of(all.normal_y),
+                                 .normal_z = of(all.normal_z),
+                                 .shape = of(all.shape),
+                                 .entering = of(all.entering),
+                                 .face = of(all.face),
+                                 .t_double = of(all.t_double)},
+                                &statistics);
+                refused += statistics.refused;
             });
     });
+    return refused;
 }
 
 /// Returns true if the rays are traced in place, without a copy.
@@ -265,15 +294,19 @@ bool reads_in_place(const py::object& origins, const py::object& directions,
     return with_rays(origins, directions, rest, [](const auto& rays) { return rays.is_spans(); });
 }
 
-void occluded(SharedTracer& tracer, const py::object& origins, const py::object& directions,
-              const py::tuple& rest, const py::object& to) {
+std::uint64_t occluded(SharedTracer& tracer, const py::object& origins,
+                       const py::object& directions, const py::tuple& rest, const py::object& to) {
+    std::atomic<std::uint64_t> refused = 0;
     with_rays(origins, directions, rest, [&](const auto& rays) {
         const auto all = out<std::uint8_t>(to, rays.count(), "out");
         rays.share_out(
             tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
-                asked.occluded(part, all.subspan(from, end - from));
+                QueryStatistics statistics;
+                asked.occluded(part, all.subspan(from, end - from), &statistics);
+                refused += statistics.refused;
             });
     });
+    return refused;
 }
 
 /// Appends the values of a part's rows.
@@ -297,11 +330,14 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
     const std::size_t most = count_from(at_most, "most");
     const bool normals = bool_from(with_normals, "normals");
     CrossingRows all;
+    CrossingStatistics statistics;
+    std::uint64_t refused = 0;
     all.first = {0};
     with_rays(origins, directions, rest, [&](const auto& rays) {
         rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
             CrossingRows rows;
-            asked.crossings(part, rows, {.most = most, .normals = normals});
+            asked.crossings(part, rows, {.most = most, .normals = normals}, &statistics);
+            refused += statistics.refused;
             append_rows(all.first, rows.first);
             append(all.t, rows.t);
             append(all.shape, rows.shape);
@@ -322,6 +358,7 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
     result["face"] = array_from(std::move(all.face));
     result["tied"] = bools_from(std::move(all.tied));
     result["touching"] = bools_from(std::move(all.touching));
+    result["refused"] = refused;
     if (!normals) return result;
     const auto count = static_cast<py::ssize_t>(all.normal_x.size());
     py::array_t<float> normal(std::vector<py::ssize_t>{count, 3});
@@ -341,11 +378,14 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
 py::dict path_lengths(SharedTracer& tracer, const py::object& origins, const py::object& directions,
                       const py::tuple& rest) {
     LengthRows all;
+    QueryStatistics statistics;
+    std::uint64_t refused = 0;
     all.first = {0};
     with_rays(origins, directions, rest, [&](const auto& rays) {
         rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
             LengthRows rows;
-            asked.path_lengths(part, rows);
+            asked.path_lengths(part, rows, &statistics);
+            refused += statistics.refused;
             append_rows(all.first, rows.first);
             append(all.material, rows.material);
             append(all.length, rows.length);
@@ -355,11 +395,14 @@ py::dict path_lengths(SharedTracer& tracer, const py::object& origins, const py:
     result["first"] = array_from(std::move(all.first));
     result["material"] = array_from(std::move(all.material));
     result["length"] = array_from(std::move(all.length));
+    result["refused"] = refused;
     return result;
 }
 
 py::dict contains(const SharedTracer& tracer, const py::object& points) {
     SolidRows all;
+    QueryStatistics statistics;
+    std::uint64_t refused = 0;
     all.first = {0};
     by_type(points, py::none(), py::none(), py::none(), [&]<class Real>(std::type_identity<Real>) {
         const Rows<Real> rows(points, {3}, "points");
@@ -367,7 +410,8 @@ py::dict contains(const SharedTracer& tracer, const py::object& points) {
         in_turn(rows.count(), max_rows, [&](std::size_t from, std::size_t to) {
             const auto [x, y, z] = rows.parts(from, to, room);
             SolidRows part;
-            tracer.all().contains(BasicPointSpan<Real>{x, y, z}, part);
+            tracer.all().contains(BasicPointSpan<Real>{x, y, z}, part, &statistics);
+            refused += statistics.refused;
             append_rows(all.first, part.first);
             append(all.shape, part.shape);
             append(all.on_surface, part.on_surface);
@@ -377,6 +421,7 @@ py::dict contains(const SharedTracer& tracer, const py::object& points) {
     result["first"] = array_from(std::move(all.first));
     result["shape"] = array_from(std::move(all.shape));
     result["on_surface"] = bools_from(std::move(all.on_surface));
+    result["refused"] = refused;
     return result;
 }
 
@@ -392,6 +437,7 @@ void bind_tracer(py::module_& module) {
                 return std::make_unique<SharedTracer>(scene, options);
             }))
         .def_static("reads_in_place", &reads_in_place)
+        .def_static("are_floats", &are_floats)
         .def("intersect", &intersect)
         .def("occluded", &occluded)
         .def("crossings", &crossings)

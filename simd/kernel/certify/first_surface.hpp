@@ -233,7 +233,7 @@ class FirstSurfaces {
         const F t = line.t[which], error = line.error[which];
         const M entering = which == 0 ? ~line.inside : line.inside;
         const M seen = (entering & M(node.seen[1])) | (~entering & M(node.seen[0]));
-        const F ahead = t - rays_.t_after, off = margin(error, zero<D>());
+        const F ahead = t - rays_.t_after, off = margin(error, rays_.half_ulp);
         const M counts = line.counts[which] & seen & ~(negated(ahead) > off);
         best.doubt = best.doubt | (counts & ~(ahead > off));
         // A surface that is certainly before makes the crossing irrelevant.

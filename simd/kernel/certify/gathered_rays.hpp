@@ -15,7 +15,8 @@ struct GatheredRays {
 
     Rays<D> rays;
     Vectors<D> unit; ///< directions of length 1 +- 2^-48
-    F length, t_after;
+    F length;
+    F t_after, half_ulp; ///< the lower limit is the sum
 
     /// Unused lanes repeat the first one.
     template <class Index>
@@ -23,7 +24,7 @@ struct GatheredRays {
         const bool stand_for_others = found.exact_length != nullptr;
         const double* const* const directions =
             stand_for_others ? found.exact_direction : found.direction;
-        double numbers[11][width];
+        double numbers[12][width];
         leaves_ = false;
         for (std::size_t lane = 0; lane < width; ++lane) {
             const std::size_t ray = lanes[lane < count ? lane : 0];
@@ -34,6 +35,7 @@ struct GatheredRays {
             }
             numbers[6][lane] = stand_for_others ? found.exact_length[ray] : 1.0;
             numbers[7][lane] = found.t_after != nullptr ? found.t_after[ray] : 0.0;
+            numbers[11][lane] = half_ulp_of(numbers[7][lane], found.origin_bits[ray]);
             first_[lane] = found.origin_first[ray];
             last_[lane] = found.origin_last[ray];
             bits_[lane] = found.origin_bits[ray];
@@ -47,6 +49,7 @@ struct GatheredRays {
         unit = vectors(numbers + 8);
         length = F::load_unaligned(numbers[6]);
         t_after = F::load_unaligned(numbers[7]);
+        half_ulp = F::load_unaligned(numbers[11]);
     }
 
     /// Returns the starts of the rays, as the shape with this id sees them.
@@ -61,6 +64,13 @@ struct GatheredRays {
     }
 
   private:
+    /// Returns half the distance from a limit to the next double if its ray needs that.
+    static double half_ulp_of(double t_after, std::uint32_t bits) {
+        if (!(t_after > 0.0) || (bits & stream_half_ulp) == 0) return 0.0;
+        const auto next = __builtin_bit_cast(std::uint64_t, t_after) + 1;
+        return 0.5 * (__builtin_bit_cast(double, next) - t_after);
+    }
+
     std::uint32_t first_[width], last_[width], bits_[width];
     bool leaves_ = false;
 };

@@ -132,7 +132,7 @@ class Refine {
         Crossings<C> crossings =
             solver.crossings(certified<Number>(loaded.rays), starts_nowhere<C>());
         for (Crossing<C>* const crossing : {&crossings.first, &crossings.second})
-            crossing->exists = crossing->exists & is_after<C>(crossing->t, loaded.t_after);
+            crossing->exists = crossing->exists & is_after<C>(crossing->t, loaded);
         return first_ahead<C>(crossings, none<C>());
     }
 
@@ -164,10 +164,10 @@ class Refine {
     /// Returns whether t is after the limit. The answer is unknown if t is certainly at a
     /// limit > 0.
     template <class C>
-    static Mask<C> is_after(const Floats<C>& t, const F& t_after) {
-        const Floats<C> limit(t_after);
+    static Mask<C> is_after(const Floats<C>& t, const Loaded& loaded) {
+        const Floats<C> limit = Floats<C>(loaded.t_after) + Floats<C>(loaded.half_ulp);
         Mask<C> is_after = t > limit;
-        is_after.known = is_after.known & ~((t == limit).surely() & (t_after > zero<D>()));
+        is_after.known = is_after.known & ~((t == limit).surely() & (loaded.t_after > zero<D>()));
         return is_after;
     }
 

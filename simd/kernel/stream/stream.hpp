@@ -195,43 +195,53 @@ class CallerStream {
                                   Number::load_unaligned(v[2] + from + k)};
             };
             const Vectors<D> origin = load(rays.origin), direction = load(rays.direction);
-            const Number least(min_double);
+            const Number least(min_double), most(too_large);
             const Number largest = max(max(abs(direction.x), abs(direction.y)), abs(direction.z));
-            const Number min_turn = largest * Number(min_of_largest);
-            Mask<D> is_ray = in_range(origin.x, least) & in_range(origin.y, least) &
-                             in_range(origin.z, least) & in_range(direction.x, min_turn) &
-                             in_range(direction.y, min_turn) & in_range(direction.z, min_turn) &
-                             (largest >= least);
+            const Number min_turn = largest * Number(min_of_largest), any(max_length);
+            Mask<D> is_ray = in_range(origin.x, least, most) & in_range(origin.y, least, most) &
+                             in_range(origin.z, least, most) &
+                             in_range(direction.x, min_turn, any) &
+                             in_range(direction.y, min_turn, any) &
+                             in_range(direction.z, min_turn, any) & (largest >= Number(min_length));
             Number t_min = zero<D>(), t_max(__builtin_inf());
             if (rays.t_min != nullptr) {
                 const Number asked = Number::load_unaligned(rays.t_min + from + k);
                 t_min = select(asked > zero<D>(), asked, zero<D>());
-                is_ray = is_ray & (asked == asked) & (t_min < Number(__builtin_inf()));
+                is_ray = is_ray & (asked == asked) &
+                         in_range(t_min, Number(min_limit), Number(max_limit));
             }
-            if (rays.t_max != nullptr) t_max = Number::load_unaligned(rays.t_max + from + k);
+            if (rays.t_max != nullptr) {
+                t_max = Number::load_unaligned(rays.t_max + from + k);
+                is_ray = is_ray & (in_range(t_max, Number(min_limit), Number(max_limit)) |
+                                   (t_max == Number(__builtin_inf())));
+            }
             is_ray = is_ray & (t_min < t_max);
             none |= (~Lanes<D>::bits(is_ray) & all_halves) << k;
             take_half(origin, direction, largest, is_ray, taken, to + k);
             store_limits(t_min, t_max, is_ray, taken, to + k);
         }
         for (std::size_t k = 0; k < 16; k += F::size)
-            S::store_bits(zero<Arch>(), taken.bits + to + k);
+            S::store_bits(S::broadcast_bits(rays.t_min != nullptr ? stream_half_ulp : 0U),
+                          taken.bits + to + k);
         return static_cast<std::size_t>(__builtin_popcount(none & ((1U << count) - 1)));
     }
 
     static constexpr float largest_float = 0x1.fffffep127F;
-    /// Doubles must be in the range of floats, where no solver overflows or underflows.
+    /// Doubles must be in the range of floats, where no solver overflows or underflows. Directions
+    /// are scaled, so their lengths need only leave room for limits.
     static constexpr double min_double = 0x1p-149, too_large = 0x1p128;
     static constexpr double min_of_largest = 0x1p-276;
+    static constexpr double min_length = 0x1p-400, max_length = 0x1p400;
+    static constexpr double min_limit = 0x1p-500, max_limit = 0x1p500;
     static constexpr std::uint32_t all_lanes = (std::uint64_t{1} << F::size) - 1;
     static constexpr std::uint32_t all_halves = (1U << half) - 1;
 
     static std::uint32_t part_of(std::uint32_t bits, int part) {
         return bits >> (static_cast<unsigned>(part) * half) & all_halves;
     }
-    static Mask<D> in_range(const Number& value, const Number& least) {
+    static Mask<D> in_range(const Number& value, const Number& least, const Number& most) {
         const Number size = abs(value);
-        return ((size >= least) & (size < Number(too_large))) | (size == zero<D>());
+        return ((size >= least) & (size < most)) | (size == zero<D>());
     }
 
     /// Takes in a register's worth of rays in double.
@@ -432,7 +442,7 @@ class CallerStream {
             float most[F::size] = {};
             __builtin_memcpy(most, limits.t_max + i, here * sizeof(float));
             hit = hit & (t <= S::load(most));
-        } else if (limits.truly) {
+        } else if (limits.are_doubles) {
             const Sides sides = sides_of_t_limit(taken, found, i);
             certain = certain & (sides.before | sides.beyond);
             hit = hit & sides.before;

@@ -110,9 +110,10 @@ TEST_CASE("scenes and queries and images of the C interface equal those of C++")
     Hits hits(rays.size());
     std::vector<std::uint8_t> face(rays.size()), found(rays.size(), 77);
     std::vector<double> t_double(rays.size());
-    const raylane_rays to_c = {rays.size(),       rays.x.data(),  rays.y.data(),  rays.z.data(),
-                               rays.dx.data(),    rays.dy.data(), rays.dz.data(), nullptr,
-                               rays.t_max.data(), nullptr,        nullptr,        nullptr};
+    const raylane_rays to_c = {
+        rays.size(),    rays.x.data(),  rays.y.data(), rays.z.data(),     rays.dx.data(),
+        rays.dy.data(), rays.dz.data(), nullptr,       rays.t_max.data(), nullptr,
+        nullptr,        nullptr,        nullptr};
     const raylane_hits from_c = {hits.t.data(),  hits.nx.data(),    hits.ny.data(),
                                  hits.nz.data(), hits.shape.data(), hits.entering.data(),
                                  face.data(),    t_double.data()};
@@ -127,12 +128,14 @@ TEST_CASE("scenes and queries and images of the C interface equal those of C++")
     const std::vector<double> x = wide(rays.x), y = wide(rays.y), z = wide(rays.z),
                               dx = wide(rays.dx), dy = wide(rays.dy), dz = wide(rays.dz);
     std::vector<double> t(rays.size());
-    const raylane_double_rays doubles = {rays.size(), x.data(),  y.data(),  z.data(),
-                                         dx.data(),   dy.data(), dz.data(), nullptr,
-                                         nullptr,     nullptr,   nullptr,   nullptr};
+    std::uint64_t refused = 77;
+    const raylane_double_rays doubles = {rays.size(), x.data(),  y.data(), z.data(), dx.data(),
+                                         dy.data(),   dz.data(), nullptr,  nullptr,  nullptr,
+                                         nullptr,     nullptr,   &refused};
     raylane_hits only_t{};
     only_t.t_double = t.data();
     CHECK(raylane_intersect_doubles(asked.get(), &doubles, &only_t) == RAYLANE_OK);
+    CHECK(refused == 0);
     CHECK(raylane_occluded_doubles(asked.get(), &doubles, found.data()) == RAYLANE_OK);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         CHECK((found[i] == 1) == (t[i] < 1e300));
@@ -285,7 +288,8 @@ TEST_CASE("spheres move in C as in C++") {
         Hits hits(rays.size());
         const raylane_rays to_c = {rays.size(),    rays.x.data(),  rays.y.data(),  rays.z.data(),
                                    rays.dx.data(), rays.dy.data(), rays.dz.data(), nullptr,
-                                   nullptr,        nullptr,        nullptr,        nullptr};
+                                   nullptr,        nullptr,        nullptr,        nullptr,
+                                   nullptr};
         const raylane_hits from_c = {
             hits.t.data(),     hits.nx.data(),       hits.ny.data(), hits.nz.data(),
             hits.shape.data(), hits.entering.data(), nullptr,        nullptr};

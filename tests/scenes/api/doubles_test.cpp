@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 /// Tests of the library's answers for rays and shapes in double against the oracle.
@@ -16,7 +17,7 @@ using meetings::Way;
 namespace {
 
 /// Returns a ray next to one in float, displaced by a few ulps of doubles or by steps that no float
-/// has. No component is scaled below the smallest float, so that the ray stays valid.
+/// has. No component is scaled below the smallest float.
 core::Ray<double> beside(const core::Ray<float>& ray, Random& random) {
     core::Ray<double> result{core::convert<double>(ray.origin),
                              core::convert<double>(ray.direction)};
@@ -83,7 +84,7 @@ TEST_CASE("equal rays in double and in float have equal answers") {
     }
 }
 
-TEST_CASE("rays of doubles outside of the range of floats hit nothing") {
+TEST_CASE("rays of any finite doubles hit what they meet, and others are counted") {
     const Tracer tracer(ball());
     DoubleRays rays;
     const auto add = [&](const Vec3d& origin, const Vec3d& direction) {
@@ -92,11 +93,13 @@ TEST_CASE("rays of doubles outside of the range of floats hit nothing") {
     add({0, 0, -2}, {0, 0, 0x1p127});
     add({0, 0, -2}, {0, 0x1p-148, 0x1p-140});
     add({0x1p-149, 0, -2}, {0x1p-270, 0, 1});
-    const std::size_t found = rays.size();
     add({0, 0, -0x1p128}, {0, 0, 1});
     add({0, 0x1p-150, -2}, {0, 0, 1});
     add({0, 0, -2}, {0x1p-277, 0, 1});
     add({0, 0, -2}, {0, 0, 0x1p128});
+    add({0, 0, -2}, {0, 0, 0x1p-1074});
+    add({0, 0, -0x1p1023}, {0x1p-1074, 0, 0x1p1023});
+    const std::size_t found = rays.size();
     add({0, 0, -2}, {0, 0, endless});
     add({0, std::nan(""), -2}, {0, 0, 1});
     add({0, 0, -2}, {0, 0, 0});
@@ -105,7 +108,55 @@ TEST_CASE("rays of doubles outside of the range of floats hit nothing") {
         CAPTURE(i);
         CHECK((answers.hits.shape[i] == 0) == (i < found));
         CHECK(answers.blocked[i] == (i < found ? 1 : 0));
+        CHECK(answers.rows.first[i + 1] - answers.rows.first[i] == (i < found ? 2 : 0));
     }
+    QueryStatistics statistics;
+    CrossingStatistics of_crossings;
+    Hits hits(rays.size());
+    std::vector<std::uint8_t> blocked(rays.size());
+    CrossingRows rows;
+    LengthRows lengths;
+    tracer.intersect(rays.span(), hits.span(), &statistics);
+    CHECK(std::exchange(statistics.refused, 0) == 3);
+    tracer.occluded(rays.span(), blocked, &statistics);
+    CHECK(std::exchange(statistics.refused, 0) == 3);
+    tracer.crossings(rays.span(), rows, {}, &of_crossings);
+    CHECK(of_crossings.refused == 3);
+    tracer.path_lengths(rays.span(), lengths, &statistics);
+    CHECK(std::exchange(statistics.refused, 0) == 3);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        CHECK(lengths.first[i + 1] == std::min(i + 1, found));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto of = [i](const std::vector<double>& column) {
+            return std::span(column).subspan(i, 1);
+        };
+        const DoubleRaySpan alone{of(rays.origin[0]),    of(rays.origin[1]),
+                                  of(rays.origin[2]),    of(rays.direction[0]),
+                                  of(rays.direction[1]), of(rays.direction[2])};
+        tracer.intersect(alone, HitSpan{.t = std::span(hits.t).first(1)}, &statistics);
+        CHECK(hits.t[0] == answers.hits.t[i]);
+        CHECK(std::exchange(statistics.refused, 0) == (i < found ? 0 : 1));
+        tracer.occluded(alone, std::span(blocked).first(1), &statistics);
+        CHECK(blocked[0] == answers.blocked[i]);
+        CHECK(std::exchange(statistics.refused, 0) == (i < found ? 0 : 1));
+        tracer.crossings(alone, rows, {.most = 1}, &of_crossings);
+        CHECK(rows.t.size() == (i < found ? 1 : 0));
+        CHECK(of_crossings.refused == (i < found ? 0 : 1));
+    }
+    SolidRows solids;
+    tracer.contains({rays.origin[0], rays.origin[1], rays.origin[2]}, solids, &statistics);
+    CHECK(std::exchange(statistics.refused, 0) == 1);
+    // A ray without an interval between its limits is not refused; one with a limit of NaN is.
+    DoubleRays limited;
+    limited.add({{0, 0, -2}, {0, 0, 1}}, 2.0, 1.0);
+    limited.add({{0, 0, -2}, {0, 0, 1}}, endless, endless);
+    limited.add({{0, 0, -2}, {0, 0, 1}}, std::nan(""), endless);
+    limited.add({{0, 0, -2}, {0, 0, 1}}, 0.0, std::nan(""));
+    Hits none(limited.size());
+    tracer.intersect(limited.span(), none.span(), &statistics);
+    CHECK(std::exchange(statistics.refused, 0) == 2);
+    tracer.path_lengths(limited.span(), lengths, &statistics);
+    CHECK(std::exchange(statistics.refused, 0) == 2);
 }
 
 namespace {

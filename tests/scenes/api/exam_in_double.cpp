@@ -8,13 +8,6 @@ namespace raylane::tests {
 
 namespace {
 
-/// Compares the exact t of a crossing with a double: negative, zero or positive.
-int compare(const oracle::Hit& hit, double t) {
-    if (t == endless) return -1;
-    const int order = oracle::compare_digits(hit.t, oracle::Number(t));
-    return order != 0 ? order : oracle::sign_at(hit.root, oracle::Exact(-t), oracle::Exact(1));
-}
-
 struct Question {
     std::size_t sight;
     double t_min, t_max;
@@ -67,7 +60,7 @@ void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays
         int count = 0;
         for (const oracle::Found& found : sights.back().all()) {
             if (++count > 3) break;
-            const double t = oracle::rounded_to_double(found.hit.root, found.hit.t);
+            const double t = found.t_double;
             for (const double limit : {std::nextafter(t, 0.0), t, std::nextafter(t, endless)}) {
                 add(ray, limit, endless);
                 add(ray, 0.0, limit);
@@ -82,8 +75,8 @@ void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays
         oracle::Sight& sight = sights[question.sight];
         const oracle::Found* truth = nullptr;
         for (const oracle::Found& found : sight.all()) {
-            if (compare(found.hit, question.t_min) <= 0) continue;
-            if (compare(found.hit, question.t_max) <= 0) truth = &found;
+            if (found.t_double <= question.t_min) continue;
+            if (found.t_double <= question.t_max) truth = &found;
             break;
         }
         ++faults.rays;
@@ -91,10 +84,11 @@ void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays
             faults.first = described(questions[i - 1], asked, i - 1, before, shapes);
         before = truth;
         const auto is_between = [&](const oracle::Found& found) {
-            return counts[found.shape] != 0 && compare(found.hit, question.t_min) > 0 &&
-                   compare(found.hit, question.t_max) <= 0;
+            return counts[found.shape] != 0 && found.t_double > question.t_min &&
+                   found.t_double <= question.t_max;
         };
         faults.crossings += is_right(answers.rows, i, sight, is_between) ? 0 : 1;
+        faults.crossings += is_first(answers.firsts, answers.rows, i) ? 0 : 1;
         const Hits& hits = answers.hits;
         faults.occlusion += answers.blocked[i] != (truth != nullptr ? 1 : 0) ? 1 : 0;
         if (truth == nullptr) {
@@ -107,8 +101,7 @@ void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays
             continue;
         }
         faults.t += hits.t[i] != truth->t ? 1 : 0;
-        faults.t_double +=
-            answers.t_double[i] != oracle::rounded_to_double(truth->hit.root, truth->hit.t) ? 1 : 0;
+        faults.t_double += answers.t_double[i] != truth->t_double ? 1 : 0;
         faults.side += hits.entering[i] != (truth->hit.entering ? 1 : 0) ? 1 : 0;
         faults.normal += core::Vec3f(hits.nx[i], hits.ny[i], hits.nz[i]) !=
                                  sight.normal_of(*truth, shapes[truth->shape])

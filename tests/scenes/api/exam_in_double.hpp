@@ -37,12 +37,13 @@ struct DoubleAnswers {
         span.t_double = t_double;
         tracer.intersect(rays.span(), span);
         tracer.occluded(rays.span(), blocked);
-        tracer.crossings(rays.span(), rows);
+        tracer.crossings(rays.span(), rows, {.normals = true});
+        tracer.crossings(rays.span(), firsts, {.most = 1, .normals = true});
     }
     Hits hits;
     std::vector<double> t_double;
     std::vector<std::uint8_t> blocked;
-    CrossingRows rows;
+    CrossingRows rows, firsts; ///< all crossings, and at most one a ray
 };
 
 struct DoubleFaults {

@@ -197,7 +197,7 @@ void ask_onward(const Scene& scene, const std::vector<core::Ray<float>>& asked, 
                  {ray.direction.x, ray.direction.y, ray.direction.z});
     const Tracer tracer(scene);
     CrossingRows rows;
-    tracer.crossings(rays.span(), rows);
+    tracer.crossings(rays.span(), rows, {.most = 1, .normals = true});
     Rays onward;
     std::vector<ShapeId> shape;
     std::vector<std::uint8_t> face, inward;
@@ -211,7 +211,9 @@ void ask_onward(const Scene& scene, const std::vector<core::Ray<float>>& asked, 
         onward.add({at.x, at.y, at.z}, {rays.dx[other], rays.dy[other], rays.dz[other]});
         shape.push_back(rows.shape[k]);
         face.push_back(rows.face[k]);
-        inward.push_back(i % 3 == 0 ? 1 - rows.entering[k] : rows.entering[k]);
+        const float along = rows.normal_x[k] * rays.dx[other] + rows.normal_y[k] * rays.dy[other] +
+                            rows.normal_z[k] * rays.dz[other];
+        inward.push_back(along < 0 ? 1 : 0);
     }
     RaySpan from = onward.span();
     from.origin_shape = shape;

@@ -1,8 +1,10 @@
+#include "tests/scenes/api/exam_in_double.hpp"
 #include "tests/scenes/api/solid_exam.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/ray_sets.hpp"
 #include "tests/support/rounds.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 /// Tests of solids that are made of others against the oracle.
@@ -257,4 +259,48 @@ TEST_CASE("solids with one axis are crossed as in real arithmetic by rays along 
         if (!lattice) ask_onward(*scene, bench.rays, wrong);
     }
     check(wrong, lattice);
+}
+
+TEST_CASE("limits of rays in double at a solid's surfaces lead to the next one or include it") {
+    Random random(seed(31));
+    const int scenes = rounds(20, 8, 60);
+    std::size_t wrong = 0, asked = 0;
+    for (int i = 0; i < scenes; ++i) {
+        const Bench bench = any_bench(random, /*lattice=*/false);
+        const std::optional<Scene> scene = scene_of(bench.solid);
+        if (!scene) continue;
+        const Tracer tracer(*scene);
+        DoubleRays rays, limited;
+        for (const core::Ray<float>& ray : bench.rays)
+            rays.add({core::convert<double>(ray.origin) + core::Vec3d(1e-9),
+                      core::convert<double>(ray.direction)},
+                     0.0, endless);
+        CrossingRows rows;
+        tracer.crossings(rays.span(), rows);
+        std::vector<double> expected;
+        for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+            const auto t =
+                std::span(rows.t).subspan(rows.first[ray], rows.first[ray + 1] - rows.first[ray]);
+            const core::Ray<double> exact{
+                {rays.origin[0][ray], rays.origin[1][ray], rays.origin[2][ray]},
+                {rays.direction[0][ray], rays.direction[1][ray], rays.direction[2][ray]}};
+            for (const double limit : t) {
+                const auto next = std::upper_bound(t.begin(), t.end(), limit);
+                limited.add(exact, limit, endless);
+                expected.push_back(next != t.end() ? *next : endless);
+                limited.add(exact, std::nextafter(limit, 0.0), limit);
+                expected.push_back(limit);
+            }
+        }
+        const DoubleAnswers answers(tracer, limited);
+        asked += expected.size();
+        for (std::size_t k = 0; k < expected.size(); ++k) {
+            const bool same = answers.t_double[k] == expected[k] &&
+                              answers.blocked[k] == (expected[k] < endless ? 1 : 0) &&
+                              is_first(answers.firsts, answers.rows, k);
+            wrong += same ? 0 : 1;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(asked > 1000);
 }

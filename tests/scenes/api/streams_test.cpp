@@ -188,6 +188,30 @@ TEST_CASE(
     CHECK(different_in_short_calls(tracer, DoubleRays(rays), rays.size()) == 0);
 }
 
+TEST_CASE("refused rays are counted in calls of any length") {
+    Rays rays;
+    for (const float z : {-2.0F, not_a_number, -2.0F, -2.0F, -2.0F, -2.0F})
+        rays.add({0, 0, z}, {0, 0, 1});
+    rays.dz[2] = 0;
+    rays.t_min = {0, 0, 0, not_a_number, 0, 3};
+    rays.t_max = {infinity, infinity, infinity, infinity, not_a_number, 1};
+    const Tracer tracer(ball());
+    Hits hits(rays.size());
+    std::vector<std::uint8_t> blocked(rays.size());
+    QueryStatistics statistics;
+    const auto refused = [&](const RaySpan& asked) {
+        const std::size_t count = asked.origin_x.size();
+        tracer.occluded(asked, std::span(blocked).first(count), &statistics);
+        const std::uint64_t of_occluded = statistics.refused;
+        tracer.intersect(asked, HitSpan{.t = std::span(hits.t).first(count)}, &statistics);
+        CHECK(statistics.refused == of_occluded);
+        return statistics.refused;
+    };
+    CHECK(refused(rays.span()) == 4);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        CHECK(refused(rays.part(i, 1)) == (i == 0 || i == 5 ? 0 : 1));
+}
+
 TEST_CASE("hard rays have the same answers in short calls and in one call") {
     for (const bool lattice : {false, true}) {
         auto [scene, rays] = heap(lattice, 12, 3);
@@ -431,7 +455,7 @@ TEST_CASE("an origin surface that is not a shape of the scene has no effect") {
     span.origin_shape = shape;
     Hits hits(3);
     tracer.intersect(span, hits.span());
-    CHECK(hits.shape == std::vector<ShapeId>{0, 0, no_shape}); // the last one leaves outwards
+    CHECK(hits.shape == std::vector<ShapeId>{0, 0, 0}); // the direction of the last one goes inside
     span.origin_inward = inward;
     tracer.intersect(span, hits.span());
     CHECK(hits.shape == std::vector<ShapeId>{0, 0, 0});

@@ -28,6 +28,18 @@ class InvalidValue : public std::invalid_argument {
     std::string expectation;
 };
 
+/// Thrown for a ray whose values contradict each other or the scene. `array` names the span, and
+/// `field` is "array/ray": "origin_face/17".
+class InvalidRay : public InvalidValue {
+  public:
+    InvalidRay(const std::string& array_, std::size_t ray_, const std::string& expectation_)
+        : InvalidValue(array_ + "/" + std::to_string(ray_), expectation_), array(array_),
+          ray(ray_) {}
+
+    std::string array;
+    std::size_t ray;
+};
+
 /// One mistake in a file.
 struct InputError {
     std::string file;       ///< the file's name, as the caller gave it

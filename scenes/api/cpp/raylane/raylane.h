@@ -262,13 +262,15 @@ RAYLANE_API raylane_status raylane_with_positions_doubles(const raylane_scene* s
                                                           raylane_scene** moved);
 
 /** Rays, structure of arrays, same as RaySpan and DoubleRaySpan in tracer.hpp. Each array has
- * `count` values. t_min, t_max, origin_shape, origin_face and origin_inward may be NULL. */
+ * `count` values. t_min, t_max, origin_shape, origin_face and origin_inward may be NULL. A query
+ * stores in *refused how many rays it refuses: QueryStatistics::refused. `refused` may be NULL. */
 typedef struct raylane_rays {
     size_t count;
     const float *origin_x, *origin_y, *origin_z, *direction_x, *direction_y, *direction_z;
     const float *t_min, *t_max;
     const uint32_t* origin_shape;
     const uint8_t *origin_face, *origin_inward;
+    uint64_t* refused;
 } raylane_rays;
 typedef struct raylane_double_rays {
     size_t count;
@@ -276,6 +278,7 @@ typedef struct raylane_double_rays {
     const double *t_min, *t_max;
     const uint32_t* origin_shape;
     const uint8_t *origin_face, *origin_inward;
+    uint64_t* refused;
 } raylane_double_rays;
 
 /** Output arrays for hits, same as HitSpan in tracer.hpp. NULL: not wanted. */

@@ -20,14 +20,24 @@ namespace RAYLANE_API raylane {
 /// t_min < t <= t_max. The six spans of origins and directions have length n. Each other span has
 /// length n or is empty. The caller owns the arrays; they are only read. Real is float or double.
 ///
-/// Doubles are used exactly, but must be in the range of float: each component is 0 or has a
-/// magnitude from 2^-149 to below 2^128. The smaller components of a direction may be as small as
-/// 2^-276 of its largest. A ray with other values hits nothing.
+/// All finite values are used exactly, but for directions of 0. A ray is refused if a component is
+/// infinite or NaN, its direction is 0, or a limit is NaN. It then hits nothing, and
+/// QueryStatistics::refused counts it.
+///
+/// Rays in double with numbers of unusual size take some microseconds each. A coordinate or a
+/// component of a direction that is 0 is usual, and so are the following ranges.
+/// - Coordinates: magnitudes from 2^-149 to below 2^128.
+/// - The largest component of a direction: from 2^-400 to below 2^400. The others: at least 2^-276
+///   of it.
+/// - Limits: 0, infinity, and from 2^-500 to below 2^500.
 template <class Real>
 struct BasicRaySpan {
     std::span<const Real> origin_x{}, origin_y{}, origin_z{};
     /// Directions of any length except zero; t is in units of that length.
     std::span<const Real> direction_x{}, direction_y{}, direction_z{};
+    /// Limits compare with t as it is answered: the float nearest to the true t for RaySpan, the
+    /// double for DoubleRaySpan. For a DoubleRaySpan and a HitSpan with t and without t_double, it
+    /// is the float.
     std::span<const Real> t_min{}; ///< negative values count as 0; empty: 0
     std::span<const Real> t_max{}; ///< empty: infinity
     /// The shape on which each ray starts, from the hit that it continues (HitSpan::shape), or
@@ -35,10 +45,18 @@ struct BasicRaySpan {
     /// origin. It does not hit that surface at its origin, it cannot miss a surface just behind it,
     /// and it needs no t_min. It can hit the same surface again farther on. An id without a shape
     /// counts as no_shape. Empty: no ray starts on a surface.
+    ///
+    /// Queries throw InvalidRay, field "origin_shape/7" for ray 7, if an origin is farther from the
+    /// shape than rounding explains: 2^-6 of the shape's size for floats, 2^-10 for doubles, and
+    /// 2^-18 of the coordinates. Unbounded shapes take any origin. Field "origin_face/7": the shape
+    /// has no such face. Field "origin_inward/7": the direction goes to the other side, by an angle
+    /// of more than 2^-5 (floats) or 2^-9 (doubles), from the origin and from points that far
+    /// beside it. The output is then incomplete.
     std::span<const ShapeId> origin_shape{};
     std::span<const std::uint8_t> origin_face{}; ///< HitSpan::face of that hit; empty: 0
-    /// 1 if the ray continues on the inside (back) of that surface: it is transmitted after a hit
-    /// with `entering` 1, or reflected after one with `entering` 0. 0: on the outside. Empty: 0.
+    /// 1 if the ray goes to the inside (back) of that surface: it is transmitted after a hit with
+    /// `entering` 1, or reflected after one with `entering` 0. 0: to the outside. Empty: the
+    /// direction decides, by the exact normal at the origin; a tangent goes to the outside.
     std::span<const std::uint8_t> origin_inward{};
 };
 using RaySpan = BasicRaySpan<float>;
@@ -63,8 +81,43 @@ struct HitSpan {
     std::span<double> t_double{};
 };
 
+/// Rays that continue from the hits of others: see onward(). Owns all arrays but the directions.
+template <class Real>
+struct OnwardRays {
+    std::vector<Real> origin_x, origin_y, origin_z;
+    std::vector<ShapeId> shape;
+    std::vector<std::uint8_t> face, inward;
+    std::span<const Real> direction_x, direction_y, direction_z;
+
+    BasicRaySpan<Real> span() const {
+        return {.origin_x = origin_x,
+                .origin_y = origin_y,
+                .origin_z = origin_z,
+                .direction_x = direction_x,
+                .direction_y = direction_y,
+                .direction_z = direction_z,
+                .origin_shape = shape,
+                .origin_face = face,
+                .origin_inward = inward};
+    }
+};
+
+/// Returns rays from the points of hits, in new directions of any length except zero. Each leaves
+/// the surface of its hit, to the side of the normal to which its direction goes. `hits` must have
+/// t or t_double (for DoubleRaySpan the better choice), the normals, shape and face. If a ray hit
+/// nothing, the new ray is refused. Throws InvalidValue if a span has a wrong length.
+RAYLANE_API OnwardRays<float> onward(const RaySpan& rays, const HitSpan& hits,
+                                     std::span<const float> direction_x,
+                                     std::span<const float> direction_y,
+                                     std::span<const float> direction_z);
+RAYLANE_API OnwardRays<double> onward(const DoubleRaySpan& rays, const HitSpan& hits,
+                                      std::span<const double> direction_x,
+                                      std::span<const double> direction_y,
+                                      std::span<const double> direction_z);
+
 /// n points, structure of arrays. All three spans have length n. The caller owns the arrays; they
-/// are only read. A point with an infinite or NaN coordinate is in no solid.
+/// are only read. A point with an infinite or NaN coordinate is refused: it is in no solid, and
+/// QueryStatistics::refused counts it.
 template <class Real>
 struct BasicPointSpan {
     std::span<const Real> x{}, y{}, z{};
@@ -96,14 +149,24 @@ struct CrossingOptions {
     bool normals = false; ///< true: fill the normals
 };
 
-/// Counts of the comparisons of two crossings, by the arithmetic that decided their order, and of
-/// the pairs of ray and shape whose intersection needed more than double. With
-/// CrossingOptions::most = 1 and Precision::exact, nothing is counted.
+/// Counts of a query.
+struct QueryStatistics {
+    /// Rays with an infinite or NaN component, a direction of 0 or a limit that is NaN, and points
+    /// with an infinite or NaN coordinate.
+    std::uint64_t refused = 0;
+};
+
+/// Counts of a query for all crossings. The first three are of comparisons of crossings. With
+/// CrossingOptions::most = 1 and Precision::exact, only `refused` is counted.
 struct CrossingStatistics {
-    std::uint64_t by_bounds = 0;     ///< decided by error bounds in double
-    std::uint64_t by_digits = 0;     ///< decided with twice the digits of double
-    std::uint64_t exactly = 0;       ///< decided in integers of any size
-    std::uint64_t beyond_double = 0; ///< pairs of ray and shape that needed more than double
+    std::uint64_t by_bounds = 0; ///< decided by error bounds in double
+    std::uint64_t by_digits = 0; ///< decided with twice the digits of double
+    std::uint64_t exactly = 0;   ///< decided in integers of any size
+
+    /// Pairs of ray and shape that needed more than double.
+    std::uint64_t beyond_double = 0;
+    /// Same as QueryStatistics::refused.
+    std::uint64_t refused = 0;
 };
 
 /// The solids that contain each of n points, in compressed rows. The solids of point i are the
@@ -145,10 +208,10 @@ struct TracerOptions {
 ///   occurs only if two t are equal in real arithmetic. Then a surface that the ray enters comes
 ///   before one that it leaves, and after that the lower id comes first.
 /// - t is the float nearest to the true t, but never 0 or infinite. t_double is the nearest double.
-///   The limits of float rays compare with the float t. So a t that is passed back as t_min leads
-///   to the next crossing, and skips all crossings that round to the same float. The limits of
-///   double rays compare with the true t. It is guaranteed to be less than
-///   nextafter(t_double, infinity). `occluded` returns 1 exactly if `intersect` finds a shape.
+///   Limits compare with t as it is answered: see BasicRaySpan::t_min. So a t that is passed back
+///   as t_min leads to the next crossing, and skips all crossings that round to the same t; as
+///   t_max, it includes its own crossing. `occluded` returns 1 exactly if `intersect` with t_double
+///   (for DoubleRaySpan) or t (for RaySpan) finds a shape.
 /// - Components of normals are the floats nearest to the components of the true normal at the true
 ///   crossing. If faces of a box meet there, the normal is that of the first face in the order
 ///   edge_u, edge_v, edge_w. At the rim of a capped cylinder or cone it is the normal of the side.
@@ -170,7 +233,7 @@ struct TracerOptions {
 ///   surface, so a ray that continues a hit should set RaySpan::origin_shape.
 /// - Shapes with equal numbers and the same material index count as one shape, the first. This does
 ///   not apply to triangles of polygons.
-/// - A ray hits nothing if a component is infinite or NaN, its direction is 0, or a limit is NaN.
+/// - A refused ray (see BasicRaySpan) hits nothing.
 class Tracer {
   public:
     /// Throws InvalidValue, field "threads" or "precision", if an option is out of range, or field
@@ -184,15 +247,20 @@ class Tracer {
 
     const Scene& scene() const { return scene_; }
 
-    /// Finds the nearest crossing of each ray. Throws InvalidValue, a std::invalid_argument, if a
-    /// span has a wrong length; the field is the span's name. Throws std::bad_alloc.
-    void intersect(const RaySpan& rays, const HitSpan& hits) const;
-    void intersect(const DoubleRaySpan& rays, const HitSpan& hits) const;
+    /// Finds the nearest crossing of each ray. This and the other queries replace *statistics,
+    /// unless it is null. Throws InvalidValue, a std::invalid_argument, if a span has a wrong
+    /// length; the field is the span's name. Throws std::bad_alloc.
+    void intersect(const RaySpan& rays, const HitSpan& hits,
+                   QueryStatistics* statistics = nullptr) const;
+    void intersect(const DoubleRaySpan& rays, const HitSpan& hits,
+                   QueryStatistics* statistics = nullptr) const;
 
     /// Writes 1 for each ray for which intersect would find a shape, and 0 for each other ray.
     /// `occluded` has length n. Throws the same exceptions as intersect.
-    void occluded(const RaySpan& rays, std::span<std::uint8_t> occluded) const;
-    void occluded(const DoubleRaySpan& rays, std::span<std::uint8_t> occluded) const;
+    void occluded(const RaySpan& rays, std::span<std::uint8_t> occluded,
+                  QueryStatistics* statistics = nullptr) const;
+    void occluded(const DoubleRaySpan& rays, std::span<std::uint8_t> occluded,
+                  QueryStatistics* statistics = nullptr) const;
 
     /// Finds all crossings of each ray within its limits, or the first CrossingOptions::most of
     /// them, in the order of their true t. The first crossing is the one that intersect finds. At
@@ -214,8 +282,10 @@ class Tracer {
     /// solid if it is so for either side of each of these surfaces; otherwise it is on the solid's
     /// surface. Results are exact at any precision. Replaces the contents of `rows`. Throws the
     /// same exceptions as intersect.
-    void contains(const PointSpan& points, SolidRows& rows) const;
-    void contains(const DoublePointSpan& points, SolidRows& rows) const;
+    void contains(const PointSpan& points, SolidRows& rows,
+                  QueryStatistics* statistics = nullptr) const;
+    void contains(const DoublePointSpan& points, SolidRows& rows,
+                  QueryStatistics* statistics = nullptr) const;
 
     /// Measures the length of each ray, from t_min to t_max, inside of the solids of each material.
     /// A stretch inside of several solids of one material counts once. A stretch inside of solids
@@ -223,8 +293,10 @@ class Tracer {
     /// solids are then infinite. Results are exact up to the final rounding, at any precision.
     /// Sides that Material::visible hides count. Replaces the contents of `rows`. Throws the same
     /// exceptions as intersect.
-    void path_lengths(const RaySpan& rays, LengthRows& rows) const;
-    void path_lengths(const DoubleRaySpan& rays, LengthRows& rows) const;
+    void path_lengths(const RaySpan& rays, LengthRows& rows,
+                      QueryStatistics* statistics = nullptr) const;
+    void path_lengths(const DoubleRaySpan& rays, LengthRows& rows,
+                      QueryStatistics* statistics = nullptr) const;
 
   private:
     Scene scene_;

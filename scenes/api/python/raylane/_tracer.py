@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
-from typing import Any, Optional, Tuple
+from typing import Any, Dict, Optional, Tuple, Type, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,13 +24,35 @@ Ids = NDArray[np.uint32]
 Bools = NDArray[np.bool_]
 Bytes = NDArray[np.uint8]
 Firsts = NDArray[np.uint64]
+AnyRows = TypeVar("AnyRows")
+
+
+@dataclass(eq=False)
+class Leaving(Fields):
+    """The surfaces that rays start on, from the hits that they continue. :meth:`Hits.onward` makes it.
+
+    Such a ray starts exactly on the surface, regardless of the rounding of its origin. ``shape`` and ``face``: those of
+    the hit, (n,) or one value for all rays; ``NO_SHAPE`` for a ray that starts on no surface. ``inward``: true if the
+    ray goes to the inside of that surface, that is, it is transmitted after an entering hit, or reflected after one that
+    is not entering. None: the direction decides, by the exact normal at the origin; a tangent goes to the outside.
+
+    Queries raise :class:`InvalidValue`, with the field ``leaving.shape/7`` for ray 7, if an origin is farther from the
+    shape than rounding explains: 2^-6 of the shape's size for float32, 2^-10 for float64, and 2^-18 of the coordinates.
+    Unbounded shapes take any origin. ``leaving.face/7``: the shape has no such face. ``leaving.inward/7``: the direction
+    goes to the other side, by an angle of more than 2^-5 (float32) or 2^-9 (float64), from the origin and from points
+    that far beside it.
+    """
+
+    shape: ArrayLike
+    face: ArrayLike
+    inward: Optional[ArrayLike] = None
 
 
 class Hits(Fields):
     """The nearest hits of n rays. Pass it as ``out`` to :meth:`Tracer.intersect` to reuse its arrays."""
 
-    t: Floats
-    """(n,): > 0 and finite, the float nearest to the true t; infinite where nothing is hit."""
+    t: Union[Floats, Doubles]
+    """(n,): > 0 and finite, the number nearest to the true t in the type of the rays; infinite where nothing is hit."""
     shape: Ids
     """(n,): ids of shapes, or ``NO_SHAPE`` where nothing is hit."""
     entering: Bools
@@ -37,7 +60,8 @@ class Hits(Fields):
     face: Bytes
     """(n,): the part of the shape's surface, for :class:`Leaving`."""
     t_double: Optional[Doubles]
-    """(n,): t in double, or None if not wanted. It takes longer to compute than all other values together."""
+    """(n,): t in float64, or None if not wanted. For rays in float64, it is ``t``; for others it takes longer to
+    compute than all other values together."""
 
     def __init__(self, count: int, double: bool = False) -> None:
         self.t = np.empty(count, np.float32)
@@ -46,6 +70,7 @@ class Hits(Fields):
         self.entering = np.empty(count, np.bool_)
         self.face = np.empty(count, np.uint8)
         self.t_double = np.empty(count, np.float64) if double else None
+        self._rays: Optional[Tuple[ArrayLike, ArrayLike]] = None
 
     @property
     def normal(self) -> Floats:
@@ -57,12 +82,37 @@ class Hits(Fields):
         """(n,): true where the ray hits a shape."""
         return np.not_equal(self.shape, NO_SHAPE)
 
+    def onward(self, directions: ArrayLike) -> Tuple[Union[Floats, Doubles], Leaving]:
+        """Returns the points of the hits, (n, 3), and the :class:`Leaving` of rays from there: ``tracer.intersect(points,
+        directions, leaving=leaving)``.
+
+        ``directions``: (n, 3) or (3,). Each ray goes to the side of the normal to which its direction goes. Points have
+        the type of ``t``. Where nothing is hit, the point is NaN, and the ray will be refused: leave it out by
+        ``hits.hit``. Reads the arrays of rays that were passed to :meth:`Tracer.intersect`.
+        """
+        if self._rays is None:
+            raise ValueError("onward needs hits that Tracer.intersect returned")
+        origins, along = (np.asarray(rays, np.float64) for rays in self._rays)
+        with np.errstate(invalid="ignore"):
+            points = np.where(self.hit[:, None], origins + self.t[:, None] * along, np.nan)
+        inward = np.einsum("ij,ij->i", self.normal, np.broadcast_to(np.asarray(directions, np.float64), points.shape)) < 0
+        return points.astype(self.t.dtype), Leaving(self.shape, self.face, inward)
+
     def __len__(self) -> int:
         return len(self.t)
 
-    def _arrays(self) -> Tuple[Any, ...]:
+    def _arrays(self, floats: bool, double: bool) -> Tuple[Any, ...]:
+        """Returns the arrays to fill for rays of a type, and adds those that are missing."""
+        kind = np.float32 if floats else np.float64
+        if self.t.dtype != kind:
+            self.t = np.empty(len(self), kind)
+        if not floats and (double or self.t_double is not None):
+            self.t_double = np.asarray(self.t, np.float64)  # the same array
+        elif double and self.t_double is None:
+            self.t_double = np.empty(len(self), np.float64)
         n = self._normal
-        return (self.t, n[0], n[1], n[2], self.shape, self.entering.view(np.uint8), self.face, self.t_double)
+        t = (self.t, self.t_double) if floats else (None, self.t)
+        return (t[0], n[0], n[1], n[2], self.shape, self.entering.view(np.uint8), self.face, t[1])
 
     def __repr__(self) -> str:
         return f"<raylane.Hits: {int(self.hit.sum())} of {len(self)} rays>"
@@ -134,31 +184,20 @@ class Lengths(_Rows):
         return np.bincount(self.of(), which, len(self)).astype(np.float64)
 
 
-@dataclass(eq=False)
-class Leaving(Fields):
-    """The surfaces that rays start on, from the hits that they continue.
-
-    Such a ray starts exactly on the surface, regardless of the rounding of its origin. ``shape`` and ``face``: those of
-    the hit, (n,) or one value for all rays; ``NO_SHAPE`` for a ray that starts on no surface. ``inward``: true if the
-    ray continues on the inside of that surface, that is, it is transmitted after an entering hit, or reflected after
-    one that is not entering.
-    """
-
-    shape: ArrayLike
-    face: ArrayLike
-    inward: ArrayLike
-
-
 class Tracer:
     """Answers ray and point queries about a scene.
 
     ``origins`` and ``directions`` have the shape (n, 3), or (3,) for all rays. Directions may have any length except
     zero; t is in units of that length. ``t_min`` and ``t_max`` have the shape (n,), or are numbers for all rays.
-    Components are 0 or have a magnitude from 2^-149 to below 2^128. The smaller components of a direction may be as
-    small as 2^-276 of its largest. A ray with other values, such as NaN, hits nothing.
+    All finite numbers are used exactly. A ray is refused if a component is infinite or NaN, its direction is 0, or a
+    limit is NaN. It then hits nothing, and the call warns with a ``RuntimeWarning`` that has the number of such rays.
+    Rays with numbers far outside of the range of float32 (coordinates that are not 0 and smaller than 2^-149 or from
+    2^128 on, directions shorter than 2^-400 or longer than 2^400 or with components of less than 2^-276 of the largest)
+    take some microseconds each.
 
     If all arrays, including ``t_min`` and ``t_max``, are float32, the rays are traced as float rays, otherwise as
-    double rays, with exactly the given numbers. A plain number as a limit takes the type of the rays. Arrays with
+    double rays, with exactly the given numbers. ``t`` has the type of the rays. A limit takes the type of the rays if it
+    is a plain number, or an array whose values are all float32 values. Arrays with
     contiguous columns (``np.empty((3, n)).T`` or Fortran order) are read in place. Other arrays are copied in parts,
     and arrays of another type are converted first.
 
@@ -177,7 +216,7 @@ class Tracer:
     ...               ' [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}]}')
     >>> hits = Tracer(scene).intersect([[0, 0, 5], [0, 2, 5]], [0, 0, -1])
     >>> hits.t
-    array([ 4., inf], dtype=float32)
+    array([ 4., inf])
     """
 
     def __init__(self, scene: Scene, threads: int = 0, precision: Precision = "exact") -> None:
@@ -206,15 +245,17 @@ class Tracer:
     ) -> Hits:
         """Returns the nearest crossing of each ray with t_min < t <= t_max.
 
-        ``double=True`` also computes ``t_double``. ``out``: the :class:`Hits` of n rays to fill and return.
+        Limits compare with t as it is returned: a t that is passed back as ``t_min`` leads to the next crossing, and as
+        ``t_max`` includes its own. ``double=True`` also computes ``t_double``. ``out``: the :class:`Hits` of n rays to
+        fill and return; it gets a new ``t`` if that has another type than the rays.
         """
         if out is None:
             out = Hits(_count(origins, directions), double)
         elif not isinstance(out, Hits):
             raise TypeError(f"out must be a raylane.Hits, not {type(out).__name__}")
-        elif double and out.t_double is None:
-            out.t_double = np.empty(len(out), np.float64)
-        self._tracer.intersect(origins, directions, self._rest(t_min, t_max, leaving), out._arrays())
+        to = out._arrays(self._tracer.are_floats(origins, directions, t_min, t_max), double)
+        _warn(self._tracer.intersect(origins, directions, self._rest(t_min, t_max, leaving), to))
+        out._rays = (origins, directions)
         return out
 
     def occluded(
@@ -236,7 +277,7 @@ class Tracer:
         elif not isinstance(out, np.ndarray) or out.dtype != np.bool_ or not out.flags.c_contiguous:
             raise InvalidValue("out", "must be a contiguous array of bool")
         rest = self._rest(t_min, t_max, leaving)
-        self._tracer.occluded(origins, directions, rest, out.view(np.uint8))
+        _warn(self._tracer.occluded(origins, directions, rest, out.view(np.uint8)))
         return out
 
     def crossings(
@@ -256,7 +297,7 @@ class Tracer:
         found.
         """
         rest = self._rest(t_min, t_max, leaving)
-        return Crossings(**self._tracer.crossings(origins, directions, rest, most, normals))
+        return _rows(Crossings, self._tracer.crossings(origins, directions, rest, most, normals))
 
     def path_lengths(
         self,
@@ -267,11 +308,24 @@ class Tracer:
         t_max: Optional[ArrayLike] = None,
     ) -> Lengths:
         """Returns the length of each ray inside of the solids of each material. Exact up to the final rounding."""
-        return Lengths(**self._tracer.path_lengths(origins, directions, self._rest(t_min, t_max, None)))
+        return _rows(Lengths, self._tracer.path_lengths(origins, directions, self._rest(t_min, t_max, None)))
 
     def contains(self, points: ArrayLike) -> Solids:
         """Returns the solids that contain each point inside or on the surface. ``points``: (n, 3). Always exact."""
-        return Solids(**self._tracer.contains(points))
+        return _rows(Solids, self._tracer.contains(points), "points are refused: a coordinate is infinite or NaN")
+
+
+_REFUSED = "rays are refused, and hit nothing: a component is infinite or NaN, a direction is 0, or a limit is NaN"
+
+
+def _warn(refused: int, reason: str = _REFUSED, stacklevel: int = 3) -> None:
+    if refused:
+        warnings.warn(f"{refused} {reason}", RuntimeWarning, stacklevel)
+
+
+def _rows(kind: Type[AnyRows], columns: Dict[str, Any], reason: str = _REFUSED) -> AnyRows:
+    _warn(columns.pop("refused"), reason, 4)
+    return kind(**columns)
 
 
 def _count(origins: ArrayLike, directions: ArrayLike) -> int:

@@ -1,0 +1,132 @@
+#pragma once
+
+#include "core/shapes/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+/// Rays that start on a shape: the side to which they go, and checks of what a caller says of them.
+namespace raylane::core {
+
+/// Returns the number of a shape's faces: see Face.
+template <class Shape>
+constexpr int face_count() {
+    constexpr Kind kind = kind_of<Shape>;
+    return kind == Kind::box                                            ? 6
+           : kind == Kind::capped_cylinder || kind == Kind::capped_cone ? 3
+                                                                        : 1;
+}
+
+namespace detail {
+
+/// Returns about the distance of a point from the surface with a face. `normal`: the surface's
+/// outward_direction() there.
+template <class Shape>
+double distance_from(const Shape& shape, const Vec3d& point, Face face, const Vec3d& normal) {
+    constexpr Kind kind = kind_of<Shape>;
+    const auto from_plane = [&](const Vec3d& on_plane) {
+        return std::abs(dot(normal, point - on_plane)) / length(normal);
+    };
+    if constexpr (kind == Kind::box) {
+        const Vec3d edges[] = {shape.edge_u, shape.edge_v, shape.edge_w};
+        return from_plane(face % 2 == 0 ? shape.corner : shape.corner + edges[face / 2]);
+    } else if constexpr (kind == Kind::disc) {
+        return from_plane(shape.center);
+    } else if constexpr (AnyTriangle<Shape>) {
+        return from_plane(shape.a);
+    } else if constexpr (requires { shape.axis; }) {
+        if (face != body)
+            return from_plane(face == base_cap ? shape.base : shape.base + shape.axis);
+        const double share = dot(point - shape.base, shape.axis) / squared_length(shape.axis);
+        double radius = 0.0;
+        if constexpr (requires { shape.radius; })
+            radius = shape.radius;
+        else
+            radius = shape.base_radius + share * (shape.top_radius - shape.base_radius);
+        return std::abs(length(offset_from_axis(shape.base, shape.axis, point)) - radius);
+    } else {
+        // The form's gradient is once or twice the normal.
+        return std::abs(forms_at(shape, point)[0]) / length(normal);
+    }
+}
+
+/// Returns how far the origin of a ray may be from the point for which it stands: a share of the
+/// shape's size, and 2^-18 of all coordinates.
+template <class Shape>
+double tolerance_of(const Shape& shape, const Vec3d& origin, double share_of_size) {
+    double size = 0.0, coordinate = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        coordinate = std::max(coordinate, std::abs(origin[axis]));
+    if constexpr (is_bounded<Shape>) {
+        const Bounds bounds = bounds_of(shape);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto lower = static_cast<double>(bounds.lower[axis]);
+            const auto upper = static_cast<double>(bounds.upper[axis]);
+            size = std::max(size, upper - lower);
+            coordinate = std::max({coordinate, std::abs(lower), std::abs(upper)});
+        }
+    }
+    return share_of_size * size + 0x1p-18 * coordinate;
+}
+
+} // namespace detail
+
+/// Returns true if the origin of a ray that leaves a face may be a point of it that was rounded,
+/// also in float and from far away. Any point may be on an unbounded shape.
+template <class Shape>
+bool may_start_on(const Shape& shape, const Vec3d& origin, Face face, double share_of_size) {
+    if constexpr (is_bounded<Shape>) {
+        const double most = detail::tolerance_of(shape, origin, share_of_size);
+        const Bounds bounds = bounds_of(shape);
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(origin[axis] >= static_cast<double>(bounds.lower[axis]) - most &&
+                  origin[axis] <= static_cast<double>(bounds.upper[axis]) + most))
+                return false;
+        // Not a number at an apex, where the normal vanishes.
+        return !(detail::distance_from(shape, origin, face,
+                                       outward_direction(shape, origin, face)) > most);
+    } else {
+        return true;
+    }
+}
+
+/// Returns the side of a face to which a ray goes that starts on it, as real arithmetic decides for
+/// the normal at its origin: -1 inside (behind), 1 outside, 0 along the surface.
+template <class Shape>
+int side_of_departure(const Shape& shape, const Ray<double>& ray, Face face) {
+    using Real = Bounded<double>;
+    const Ray<Real> bounded{convert<Real>(ray.origin), convert<Real>(ray.direction)};
+    Vec3<Real> normal;
+    if constexpr (kind_of<Shape> == Kind::box)
+        normal = outward_direction(shape, bounded.origin, face); // the same, in less time
+    else
+        normal = normal_along(shape, bounded, face).v;
+    const Real along = dot(normal, bounded.direction);
+    if (along.magnitude() > along.error) return along.value > 0.0 ? 1 : -1;
+    const ExactRay exact{convert<Dyadic>(ray.origin), convert<Dyadic>(ray.direction)};
+    return dot(normal_along(shape, exact, face).v, exact.direction).sign();
+}
+
+/// Returns true if a ray goes away from a face, or to its inside, at an angle that rounding does
+/// not explain. Near a tip, or on a tiny shape, the normal is another one just beside the origin.
+template <class Shape>
+bool departs_clearly(const Shape& shape, const Ray<double>& ray, Face face, double share_of_size) {
+    const Vec3d& d = ray.direction;
+    const Vec3d along = d / std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+    const auto sine_at = [&](const Vec3d& point) {
+        const Vec3d normal = outward_direction(shape, point, face);
+        return dot(normal, along) / (length(normal) * length(along));
+    };
+    const double off = detail::tolerance_of(shape, ray.origin, share_of_size);
+    const double sine = sine_at(ray.origin), least = 2.0 * share_of_size;
+    bool is_clear = std::abs(sine) > least; // false for NaN, as at an apex
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double step : {-off, off}) {
+            Vec3d beside = ray.origin;
+            beside[axis] += step;
+            is_clear = is_clear && std::copysign(1.0, sine) * sine_at(beside) > least;
+        }
+    return is_clear;
+}
+
+} // namespace raylane::core
