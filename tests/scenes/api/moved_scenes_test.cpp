@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -349,6 +350,7 @@ TEST_CASE("an error about moved spheres names the sphere") {
     for (const float x : {0.0F, 9.0F})
         builder.add(Sphere{{x, 0, 0}, 1}, material);
     const Scene scene = builder.build();
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const auto message = [&](const Points& positions, bool in_double = false) {
         return message_of<InvalidValue>([&] {
             static_cast<void>(in_double ? scene.with_positions(positions)
@@ -359,7 +361,7 @@ TEST_CASE("an error about moved spheres names the sphere") {
     CHECK(message({{0, 0, 0}}) == "positions: must have one element for each of 2 spheres, got 1");
     CHECK(message({{0, 0, 0}, {1, 0, 1e31}}) ==
           "positions/1/2: must be a number from -1e30 to 1e30, got 1e+31");
-    CHECK(message({{0, 0, 0}, {1, NAN, 0}}, true) ==
+    CHECK(message({{0, 0, 0}, {1, nan, 0}}, true) ==
           "positions/1/1: must be a number from -1e30 to 1e30, got nan");
     CHECK(message({{1.1e-39, 0, 0}, {1, 0, 0}}, true) ==
           "positions/0/0: must be 0 or at least 1.2e-38 in size, got 1.1e-39");
