@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that comments, pages, messages and names of tests are in plain words, and subjects of commits imperative.
+"""Checks that comments, pages, docstrings, messages and names of tests are in plain words, and subjects of commits imperative.
 
     prose_test.py SOURCE            every folder is within its limit of flagged lines; lists them otherwise
     prose_test.py SOURCE FILE...    lists the flagged lines of files
@@ -8,6 +8,7 @@ It flags patterns of sentences that have to be read twice (see CONTRIBUTING.md).
 room for those.
 """
 
+import ast
 import pathlib
 import re
 import subprocess
@@ -47,10 +48,21 @@ def without_code(text):
     return re.sub(r"`[^`]*`", "X", text)
 
 
+def docstrings(source):
+    """Yields the number and the text of each line of a Python file's docstrings, those of fields among them."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
+            for number, line in enumerate(node.value.value.split("\n"), node.lineno):
+                yield number, re.sub(r"``[^`]*``", "X", without_code(line))
+
+
 def prose_of(path):
-    """Yields the number and the prose of each line that has any: comments, text of pages, and longer strings."""
-    fenced = False
-    for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
+    """Yields the number and the prose of each line that has any: comments, docstrings, text of pages, descriptions in
+    the schema, and longer strings."""
+    fenced, source = False, path.read_text(encoding="utf-8")
+    if path.suffix == ".py":
+        yield from docstrings(source)
+    for number, line in enumerate(source.split("\n"), 1):
         if path.suffix in PAGES:
             if line.lstrip().startswith("```"):
                 fenced = not fenced
@@ -62,6 +74,9 @@ def prose_of(path):
             for string in re.findall(r'"((?:[^"\\]|\\.)*)"', line):
                 if string.count(" ") >= 3:
                     yield number, string
+        elif path.suffix == ".json":
+            if description := re.search(r'"description": "((?:[^"\\]|\\.)*)"', line):
+                yield number, description[1]
         elif path.suffix in HASHES and (comment := re.search(r"(?:^|\s)#\s?(.*)", line)):
             yield number, comment[1]
 
@@ -111,7 +126,8 @@ def main():
     listed, counts, words, whats = {}, {}, 0, 0
     for name in names:
         path = source / name
-        if path.suffix not in C_LIKE | HASHES | PAGES or path == source / "tests/prose_test.py" or not path.is_file():
+        is_prose = path.suffix in C_LIKE | HASHES | PAGES or name.endswith(".schema.json")
+        if not is_prose or name == "tests/prose_test.py" or not path.is_file():
             continue
         found, of_words, of_whats = flagged(path)
         words, whats = words + of_words, whats + of_whats

@@ -27,7 +27,7 @@ SMALL = 11
 
 
 def source(name, pattern):
-    """Returns the text that the pattern, or its group, matches in a source file. Exits if there is no match."""
+    """Returns the text that the pattern, or its group, matches in a source file. Exits if nothing matches."""
     found = re.search(pattern, (ROOT / name).read_text())
     if not found:
         sys.exit(f"{name}: must match {pattern}, found no match")

@@ -73,7 +73,7 @@ def dot(a, b):
 
 @pytest.mark.parametrize("name", ["pbrt-265", "pbrt-44-far", "mitsuba-512", "mitsuba-1236", "plotoptix-4", "double-shells"])
 def test_rays_hit_the_spheres_that_rational_arithmetic_finds(name):
-    """Of two concentric spheres, rays hit the outer one."""
+    """Rays hit the outer one of two concentric spheres."""
     path = ROOT / "bench/failures" / f"{name}.json"
     description = textbook.read(path)
     origins, directions = (rays[::11] for rays in textbook.camera_rays(description))

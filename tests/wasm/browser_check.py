@@ -1,4 +1,4 @@
-"""Checks the page in a headless browser: a scene is shown and turns, with a native raylane's bytes. By tests/wasm.sh.
+"""Checks the page in a headless browser: a scene is shown and turns, with a native raylane's bytes. tests/wasm.sh calls it.
 
     python3 tests/wasm/browser_check.py PAGE RAYLANE [FOLDER]
 

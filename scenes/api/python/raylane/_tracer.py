@@ -87,7 +87,7 @@ class Hits(Fields):
         directions, leaving=leaving)``.
 
         ``directions``: (n, 3) or (3,). Each ray goes to the side of the normal to which its direction goes. Points have
-        the type of ``t``. Where nothing is hit, the point is NaN, and the ray will be refused: leave it out by
+        the type of ``t``. A ray that hit nothing gets the point NaN, and a query refuses such rays: leave them out by
         ``hits.hit``. Reads the arrays of rays that were passed to :meth:`Tracer.intersect`.
         """
         if self._rays is None:
@@ -191,15 +191,15 @@ class Tracer:
     zero; t is in units of that length. ``t_min`` and ``t_max`` have the shape (n,), or are numbers for all rays.
     All finite numbers are used exactly. A ray is refused if a component is infinite or NaN, its direction is 0, or a
     limit is NaN. It then hits nothing, and the call warns with a ``RuntimeWarning`` that has the number of such rays.
-    Rays with numbers far outside of the range of float32 (coordinates that are not 0 and smaller than 2^-149 or from
-    2^128 on, directions shorter than 2^-400 or longer than 2^400 or with components of less than 2^-276 of the largest)
-    take some microseconds each.
+    Rays with numbers far outside of the range of float32 take some microseconds each: with coordinates from 2^128 on, or
+    below 2^-149 but not 0; with directions shorter than 2^-400 or longer than 2^400; with components of a direction
+    below 2^-276 of the largest one.
 
     If all arrays, including ``t_min`` and ``t_max``, are float32, the rays are traced as float rays, otherwise as
     double rays, with exactly the given numbers. ``t`` has the type of the rays. A limit takes the type of the rays if it
-    is a plain number, or an array whose values are all float32 values. Arrays with
-    contiguous columns (``np.empty((3, n)).T`` or Fortran order) are read in place. Other arrays are copied in parts,
-    and arrays of another type are converted first.
+    is a plain number, or an array whose values are all float32 values. Arrays with contiguous columns
+    (``np.empty((3, n)).T`` or Fortran order) are read in place. Other arrays are copied in parts, and arrays of another
+    type are converted first.
 
     A line that lies in a flat or open surface, or in a quadric, does not hit it there. A line that lies in a face of a
     solid or along its side hits it where the line reaches it. The same holds for the parts of a constructed solid: along
