@@ -353,10 +353,10 @@ def peers_figure(source):
     names = [machine.ISA_NAMES[isa] for isa in isas]
     begin("Rays per second against the number of uniform spheres of radius 0.3/n^{1/3} in the unit cube, one thread",
           "Higher is better. Top axis: speed of raylane's library relative to Embree, %s." % names[0],
-          machine.small_print(document, isas, ("raylane", "Embree")), "1,2", "number of spheres n", "million rays/s")
+          machine.small_print(document, isas, ("raylane", "Embree")), "1,3", "number of spheres n", "million rays/s")
     print("set logscale x\nset logscale x2\nset format x '10^{%L}'\nset format y '%g'\nset yrange [0.3:300]")
     print("set xtics nomirror\nset key top right samplen 2 spacing 1.2 font ',9'")
-    for what in ("camera", "incoherent"):
+    for what in ("camera", "diffuse", "shadow"):
         by_isa = {isa: speeds_by_count([row for row in rows if row.get("isa") == isa], what) for isa in isas}
         points = by_isa[isas[0]]
         print("set title '%s rays' offset 0,-0.6" % what)

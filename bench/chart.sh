@@ -48,7 +48,7 @@ draw() { # figure, size, arguments of chart.py
     done
 }
 if [ -n "${PEERS:-}" ]; then
-    draw peers 1200,540 "$PEERS" peers
+    draw peers 1500,540 "$PEERS" peers
     errors=$(dirname "$PEERS")/errors.json
     [ ! -f "$errors" ] || draw errors 1100,800 "$errors" errors
     exit

@@ -80,7 +80,7 @@ std::size_t count_wrong(const simd::CrossingRows& right, const ShapeRows& other)
 Row measure_crossings(const simd::SceneData& scene, const Measuring& how) {
     const std::vector<RaySet> sets = make_ray_sets(scene.scene(), scene, how.side);
     const RaySet& rays = *std::find_if(sets.begin(), sets.end(),
-                                       [](const RaySet& set) { return set.name == "incoherent"; });
+                                       [](const RaySet& set) { return set.name == "random"; });
     Row row{"crossings", rays.count, /*is_speed=*/true, {}};
     Library library(scene.scene(), how.isa, rays);
     std::vector<TimedRun> runs = {

@@ -69,7 +69,7 @@ std::vector<Result> alternate(const std::vector<TimedRun>& runs, const Measuring
 void measure_rays(const simd::SceneData& scene, const std::vector<std::string>& wanted,
                   const Measuring& how, const std::function<void(const Row&)>& report);
 
-/// Measures all crossings of `incoherent` rays, in order, on one thread.
+/// Measures all crossings of `random` rays, in order, on one thread.
 Row measure_crossings(const simd::SceneData& scene, const Measuring& how);
 
 /// Measures the time to build a hierarchy on one thread, until the first ray can be traced.

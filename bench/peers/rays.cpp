@@ -34,36 +34,42 @@ double run(Contender& contender, const RaySet& rays, int threads) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Decides which answers are right.
+/// Decides which answers are right, for the rays in double and for the same rays in float.
 class Judge {
   public:
     Judge(const simd::SceneData& scene, const RaySet& rays)
         : scene_(scene), rays_(rays), reference_(scene.scene(), scene.scene().settings()) {}
 
     void ask(std::size_t ray) {
-        encounter_ = reference_.nearest(
-            rays_.ray(ray), simd::origin_surfaces_of(scene_, rays_.paths(ray, 1), /*lane=*/0));
-        blocked_ =
-            encounter_.hit.any() && encounter_.hit.t < static_cast<double>(*rays_.t_limit(ray));
+        const core::Ray<float> in_float = rays_.ray_in_float(ray);
+        const core::Ray<double> asked[] = {
+            rays_.ray(ray),
+            {core::convert<double>(in_float.origin), core::convert<double>(in_float.direction)}};
+        for (const bool floats : {false, true})
+            encounters_[floats] = reference_.nearest(
+                asked[floats], simd::origin_surfaces_of(scene_, rays_.paths(ray, 1), /*lane=*/0));
+        t_limit_ = static_cast<double>(*rays_.t_limit(ray));
     }
 
     /// Returns true if an answer is right. If surfaces meet in one point, each of them is.
-    bool is_right(std::uint32_t answer) const {
-        if (rays_.occlusion) return (answer != 0) == blocked_;
-        if (!encounter_.hit.any()) return answer == core::no_shape;
-        return answer == encounter_.hit.shape || encounter_.contacts.find(answer) != nullptr;
+    bool is_right(std::uint32_t answer, bool in_float) const {
+        const core::Encounter<double>& encounter = encounters_[in_float];
+        const core::Hit<double>& hit = encounter.hit;
+        if (rays_.occlusion) return (answer != 0) == (hit.any() && hit.t < t_limit_);
+        if (!hit.any()) return answer == core::no_shape;
+        return answer == hit.shape || encounter.contacts.find(answer) != nullptr;
     }
 
   private:
     const simd::SceneData& scene_;
     const RaySet& rays_;
     core::ReferenceTracer<double> reference_;
-    core::Encounter<double> encounter_;
-    bool blocked_ = false;
+    core::Encounter<double> encounters_[2]; ///< of the rays in double, in float
+    double t_limit_ = 0.0;
 };
 
 /// Counts wrong answers. The reference tracer decides where contenders disagree, and for a sample
-/// of the other rays.
+/// of the other rays. All contenders but the first, raylane's engine, get the rays in float.
 void count_wrong(const simd::SceneData& scene, const RaySet& rays, const Contenders& contenders,
                  std::vector<Result>& results) {
     constexpr std::size_t sample = 64;
@@ -80,7 +86,7 @@ void count_wrong(const simd::SceneData& scene, const RaySet& rays, const Contend
         if (agreed && ray % sample != 0) continue;
         judge.ask(ray);
         for (std::size_t who = 0; who < results.size(); ++who)
-            if (!judge.is_right(answers[who][ray])) ++*results[who].wrong;
+            if (!judge.is_right(answers[who][ray], /*in_float=*/who > 0)) ++*results[who].wrong;
     }
 }
 

@@ -108,7 +108,7 @@ scenes=
 for count in $counts; do
     scenes="$scenes spheres/$count"
 done
-all="camera scanlines mirror shadow incoherent occlusion"
+all="camera scanlines mirror diffuse diffuse-2 shadow sky ambient random occlusion"
 # shellcheck disable=SC2086 # lists of words
 {
     measure $scenes sticks/$many "$picture" --rays $all

@@ -254,7 +254,7 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
     std::vector<RaySet> sets(std::size(ray_set_names));
     RaySet &camera = sets[0], &scanlines = sets[1], &mirror = sets[2], &diffuse = sets[3],
            &diffuse_2 = sets[4], &shadow = sets[5], &sky = sets[6], &ambient = sets[7],
-           &incoherent = sets[8], &occlusion = sets[9];
+           &random = sets[8], &occlusion = sets[9];
     for (std::size_t i = 0; i < sets.size(); ++i)
         sets[i].name = ray_set_names[i];
     for (RaySet* set : {&shadow, &sky, &ambient, &occlusion})
@@ -307,11 +307,11 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
         const Vec3d from = any_point(), to = any_point();
         const double distance = core::length(to - from);
         const Ray<double> ray{from, (to - from) / distance};
-        incoherent.add(ray, infinity);
+        random.add(ray, infinity);
         occlusion.add(ray, static_cast<float>(distance));
     }
     for (RaySet* set :
-         {&scanlines, &mirror, &diffuse_2, &shadow, &sky, &ambient, &incoherent, &occlusion})
+         {&scanlines, &mirror, &diffuse_2, &shadow, &sky, &ambient, &random, &occlusion})
         set->finish();
     return sets;
 }

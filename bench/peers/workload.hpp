@@ -58,9 +58,9 @@ struct RaySet {
     std::vector<std::uint32_t> origin_first_, origin_last_, origin_slot_, departure_;
 };
 
-inline constexpr const char* ray_set_names[] = {"camera",     "scanlines", "mirror", "diffuse",
-                                                "diffuse-2",  "shadow",    "sky",    "ambient",
-                                                "incoherent", "occlusion"};
+inline constexpr const char* ray_set_names[] = {"camera",    "scanlines", "mirror", "diffuse",
+                                                "diffuse-2", "shadow",    "sky",    "ambient",
+                                                "random",    "occlusion"};
 
 /// Makes the ray sets:
 /// - `camera`: rays of an image of side x side pixels, tile by tile;
@@ -71,7 +71,7 @@ inline constexpr const char* ray_set_names[] = {"camera",     "scanlines", "mirr
 /// - `shadow`: from the camera rays' hits to a point light, with unit directions in float;
 /// - `sky`: whether the rays of `diffuse` hit anything;
 /// - `ambient`: the same up to a distance of 1/20 of the scene's longest side;
-/// - `incoherent`: `side`^2 / 4 rays from a random point of the scene's bounds through another one;
+/// - `random`: `side`^2 / 4 rays from a random point of the scene's bounds through another one;
 /// - `occlusion`: whether anything is between those two points.
 std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneData& data, int side);
 

@@ -10,9 +10,9 @@ fail() {
 }
 
 "$peers" spheres/100 sticks/100 --size 32 --repetitions 1 --threads 2 --json peers.json \
-    --rays camera scanlines mirror shadow incoherent occlusion crossings build picture ||
+    --rays camera scanlines mirror shadow diffuse random occlusion crossings build picture ||
     fail "raylane is wrong, or fails: $?"
-for row in camera scanlines mirror shadow incoherent occlusion crossings build picture; do
+for row in camera scanlines mirror shadow diffuse random occlusion crossings build picture; do
     grep -q "\"what\": \"$row\"" peers.json || fail "no $row in peers.json"
 done
 

@@ -42,7 +42,7 @@ rows = [
         "own": "library",
         "by": [{"name": name, "median": next(count) * 1.5} for name in ("raylane exact", "library", "embree16")],
     }
-    for n, what in itertools.product((10, 1000), ("build", "camera", "incoherent"))
+    for n, what in itertools.product((10, 1000), ("build", "camera", "diffuse"))
 ]
 (folder / "peers.json").write_text(json.dumps({"rows": rows}))
 rows = [
