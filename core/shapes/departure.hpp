@@ -107,6 +107,46 @@ int side_of_departure(const Shape& shape, const Ray<double>& ray, Face face) {
     return dot(normal_along(shape, exact, face).v, exact.direction).sign();
 }
 
+/// Returns side_of_departure() of a ray that may_start_on() a shape, if both are decided by few
+/// operations, as for most rays from spheres and from the sides of cylinders. Otherwise returns 0.
+template <class Shape>
+int clear_side_of_departure(const Shape& shape, const Ray<double>& ray, Face face,
+                            double share_of_size) {
+    constexpr Kind kind = kind_of<Shape>;
+    if constexpr (kind == Kind::sphere || kind == Kind::open_cylinder ||
+                  kind == Kind::capped_cylinder) {
+        const auto sizes = [](const Vec3d& a, const Vec3d& b) {
+            return std::abs(a.x * b.x) + std::abs(a.y * b.y) + std::abs(a.z * b.z);
+        };
+        const Vec3d& d = ray.direction;
+        Vec3d normal;
+        double size = 0.0; // that of the terms of dot(normal, d)
+        if constexpr (kind == Kind::sphere) {
+            normal = ray.origin - convert<double>(shape.center);
+            size = sizes(normal, d);
+        } else {
+            const Vec3d axis = convert<double>(shape.axis);
+            const Vec3d from_base = ray.origin - convert<double>(shape.base);
+            const double axis_squared = squared_length(axis);
+            const double height = dot(from_base, axis) / axis_squared;
+            if (face != body || !(height >= 0.0 && height <= 1.0)) return 0;
+            normal = from_base - height * axis;
+            size = sizes(from_base, d) + sizes(from_base, axis) / axis_squared * sizes(axis, d);
+        }
+        const auto radius = static_cast<double>(shape.radius);
+        if (!(std::abs(squared_length(normal) - radius * radius) <=
+              share_of_size * (radius * radius)))
+            return 0;
+        // At most 16 roundings, each by 2^-53 of `size`. Underflow is far below that.
+        const double along = dot(normal, d);
+        const double most = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+        if (most > 0x1p-300 && most < 0x1p400 && size > 0x1p-600 * most &&
+            std::abs(along) > 0x1p-45 * size)
+            return along > 0.0 ? 1 : -1;
+    }
+    return 0;
+}
+
 /// Returns true if a ray goes away from a face, or to its inside, at an angle that rounding does
 /// not explain. Near a tip, or on a tiny shape, the normal is another one just beside the origin.
 template <class Shape>

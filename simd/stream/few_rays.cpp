@@ -77,11 +77,6 @@ bool FewRays::take(const RayStream<Real>& rays, std::size_t i) {
     per_unit_ = 1.0 / length_;
     for (int axis = 0; axis < 3; ++axis)
         ray_.direction[axis][0] = direction[axis] * per_unit_;
-    if (rays.origin_shape != nullptr)
-        start_on(paths_, 0, scene_, shapes_.slots(), rays, i);
-    else
-        paths_.start_nowhere(0, 1);
-    if ((ray_.origin_bits[0] & origin_may_return) != 0) return false;
     ray_.before[0] = 0.0;
     t_limit_ = core::infinity<double>;
     if constexpr (std::is_same_v<Real, float>) {
@@ -89,6 +84,11 @@ bool FewRays::take(const RayStream<Real>& rays, std::size_t i) {
         const float t_max = rays.t_max != nullptr ? rays.t_max[i] : core::infinity<float>;
         if (!take_limits(t_min, t_max)) return false;
     }
+    if (rays.origin_shape != nullptr)
+        start_on(paths_, 0, scene_, shapes_.slots(), rays, i);
+    else
+        paths_.start_nowhere(0, 1);
+    if ((ray_.origin_bits[0] & origin_may_return) != 0) return false;
     round();
     return true;
 }

@@ -63,12 +63,16 @@ bool goes_inside(const Shape& shape, const GivenStart& start) {
         throw core::InvalidValue("origin_face", "must be less than the shape's number of faces, " +
                                                     std::to_string(faces) + ", got " +
                                                     std::to_string(start.face));
+    const bool inward = start.inward != nullptr && (*start.inward != 0) != start.reversed;
+    const int clear_side =
+        core::clear_side_of_departure(shape, start.ray, start.face, start.rounding);
+    if (clear_side != 0 && (start.inward == nullptr || inward == (clear_side < 0)))
+        return clear_side < 0;
     if (!core::may_start_on(shape, start.ray.origin, start.face, start.rounding))
         throw core::InvalidValue("origin_shape",
                                  "must be a shape that the origin is on, within rounding");
     const int side = core::side_of_departure(shape, start.ray, start.face);
     if (start.inward == nullptr) return side < 0;
-    const bool inward = (*start.inward != 0) != start.reversed;
     if (side == (inward ? 1 : -1) &&
         core::departs_clearly(shape, start.ray, start.face, start.rounding))
         throw core::InvalidValue(
@@ -79,6 +83,8 @@ bool goes_inside(const Shape& shape, const GivenStart& start) {
 
 bool goes_inside(const core::Scene& scene, core::Kind kind, core::Place place,
                  const GivenStart& start) {
+    if (kind == core::Kind::sphere) // the most frequent one
+        return goes_inside(std::get<core::Table<core::Sphere>>(scene.shapes()).get(place), start);
     return core::with_table(scene.shapes(), kind, [&](const auto& table) {
         return goes_inside(table.get(place), start);
     });
@@ -224,7 +230,7 @@ void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,
               std::span<const std::uint32_t> slots, const RayStream<Real>& rays, std::size_t i) {
     const core::ShapeId shape = rays.origin_shape[i];
     const std::uint32_t slot = shape < slots.size() ? slots[shape] : no_slot;
-    if (slot == no_slot || is_refused(rays, i)) return paths.start_nowhere(lane, lane + 1);
+    if (slot == no_slot) return paths.start_nowhere(lane, lane + 1);
     const SceneData::NamedShape named = scene.shape_named(shape, slot);
     const GivenStart start{ray_in_double(rays, i),
                            rays.origin_face != nullptr ? rays.origin_face[i] : core::body,
@@ -247,7 +253,10 @@ void StreamIntake::start_on(const RayStream<Real>& rays, std::size_t count, std:
         if (i + ahead < count && rays.origin_shape[i + ahead] < slots.size())
             __builtin_prefetch(&slots[rays.origin_shape[i + ahead]]);
         const std::uint32_t of_limits = paths_.origin_bits[to + i];
-        simd::start_on(paths_, to + i, scene_, slots, rays, i);
+        if (is_ray(to + i) || !is_refused(rays, i))
+            simd::start_on(paths_, to + i, scene_, slots, rays, i);
+        else
+            paths_.start_nowhere(to + i, to + i + 1);
         paths_.origin_bits[to + i] |= of_limits;
     }
 }

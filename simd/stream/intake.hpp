@@ -75,7 +75,7 @@ struct LoneRay {
     }
 };
 
-/// Starts a lane on the shape that ray i names, if it is a shape of the scene and the ray is not
+/// Starts a lane on the shape that ray i names, if it is a shape of the scene. The ray must not be
 /// refused. `slots`: of the shapes, by id. Throws InvalidStart if the ray cannot start there.
 template <class Real>
 void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,

@@ -1,3 +1,4 @@
+#include "core/shapes/departure.hpp"
 #include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "tests/oracle/first_hit.hpp"
@@ -227,4 +228,34 @@ TEMPLATE_TEST_CASE("a ray along a flat face leaves the solid at the far end", ""
         CHECK(end_of(cone, false, base_cap, hair) == Approx(1.5));
         CHECK(end_of(cone, true, top_cap, hair) == Approx(2.5));
     }
+}
+
+TEMPLATE_TEST_CASE("a departure that few operations decide is the one of all digits", "", Sphere,
+                   OpenCylinder, CappedCylinder) {
+    Random random(47);
+    int asked = 0, clear = 0, tangents = 0, off = 0;
+    for_each_hitpoint<TestType>(
+        shape_count, random, [&](const TestType& shape, const Hitpoint& at) {
+            const Vec3d inward = inward_direction(at.normal, random);
+            const Vec3d tangent = cross(at.normal, random.direction());
+            const Vec3d beside = at.point + random.log_uniform(1e-17, 10.0) * random.direction();
+            const Ray<double> rays[] = {
+                {at.point, inward},           {at.point, -1e30 * inward},
+                {at.point, tangent},          {at.point, 0x1p-149 * tangent},
+                {beside, random.direction()}, {beside, 1e-200 * inward}};
+            for (const Ray<double>& ray : rays) {
+                const double share = random.integer(0, 1) == 0 ? 0x1p-6 : 0x1p-10;
+                const int side = clear_side_of_departure(to_doubles(shape), ray, at.face, share);
+                asked += &ray < rays + 2 && at.face == body ? 1 : 0;
+                clear += &ray < rays + 2 && side != 0 ? 1 : 0;
+                tangents += (&ray == rays + 2 || &ray == rays + 3) && side == 0 ? 1 : 0;
+                if (side == 0) continue;
+                off += &ray >= rays + 4 ? 1 : 0;
+                CHECK(side_of_departure(to_doubles(shape), ray, at.face) == side);
+                CHECK(may_start_on(to_doubles(shape), ray.origin, at.face, share));
+            }
+        });
+    CHECK(clear > 0.98 * asked);
+    CHECK(tangents > 0);
+    CHECK(off > 0);
 }
