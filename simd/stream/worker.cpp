@@ -150,8 +150,14 @@ void StreamWorker::occluded_in_tiles(const RayStream<Real>& rays, std::uint8_t* 
 template <class Real>
 void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits) {
     EngineCounters counters;
-    query_.nearest(intake_.paths(), intake_.coherence(), counters,
+    const bool may_make_frusta = intake_.coherence() != nullptr && !intake_.coherence()->loose;
+    const bool skips_frusta = may_make_frusta && rays.count <= without_frusta_;
+    query_.nearest(intake_.paths(), skips_frusta ? &neighbours : intake_.coherence(), counters,
                    is_exact() && rays.t_max != nullptr ? intake_.taken().t_limit : nullptr);
+    if (skips_frusta)
+        without_frusta_ -= rays.count;
+    else if (may_make_frusta)
+        without_frusta_ = counters.in_frusta == 0 ? most_without_frusta : 0;
     mark_unanswered(rays, hits.wants_normals());
     LeftOver left{doubtful_, unsharp_, 0, 0};
     UpperLimits limits{nullptr, rays.t_max != nullptr};

@@ -93,6 +93,10 @@ class StreamWorker {
         HitStream take(std::size_t count, bool normals);
     } columns_;
     std::size_t refused_ = 0;
+    /// The number of rays, also of other calls, for which no frusta are tried because those before
+    /// them gave up. Has no influence on answers.
+    std::size_t without_frusta_ = 0;
+    static constexpr std::size_t most_without_frusta = 1024;
     Arena arena_;
 };
 

@@ -25,9 +25,9 @@ struct Trace : Streams<Arch> {
     /// nothing but the ray in float.
     static_assert(Method::certifies && Method::rounded_alone);
 
-    /// The number of shapes that a frustum may list before it gives up: for nearest hits, and for
-    /// some rays to a light. With more shapes its rays are faster by another traversal.
-    static constexpr int max_candidates = 2048;
+    /// The number of shapes that a frustum of some rays may list before it gives up: for nearest
+    /// hits, and to a light. With more shapes its rays are faster by another traversal.
+    static int max_candidates(std::size_t rays) { return 64 + 2 * static_cast<int>(rays); }
     static int max_occluders(std::size_t rays) { return static_cast<int>(rays); }
 
     static bool makes_frusta(const Coherence* coherence) {
@@ -51,7 +51,7 @@ struct Trace : Streams<Arch> {
                 continue;
             }
             FrustumCandidates<Arch, Method> found(scene, rays, candidates, begin, end);
-            if (!Walk<true>(scene, frustum, workspace, counters, max_candidates)
+            if (!Walk<true>(scene, frustum, workspace, counters, max_candidates(end - begin))
                      .go(kind_bits, found)) {
                 nearest_of_any(scene, kind_bits, &neighbours, begin, count, rays, candidates,
                                workspace, counters);

@@ -103,7 +103,8 @@ void check_frustum(const Kernels& kernels, const Coherence& coherence, int plane
                       {}, counters);
         trace.nearest(traced.data.view(), traced.data.listed_kinds(), &coherence, count, rounded,
                       together.candidates(), traced.workspace, counters);
-        CHECK(counters.in_frusta == count);
+        // A frustum of few rays may meet too many shapes, and give up.
+        CHECK((counters.in_frusta == count || count % 256 <= 16));
         int different = 0;
         for (std::size_t i = 0; i < count; ++i) {
             traced.check(together, i, hits[i]);
