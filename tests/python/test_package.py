@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -49,12 +50,19 @@ def test_stub(tmp_path):
 
 
 def test_wheel(tmp_path):
-    """A wheel of an existing build renders after it is installed in a separate folder."""
+    """A wheel of an existing build renders after it is installed in a separate folder, and nothing is written to the source."""
     pytest.importorskip("pip")
     pytest.importorskip("wheel")
     if not os.environ.get("RAYLANE_BUILD"):
         pytest.skip("RAYLANE_BUILD does not say which build")
-    run("-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation", "--wheel-dir", tmp_path, SOURCE)
+    # Other tests may write to the source meanwhile, but not to a copy of the files that make a wheel.
+    source = tmp_path / "source"
+    for part in ("python", "cpp/raylane"):
+        shutil.copytree(SOURCE.parent / part, source / "scenes/api" / part, ignore=shutil.ignore_patterns("__pycache__"))
+    before = sorted(source.rglob("*"))
+    package = source / "scenes/api/python"
+    run("-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation", "--wheel-dir", tmp_path, package)
+    assert sorted(source.rglob("*")) == before
     [wheel] = tmp_path.glob("raylane-*.whl")
     assert raylane.__version__ in wheel.name
     names = zipfile.ZipFile(wheel).namelist()

@@ -1,18 +1,23 @@
-"""Builds the compiled module by CMake from the whole source tree. RAYLANE_BUILD: folder of an existing build to use."""
+"""Builds the compiled module by CMake from the whole source tree. RAYLANE_BUILD: folder of an existing build to use.
 
+Everything that is built is in a temporary folder: nothing is written to the source.
+"""
+
+import atexit
 import os
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-WORK = ROOT / "build" / "wheel"
-WORK.mkdir(parents=True, exist_ok=True)
+WORK = tempfile.mkdtemp(prefix="raylane-wheel-")
+atexit.register(shutil.rmtree, WORK, ignore_errors=True)
 HEADER = (ROOT / "scenes/api/cpp/raylane/version.h").read_text()
 
 
@@ -34,5 +39,5 @@ setup(
     version=re.search(r'RAYLANE_VERSION "([^"]+)"', HEADER).group(1),
     ext_modules=[Extension("raylane._raylane", [])],
     cmdclass={"build_ext": Build},
-    options={"build": {"build_base": str(WORK)}, "egg_info": {"egg_base": str(WORK)}},
+    options={"build": {"build_base": WORK}, "egg_info": {"egg_base": WORK}},
 )
