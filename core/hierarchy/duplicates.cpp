@@ -32,7 +32,7 @@ std::size_t Duplicates::drop_from(std::span<Item> items, std::vector<std::uint32
     const std::size_t size = std::bit_ceil(2 * items.size());
     room.assign(size, 0);
     std::uint32_t left = 0;
-    std::vector<MergedSphere> merged; // `first`: the index of the kept item
+    std::vector<MergedShape> merged; // `first`: the index of the kept item
     for (Item& item : items) {
         std::size_t at = (deep ? hash_of_shape(item) : hash_of_bounds(item)) & (size - 1);
         while (room[at] != 0 && !are_duplicates(items[room[at] - 1], item))
@@ -43,20 +43,22 @@ std::size_t Duplicates::drop_from(std::span<Item> items, std::vector<std::uint32
         } else {
             Item& kept = items[room[at] - 1];
             if (id_of(item) < id_of(kept)) std::swap(item, kept);
-            if (item.kind() == Kind::sphere) merged.push_back({id_of(item), room[at] - 1});
+            merged.push_back({id_of(item), room[at] - 1});
         }
     }
     if (merged.empty()) return left;
     const std::lock_guard lock(mutex_);
-    for (const MergedSphere& sphere : merged)
-        merged_.push_back({sphere.id, id_of(items[sphere.first])});
+    for (const MergedShape& shape : merged) {
+        const Item& kept = items[shape.first];
+        merged_[static_cast<std::size_t>(kept.kind())].push_back({shape.id, id_of(kept)});
+    }
     return left;
 }
 
-std::vector<MergedSphere> Duplicates::merged_spheres() const {
-    std::vector<MergedSphere> merged = merged_;
-    std::sort(merged.begin(), merged.end(),
-              [](const MergedSphere& a, const MergedSphere& b) { return a.id < b.id; });
+MergedShapes Duplicates::merged() const {
+    MergedShapes merged = merged_;
+    for (std::vector<MergedShape>& of_kind : merged)
+        std::ranges::sort(of_kind, {}, &MergedShape::id);
     return merged;
 }
 

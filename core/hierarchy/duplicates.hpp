@@ -6,6 +6,7 @@
 #include "core/solids/solids.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -14,10 +15,13 @@
 
 namespace raylane::core {
 
-/// A sphere that a scene does not store, because it equals the stored sphere `first`.
-struct MergedSphere {
+/// A shape that a scene does not store, because it equals the stored shape `first`.
+struct MergedShape {
     ShapeId id, first; ///< first < id
 };
+
+/// The merged shapes of each kind, in the order of their ids.
+using MergedShapes = std::array<std::vector<MergedShape>, kind_count>;
 
 /// Finds duplicate shapes: same kind, numbers and material. A scene needs only the first of them.
 /// Triangles of a larger polygon are never duplicates, because each has its own list of coplanar
@@ -41,8 +45,8 @@ class Duplicates {
     /// shapes rather than the bounds. `room` is scratch memory.
     std::size_t drop_from(std::span<Item> items, std::vector<std::uint32_t>& room, bool deep) const;
 
-    /// Returns the spheres that drop_from() has dropped, in the order of their ids.
-    std::vector<MergedSphere> merged_spheres() const;
+    /// Returns the shapes that drop_from() has dropped.
+    MergedShapes merged() const;
 
     /// Returns the unbounded shapes of a list without duplicates.
     template <class Shape>
@@ -73,7 +77,7 @@ class Duplicates {
     const Solids* solids_;
     bool merge_;
     mutable std::mutex mutex_; // of merged_
-    mutable std::vector<MergedSphere> merged_;
+    mutable MergedShapes merged_;
 };
 
 } // namespace raylane::core

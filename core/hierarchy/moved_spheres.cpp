@@ -38,7 +38,7 @@ class SphereNumbers {
             for_each_in_block(table, block, [&](Place, ShapeId id) {
                 if (!shapes.solids.has(id)) add(id);
             });
-        for (const MergedSphere& sphere : shapes.merged)
+        for (const MergedShape& sphere : shapes.merged)
             add(sphere.id);
         count_ = 0;
         for (Word& word : words_) {
@@ -117,7 +117,7 @@ class SphereMover {
     /// Returns true if the merged spheres are still equal to those that they were equal to.
     bool keeps_merged() const {
         return std::all_of(
-            shapes_.merged.begin(), shapes_.merged.end(), [&](const MergedSphere& sphere) {
+            shapes_.merged.begin(), shapes_.merged.end(), [&](const MergedShape& sphere) {
                 return std::memcmp(at(sphere.id), at(sphere.first), 3 * sizeof(Number)) == 0;
             });
     }
@@ -233,7 +233,7 @@ class Rebuilder {
     }
 
     /// Builds the trees. Returns the spheres that have been merged.
-    std::vector<MergedSphere> rebuild() {
+    std::vector<MergedShape> rebuild() {
         const Duplicates duplicates(lists_, shapes_.material_of, shapes_.polygons, &shapes_.solids,
                                     shapes_.merge);
         forest_ = build_binary_forest(lists_, ends_, duplicates, workers_);
@@ -246,7 +246,7 @@ class Rebuilder {
             if constexpr (is_bounded<Shape>)
                 table.replace_blocks(std::move(emission_.blocks<Shape>()));
         });
-        return duplicates.merged_spheres();
+        return std::move(duplicates.merged()[static_cast<std::size_t>(Kind::sphere)]);
     }
 
   private:
@@ -349,14 +349,14 @@ void move_spheres(std::span<const Number> coordinates, const MovableShapes& shap
         Rebuilder rebuilder(shapes, workers);
         if (!same_merged) {
             const std::vector<double> radii = radii_of(table, shapes.material_of.size());
-            for (const MergedSphere& sphere : shapes.merged)
+            for (const MergedShape& sphere : shapes.merged)
                 rebuilder.gather(mover.moved(sphere.id, radii[sphere.first]), sphere.id);
         }
         for (const std::uint32_t node : worn) {
             rebuilder.gather(node);
             rebuilder.end_tree(node);
         }
-        std::vector<MergedSphere> merged = rebuilder.rebuild();
+        std::vector<MergedShape> merged = rebuilder.rebuild();
         if (!same_merged) shapes.merged = std::move(merged);
     }
     pack_spheres(table, shapes.material_of.size(), pack_from, workers);

@@ -15,7 +15,7 @@ namespace raylane::core {
 struct MovableShapes {
     Tables& tables;
     Hierarchy& hierarchy;
-    std::vector<MergedSphere>& merged;
+    std::vector<MergedShape>& merged; ///< spheres
     const MaterialIndices& material_of;
     std::span<const IdRange> polygons;
     const Solids& solids;

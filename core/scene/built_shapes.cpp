@@ -30,7 +30,6 @@ class Checker {
         check_polygons();
         check_tree();
         for_each_table(shapes_.tables, [&](const auto& table) { check_table(table); });
-        check_merged();
         check_bounds();
     }
 
@@ -137,23 +136,22 @@ class Checker {
                     return false;
             return true;
         });
-        if (kind_of<Shape> == Kind::sphere ? shapes + shapes_.merged.size() != table.size()
-                                           : shapes > table.size())
-            refuse("other numbers of shapes than stated");
+        const auto& merged = shapes_.merged[static_cast<std::size_t>(kind_of<Shape>)];
+        if (shapes + merged.size() != table.size()) refuse("other numbers of shapes than stated");
+        if (!merged.empty()) check_merged(table, merged);
     }
 
-    /// Checks that merged spheres are not stored, and that those that they equal are.
-    void check_merged() const {
-        if (shapes_.merged.empty()) return;
+    /// Checks that merged shapes are not stored, and that those that they equal are.
+    template <class Shape>
+    void check_merged(const Table<Shape>& table, const std::vector<MergedShape>& merged) const {
         std::vector<bool> is_stored(shape_count());
-        for_each_shape(std::get<Table<Sphere>>(shapes_.tables),
-                       [&](const auto&, ShapeId id) { is_stored[id] = true; });
+        for_each_shape(table, [&](const auto&, ShapeId id) { is_stored[id] = true; });
         ShapeId next = 0;
-        for (const MergedSphere& sphere : shapes_.merged) {
-            if (sphere.id < next || sphere.id >= shape_count() || sphere.first >= sphere.id ||
-                is_stored[sphere.id] || !is_stored[sphere.first])
-                refuse("merged spheres out of order");
-            next = sphere.id + 1;
+        for (const MergedShape& shape : merged) {
+            if (shape.id < next || shape.id >= shape_count() || shape.first >= shape.id ||
+                is_stored[shape.id] || !is_stored[shape.first])
+                refuse("merged shapes out of order");
+            next = shape.id + 1;
         }
     }
 

@@ -15,9 +15,9 @@ namespace raylane::core {
 /// before. The scene must not have compound solids.
 struct BuiltShapes {
     Tables tables;
-    MaterialIndices material_of;      ///< by shape id
-    std::vector<IdRange> polygons;    ///< polygons of more than one triangle, ascending
-    std::vector<MergedSphere> merged; ///< spheres that are not in the tables, ascending
+    MaterialIndices material_of;   ///< by shape id
+    std::vector<IdRange> polygons; ///< polygons of more than one triangle, ascending
+    MergedShapes merged;           ///< shapes that are not in the tables
     Hierarchy hierarchy;
     AutoCamera auto_camera; ///< produced the camera, fog and lights
     std::size_t own_light_count = 0;

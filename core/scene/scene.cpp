@@ -48,8 +48,9 @@ void Scene::find_transmissive() {
 std::size_t Scene::bytes() const {
     std::size_t bytes = hierarchy_.bytes() + solids_.bytes() + material_of_.bytes() +
                         polygons_.capacity() * sizeof(IdRange) +
-                        merged_.capacity() * sizeof(MergedSphere) +
                         materials_.capacity() * sizeof(Material);
+    for (const std::vector<MergedShape>& merged : merged_)
+        bytes += merged.capacity() * sizeof(MergedShape);
     for_each_table(shapes_, [&](const auto& table) { bytes += table.bytes(); });
     return bytes;
 }
@@ -264,7 +265,7 @@ void SceneBuilder::build_shapes() {
                                     &solids_.solids(), merge_duplicates);
         scene_.merges_duplicates_ = merge_duplicates;
         scene_.hierarchy_ = build_hierarchy(lists_, duplicates, threads, scene_.shapes_);
-        scene_.merged_ = duplicates.merged_spheres();
+        scene_.merged_ = duplicates.merged();
     }
     lists_ = {};
     scene_.material_of_.shrink_to_fit();
@@ -354,8 +355,9 @@ template <class Number>
 Scene Scene::with_positions(std::span<const Number> coordinates, Workers& workers) const {
     Scene scene = *this;
     move_spheres(coordinates,
-                 {scene.shapes_, scene.hierarchy_, scene.merged_, material_of_, polygons_, solids_,
-                  merges_duplicates_},
+                 {scene.shapes_, scene.hierarchy_,
+                  scene.merged_[static_cast<std::size_t>(Kind::sphere)], material_of_, polygons_,
+                  solids_, merges_duplicates_},
                  workers);
     if (solids_.any()) scene.solids_.find_places(scene.shapes_);
     scene.transmissive_ = {};

@@ -100,8 +100,8 @@ class Scene {
     /// Returns the polygons of more than one triangle, ascending.
     std::span<const IdRange> polygons() const { return polygons_; }
 
-    /// Returns the spheres that are not stored, in the order of their ids.
-    std::span<const MergedSphere> merged_spheres() const { return merged_; }
+    /// Returns the shapes that are not stored.
+    const MergedShapes& merged() const { return merged_; }
 
     /// Returns the bytes of shapes, materials and hierarchy.
     std::size_t bytes() const;
@@ -119,7 +119,7 @@ class Scene {
     MaterialIndices material_of_;   // by shape id
     std::vector<IdRange> polygons_; // of more than one triangle, ascending
     Hierarchy hierarchy_;
-    std::vector<MergedSphere> merged_; // ascending
+    MergedShapes merged_;
     bool merges_duplicates_ = true;
     Solids solids_;
     std::vector<Material> materials_;

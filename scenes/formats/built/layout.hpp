@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little, "the file's order of b
 
 inline constexpr std::size_t alignment = 64;
 /// Changes whenever an array's layout or meaning changes.
-inline constexpr std::uint32_t format = 4;
+inline constexpr std::uint32_t format = 5;
 inline constexpr char magic[16] = {'r', 'a', 'y', 'l', 'a', 'n',  'e',    ' ',
                                    'b', 'u', 'i', 'l', 't', '\n', '\x1A', '\0'};
 
@@ -49,12 +49,12 @@ inline constexpr const char* auto_camera = "staging";
 inline constexpr const char* nodes = "nodes";
 inline constexpr const char* materials = "materials";
 inline constexpr const char* polygons = "polygons";
-inline constexpr const char* merged = "merged"; ///< spheres that equal stored ones
 inline constexpr const char* counts = "counts"; ///< shapes of each kind, duplicates included
 inline constexpr const char* radii = "radii";   ///< of packed spheres, by palette index
 inline constexpr const char* rows = "rows";     ///< of packed spheres
 inline constexpr const char* packed = "packed"; ///< blocks of packed spheres
 inline constexpr const char* blocks = ".blocks";
 inline constexpr const char* doubles = ".doubles";
+inline constexpr const char* merged = ".merged"; ///< shapes that equal stored ones
 
 } // namespace raylane::scenes::layout

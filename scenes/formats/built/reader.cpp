@@ -90,14 +90,15 @@ class Reader {
             all += static_cast<std::size_t>(count);
         }
         core::for_each_table(shapes.tables, [&]<class Shape>(core::Table<Shape>& table) {
-            const std::uint64_t count = counts[static_cast<std::size_t>(core::kind_of<Shape>)];
-            read_table(table, static_cast<std::size_t>(count), all);
+            const auto kind = static_cast<std::size_t>(core::kind_of<Shape>);
+            read_table(table, static_cast<std::size_t>(counts[kind]), all);
+            const auto merged = directory_.array<core::MergedShape>(
+                std::string(core::kind_names[kind]) + layout::merged);
+            shapes.merged[kind].assign(merged.begin(), merged.end());
         });
         shapes.material_of = materials(all);
         const auto polygons = directory_.array<core::IdRange>(layout::polygons);
         shapes.polygons.assign(polygons.begin(), polygons.end());
-        const auto merged = directory_.array<core::MergedSphere>(layout::merged);
-        shapes.merged.assign(merged.begin(), merged.end());
         shapes.hierarchy = core::hierarchy_of(directory_.array<core::WideNode>(layout::nodes));
         read_auto_camera(shapes);
         return shapes;

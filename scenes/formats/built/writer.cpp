@@ -108,13 +108,14 @@ void write_built(AtomicFile& file, const core::Scene& scene) {
     const std::span<const std::uint8_t> materials = scene.material_indices().stored();
     writer.add(layout::materials, materials.data(), materials.size());
     writer.add(layout::polygons, scene.polygons().data(), scene.polygons().size());
-    writer.add(layout::merged, scene.merged_spheres().data(), scene.merged_spheres().size());
     std::vector<std::uint64_t> counts;
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         const std::string kind(core::name_of(core::kind_of<Shape>));
         counts.push_back(table.size());
         writer.add(kind + layout::doubles, table.doubles());
         writer.add(kind + layout::blocks, table.plain_blocks());
+        const auto& merged = scene.merged()[static_cast<std::size_t>(core::kind_of<Shape>)];
+        writer.add(kind + layout::merged, merged.data(), merged.size());
         const core::PackedSpheres* const packed = table.packed();
         if (packed == nullptr) return;
         writer.add(layout::packed, packed->blocks);

@@ -244,7 +244,7 @@ void check_tree(const Scene& scene) {
     CHECK_NOTHROW(core::check({of.shapes(),
                                of.material_indices(),
                                {of.polygons().begin(), of.polygons().end()},
-                               {of.merged_spheres().begin(), of.merged_spheres().end()},
+                               of.merged(),
                                of.hierarchy(),
                                {},
                                0},
