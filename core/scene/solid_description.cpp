@@ -104,15 +104,7 @@ class SolidWriter {
     }
 
     Solid shape_of(const Solids::Node& part) const {
-        Solid solid;
-        with_table(scene_.shapes(), part.kind, [&]<class Shape>(const Table<Shape>& table) {
-            solid.shape = table.get(part.place);
-        });
-        // A plane that is a part of a bounded solid is stored as a quadric.
-        if (const auto* q = std::get_if<QuadricOf<double>>(&solid.shape))
-            if (q->xx == 0.0 && q->yy == 0.0 && q->zz == 0.0 && q->xy == 0.0 && q->xz == 0.0 &&
-                q->yz == 0.0 && q->one == 0.0)
-                solid.shape = PlaneOf<double>{q->center, {q->x, q->y, q->z}};
+        Solid solid = core::of_shape(shape_of_part(scene_, part));
         if (part.shape != no_shape && scene_.material_index_of(part.shape) != whole_)
             solid.material = scene_.material_index_of(part.shape);
         return solid;
@@ -124,6 +116,18 @@ class SolidWriter {
 };
 
 } // namespace
+
+PartShape shape_of_part(const Scene& scene, const Solids::Node& part) {
+    PartShape shape;
+    with_table(scene.shapes(), part.kind,
+               [&](const auto& table) { shape = table.get(part.place); });
+    // A plane that is a part of a bounded solid is stored as a quadric.
+    if (const auto* q = std::get_if<QuadricOf<double>>(&shape))
+        if (q->xx == 0.0 && q->yy == 0.0 && q->zz == 0.0 && q->xy == 0.0 && q->xz == 0.0 &&
+            q->yz == 0.0 && q->one == 0.0)
+            shape = PlaneOf<double>{q->center, {q->x, q->y, q->z}};
+    return shape;
+}
 
 Solid description_of(const Scene& scene, Solids::Index solid) {
     Solid described = SolidWriter(scene, solid).describe(solid, false);

@@ -1,6 +1,7 @@
 #include "core/scene/scene.hpp"
 
 #include "core/scene/auto_camera.hpp"
+#include "core/scene/given_shapes.hpp"
 #include "core/scene/validate.hpp"
 #include "raylane/scene.hpp"
 #include "scenes/api/cpp/convert.hpp"
@@ -11,6 +12,7 @@
 #include "scenes/formats/scene_file.hpp"
 #include "simd/threads/threads.hpp"
 
+#include <bit>
 #include <limits>
 #include <string>
 #include <utility>
@@ -42,6 +44,19 @@ Scene moved(const core::Scene& scene, std::span<const Vec3Of<Number>> positions)
                                     3 * positions.size());
         return owning(scene.with_positions(coordinates, workers));
     });
+}
+
+template <class CoreShape, class Shape>
+ShapesOf<Shape> shapes_of(const core::Scene& scene) {
+    core::GivenShapes<CoreShape> given = core::given_shapes<CoreShape>(scene);
+    ShapesOf<Shape> shapes{std::move(given.ids), {}, {}};
+    shapes.material.reserve(shapes.id.size());
+    for (const ShapeId id : shapes.id)
+        shapes.material.push_back(scene.material_index_of(id));
+    shapes.shape.reserve(shapes.id.size());
+    for (const core::InDouble<CoreShape>& shape : given.shapes)
+        shapes.shape.push_back(std::bit_cast<Shape>(shape));
+    return shapes;
 }
 
 /// Returns a path that names the file "-", which the readers and writers take for standard input or
@@ -76,6 +91,25 @@ ShapeId Scene::solid_of(ShapeId shape) const {
     require_index(shape, shape_count(), "shapes");
     return scene_->solids().solid_of(shape);
 }
+
+#define RAYLANE_GIVEN(Shape, name, text)                                                           \
+    if (const auto* shape = std::get_if<core::InDouble<core::Shape>>(&given))                      \
+        return std::bit_cast<Shape##Of<double>>(*shape);
+ShapeVariant Scene::shape(ShapeId id) const {
+    require_index(id, shape_count(), "shapes");
+    const core::PartShape given = core::given_shape(*scene_, id);
+    RAYLANE_SHAPES(RAYLANE_GIVEN)
+    return {};
+}
+#undef RAYLANE_GIVEN
+
+#define RAYLANE_GIVEN(Shape, name, text)                                                           \
+    template <>                                                                                    \
+    ShapesOf<Shape##Of<double>> Scene::shapes<Shape##Of>() const {                                 \
+        return shapes_of<core::Shape, Shape##Of<double>>(*scene_);                                 \
+    }
+RAYLANE_SHAPES(RAYLANE_GIVEN)
+#undef RAYLANE_GIVEN
 
 Material Scene::material(MaterialIndex index) const {
     require_index(index, material_count(), "materials");

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <variant>
 
 /// Shapes, in float (Sphere) or in double (SphereOf<double>). The surface of a shape is the one
 /// that real arithmetic gives for exactly its numbers. A scene takes the least memory and time if
@@ -179,6 +180,13 @@ inline constexpr bool is_shape<EllipsoidOf<Number>> =
 /// The shape types that a scene accepts.
 template <class Shape>
 concept AnyShape = detail::is_shape<Shape>;
+
+/// A shape of any type, in double.
+using ShapeVariant =
+    std::variant<SphereOf<double>, PlaneOf<double>, DiscOf<double>, TriangleOf<double>,
+                 SmoothTriangleOf<double>, BoxOf<double>, OpenCylinderOf<double>,
+                 CappedCylinderOf<double>, OpenConeOf<double>, CappedConeOf<double>,
+                 QuadricOf<double>, EllipsoidOf<double>>;
 
 /// The number of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added or, in
 /// a scene from a file, in the order of the file.

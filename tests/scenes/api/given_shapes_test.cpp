@@ -1,0 +1,119 @@
+#include "tests/scenes/api/ray_arrays.hpp"
+#include "tests/scenes/files/message_of.hpp"
+#include "tests/support/catch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+/// Tests of shapes that a scene returns.
+using namespace raylane;
+using namespace raylane::tests;
+
+namespace {
+
+template <class CoreShape>
+struct Given {
+    ShapeId id;
+    MaterialIndex material;
+    core::InDouble<CoreShape> shape;
+};
+template <class CoreShape>
+using AllGiven = std::vector<Given<CoreShape>>;
+
+/// Adds a shape, in double if its numbers are to be no floats, and keeps what was given.
+template <class CoreShape>
+void give(SceneBuilder& builder, const CoreShape& shape, bool in_double, MaterialIndex material,
+          AllGiven<CoreShape>& all) {
+    core::Numbers<core::InDouble<CoreShape>> numbers = core::numbers_of(core::to_doubles(shape));
+    for (double& number : numbers)
+        if (in_double) number *= 1.0 + 0x1p-40;
+    const auto exact = core::shape_of<core::InDouble<CoreShape>>(numbers);
+    const ShapeId id = in_double ? add(builder, exact, material) : add(builder, shape, material);
+    all.push_back({id, material, exact});
+}
+
+/// Returns true if a shape of the library has the bits of a shape of core.
+template <class Shape, class CoreShape>
+bool is_same(const Shape& shape, const CoreShape& other) {
+    return core::numbers_of(std::bit_cast<CoreShape>(shape)) == core::numbers_of(other);
+}
+
+/// Checks all that a scene returns about shapes of one kind. `ShapeOf`: the library's template.
+template <class CoreShape, template <class> class ShapeOf>
+void check_kind(const Scene& scene, const AllGiven<CoreShape>& given) {
+    const ShapesOf<ShapeOf<double>> shapes = scene.shapes<ShapeOf>();
+    REQUIRE(shapes.id.size() == given.size());
+    REQUIRE(shapes.material.size() == given.size());
+    REQUIRE(shapes.shape.size() == given.size());
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        CAPTURE(i);
+        CHECK(shapes.id[i] == given[i].id);
+        CHECK(shapes.material[i] == given[i].material);
+        CHECK(is_same(shapes.shape[i], given[i].shape));
+        const ShapeVariant one = scene.shape(given[i].id);
+        REQUIRE(std::holds_alternative<ShapeOf<double>>(one));
+        CHECK(is_same(std::get<ShapeOf<double>>(one), given[i].shape));
+    }
+}
+
+} // namespace
+
+TEST_CASE("a scene returns each shape with the numbers that it was given") {
+    Random random(31);
+    for (const bool merge : {true, false})
+        for (const int doubles : {0, 1, 2}) { // no shape, some, all
+            CAPTURE(merge, doubles);
+            SceneBuilder builder;
+            builder.merge_duplicates = merge;
+            for (int i = 0; i < 3; ++i)
+                builder.add_material({});
+            core::OfEachShape<AllGiven> all;
+            for (int round = 0; round < 24; ++round)
+                core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+                    auto& given = std::get<AllGiven<Shape>>(all);
+                    const auto material = static_cast<MaterialIndex>(random.integer(0, 2));
+                    const bool in_double = doubles == 2 || (doubles == 1 && round % 2 == 0);
+                    give(builder, ray_sets::Target<Shape>::make(random, false), in_double, material,
+                         given);
+                    // Some shapes are given again, with the same material or another one.
+                    if (round % 3 != 0) return;
+                    const Given<Shape> other =
+                        given[static_cast<std::size_t>(random.integer(0, round))];
+                    const MaterialIndex of = round % 2 == 0 ? other.material : 0;
+                    given.push_back({add(builder, other.shape, of), of, other.shape});
+                });
+            const Scene scene = builder.build();
+#define RAYLANE_CHECK(Shape, name, text)                                                           \
+    check_kind<core::Shape, Shape##Of>(scene, std::get<AllGiven<core::Shape>>(all));
+            RAYLANE_SHAPES(RAYLANE_CHECK)
+#undef RAYLANE_CHECK
+        }
+}
+
+TEST_CASE("a scene returns the parts of solids by their ids alone") {
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    const ShapeId ball = builder.add(Sphere{{9, 0, 0}, 1}, material);
+    const CappedCylinderOf<double> hole{{0.1, 0, -2}, {0, 0, 4}, 0.3};
+    const PlaneOf<double> plane{{0, 0.1, 0}, {0, 0.3, 0.1}};
+    const ShapeId first = builder.add(
+        difference_of(intersection_of({SphereOf<double>{{0, 0, 0}, 1.1}, plane}), {hole}),
+        material);
+    const Scene scene = builder.build();
+    CHECK(scene.shapes<SphereOf>().id == std::vector<ShapeId>{ball});
+    CHECK(scene.shapes<CappedCylinderOf>().id.empty());
+    CHECK(scene.shapes<PlaneOf>().id.empty());
+    CHECK(scene.shapes<QuadricOf>().id.empty());
+    CHECK(std::get<SphereOf<double>>(scene.shape(first)).radius == 1.1);
+    const auto of_plane = std::get<PlaneOf<double>>(scene.shape(first + 1));
+    CHECK((of_plane.point == plane.point && of_plane.normal == plane.normal));
+    const auto of_hole = std::get<CappedCylinderOf<double>>(scene.shape(first + 2));
+    CHECK(
+        (of_hole.base == hole.base && of_hole.axis == hole.axis && of_hole.radius == hole.radius));
+    CHECK(message_of<InvalidValue>([&] { static_cast<void>(scene.shape(4)); }) ==
+          "must be one of 4 shapes, got 4");
+    CHECK_THROWS_AS(scene.shape(no_shape), InvalidValue);
+}
