@@ -1,3 +1,4 @@
+#include "core/scene/camera_rays.hpp"
 #include "tests/scenes/api/ray_arrays.hpp"
 #include "tests/scenes/files/message_of.hpp"
 #include "tests/support/catch.hpp"
@@ -8,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-/// Tests of shapes that a scene returns.
+/// Tests of shapes that a scene returns, and of the rays of its camera.
 using namespace raylane;
 using namespace raylane::tests;
 
@@ -116,4 +117,66 @@ TEST_CASE("a scene returns the parts of solids by their ids alone") {
     CHECK(message_of<InvalidValue>([&] { static_cast<void>(scene.shape(4)); }) ==
           "must be one of 4 shapes, got 4");
     CHECK_THROWS_AS(scene.shape(no_shape), InvalidValue);
+}
+
+TEST_CASE("camera rays are those of the renderer's camera, with one sample a pixel") {
+    constexpr int width = 7, height = 4;
+    for (const Projection projection : {Projection::perspective, Projection::orthographic})
+        for (const float lens : {0.0F, 0.3F}) {
+            const Camera camera{.projection = projection,
+                                .from = {1, 2, 9},
+                                .at = {0.3F, 0, 0},
+                                .up = {0.1F, 1, 0},
+                                .field_of_view = 33,
+                                .height = 3,
+                                .lens_radius = lens,
+                                .focus_distance = 5};
+            const PixelRays rays = camera_rays(camera, width, height);
+            core::Settings settings;
+            settings.width = width;
+            settings.height = height;
+            const core::CameraRays<double> of(
+                {.projection = static_cast<core::Projection>(projection),
+                 .from = {1, 2, 9},
+                 .at = {0.3F, 0, 0},
+                 .up = {0.1F, 1, 0},
+                 .field_of_view = 33,
+                 .height = 3,
+                 .lens_radius = lens,
+                 .focus_distance = 5},
+                settings);
+            const DoubleRaySpan span = rays.span();
+            REQUIRE(span.origin_z.size() == width * height);
+            for (std::size_t i = 0; i < width * height; ++i) {
+                const core::Ray<double> ray =
+                    of.ray(static_cast<int>(i % width), static_cast<int>(i / width), 0);
+                CHECK(core::Vec3d(span.origin_x[i], span.origin_y[i], span.origin_z[i]) ==
+                      ray.origin);
+                CHECK(core::Vec3d(span.direction_x[i], span.direction_y[i], span.direction_z[i]) ==
+                      ray.direction);
+            }
+        }
+    CHECK(message_of<InvalidValue>([] { camera_rays({}, 0, 4); }) ==
+          "width: must be from 1 to 65535, got 0");
+    CHECK_THROWS_AS(camera_rays({.field_of_view = 0}, 4, 4), InvalidValue);
+}
+
+TEST_CASE("the hits of camera rays have the depths of an image") {
+    SceneBuilder builder;
+    builder.camera = {.from = {0, 1, 9}, .at = {0, 0, 0}, .field_of_view = 40};
+    builder.settings.width = 33;
+    builder.settings.height = 22;
+    const MaterialIndex material = builder.add_material({});
+    builder.add(Sphere{{0, 0, 0}, 2}, material);
+    builder.add(Box{{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, material);
+    builder.add(CappedCone{{-2, -1, 0}, {0, 2, 0}, 1, 0}, material);
+    const Scene scene = builder.build();
+    const Image image = render(scene, {.layers = true});
+    const PixelRays rays = camera_rays(scene.camera(), image.width, image.height);
+    std::vector<double> t(image.layers.depth.size());
+    std::vector<ShapeId> shape(t.size());
+    Tracer(scene).intersect(rays.span(), {.shape = shape, .t_double = t});
+    CHECK(shape == image.layers.shape);
+    for (std::size_t i = 0; i < t.size(); ++i)
+        CHECK(static_cast<float>(t[i]) == image.layers.depth[i]);
 }
