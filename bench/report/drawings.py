@@ -32,7 +32,7 @@ def compare_hits(t, shape, exact_t, exact_shape):
 def first_hits(scene, precision, origins, directions):
     """Returns t in float32, infinite without a hit, and the shape's number or -1."""
     hits = raylane.Tracer(scene, precision=precision).intersect(origins, directions)
-    return np.where(hits.hit, hits.t, np.inf).astype(np.float32), np.where(hits.hit, hits.shape.astype(np.int64), -1)
+    return np.where(hits.hit, hits.t, np.inf).astype(np.float32), np.where(hits.hit, hits.shape_id.astype(np.int64), -1)
 
 
 def draw_failure(failure):

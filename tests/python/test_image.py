@@ -34,7 +34,7 @@ def test_options(birthday):
     part = raylane.render(birthday, settings, crop=(10, 5, 20, 15), layers=True)
     assert np.array_equal(part.rgb, whole.rgb[5:20, 10:30])
     layers = part.layers
-    assert layers.depth.shape == layers.shape.shape == layers.material.shape == layers.samples.shape == (15, 20)
+    assert layers.depth.shape == layers.shape_id.shape == layers.material.shape == layers.samples.shape == (15, 20)
     assert layers.normal.shape == (15, 20, 3)
     assert whole.layers is None and whole.alpha is None
     clear = raylane.render(birthday, settings, alpha=True)

@@ -81,7 +81,7 @@ def test_rays_hit_the_spheres_that_rational_arithmetic_finds(name):
     spheres = [(rationals(each["center"]), fractions.Fraction(float(each["radius"]))) for each in description["objects"]]
     nested = name == "double-shells"
     hits = 0
-    for hit, shape, o, d in zip(found.hit, found.shape, map(rationals, origins), map(rationals, directions)):
+    for hit, shape, o, d in zip(found.hit, found.shape_id, map(rationals, origins), map(rationals, directions)):
         crossed = []
         for number, (center, radius) in enumerate(spheres):
             f = [x - c for x, c in zip(o, center)]

@@ -23,10 +23,28 @@ namespace raylane::python {
 
 namespace py = pybind11;
 
+/// The lengths of an array's axes, or of some of them.
+using Axes = std::vector<py::ssize_t>;
+
+inline Axes axes_of(const py::array& array) {
+    return {array.shape(), array.shape() + array.ndim()};
+}
+
+inline std::string shape_text(const Axes& axes) {
+    std::string text = "(";
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        text += (i == 0 ? "" : ", ") + std::to_string(axes[i]);
+    return text + (axes.size() == 1 ? ",)" : ")");
+}
+inline std::string shape_text(const py::array& array) {
+    return shape_text(axes_of(array));
+}
+
 /// Throws InvalidValue for an array with masked values (numpy.ma), or a list that contains one.
 /// NumPy's C interface would return masked values as if they were valid.
 inline void refuse_masked(const py::handle& values, const std::string& field) {
     const auto refuse = [&](const py::handle& array) {
+        if (Py_TYPE(array.ptr()) == py::detail::npy_api::get().PyArray_Type_) return; // saves time
         if (!py::hasattr(array, "_mask")) return;
         const py::object is_masked = py::module_::import("numpy").attr("ma").attr("is_masked");
         if (is_masked(array).cast<bool>())
@@ -51,17 +69,22 @@ inline py::array converted(const py::handle& values, const char* field) {
     }
 }
 
-/// Converts any object to an array by numpy.asarray. Throws InvalidValue if NumPy refuses the
-/// object or if it has masked values.
+/// Converts any object to an array. Throws InvalidValue if NumPy refuses the object or if it has
+/// masked values.
 inline py::array any_array(const py::handle& values, const char* field) {
     refuse_masked(values, field);
     return converted(values, field);
 }
 
+/// Returns true for a plain number and for a list: an object without a type of its numbers.
+inline bool is_plain(const py::object& values) {
+    return !py::hasattr(values, "dtype");
+}
+
 /// Returns true for arrays and scalars of float32, in either byte order, and for None.
 inline bool is_float(const py::object& values) {
     if (values.is_none()) return true;
-    if (!py::hasattr(values, "dtype")) return false;
+    if (is_plain(values)) return false;
     const py::dtype type = converted(values, "").dtype();
     return type.kind() == 'f' && type.itemsize() == sizeof(float);
 }
@@ -77,11 +100,11 @@ py::array_t<Value, py::array::forcecast> array_of(const py::handle& values, cons
     return py::array_t<Value, py::array::forcecast>(array);
 }
 
-/// Returns true also for objects without a dtype, as a plain number takes the type of the other
-/// arrays, and for arrays of another type whose values are all float32 values: limits that are
-/// hits' t, converted to float64.
+/// Returns true also for plain objects, as a plain number takes the type of the other arrays, and
+/// for arrays of another type whose values are all float32 values: limits that are hits' t,
+/// converted to float64.
 inline bool are_floats_or_plain(const py::object& values, const char* field) {
-    if (!py::hasattr(values, "dtype") || is_float(values)) return true;
+    if (is_float(values) || is_plain(values)) return true;
     const py::array_t<double, py::array::c_style | py::array::forcecast> all(
         array_of<double>(values, field));
     return std::all_of(all.data(), all.data() + all.size(), [](double value) {
@@ -101,8 +124,7 @@ py::object whole_numbers(const py::handle& values, const char* field, Value most
         throw InvalidValue(field, "must be a whole number, or an array of them");
     const auto all_in = [&]<class Wide>(std::type_identity<Wide>) {
         const py::array_t<Wide, py::array::c_style | py::array::forcecast> numbers(array);
-        py::array_t<Value> result(
-            std::vector<py::ssize_t>(numbers.shape(), numbers.shape() + numbers.ndim()));
+        py::array_t<Value> result(axes_of(numbers));
         Value* to = result.mutable_data();
         for (py::ssize_t i = 0; i < numbers.size(); ++i) {
             const Wide number = numbers.data()[i];
@@ -115,13 +137,6 @@ py::object whole_numbers(const py::handle& values, const char* field, Value most
     };
     return kind == 'u' ? all_in(std::type_identity<std::uint64_t>())
                        : all_in(std::type_identity<std::int64_t>());
-}
-
-inline std::string shape_text(const py::array& array) {
-    std::string text = "(";
-    for (py::ssize_t axis = 0; axis < array.ndim(); ++axis)
-        text += (axis == 0 ? "" : ", ") + std::to_string(array.shape(axis));
-    return text + (array.ndim() == 1 ? ",)" : ")");
 }
 
 /// A reusable buffer for copies. It owns its memory.

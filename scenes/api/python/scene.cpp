@@ -23,12 +23,11 @@ py::tuple exactly(const Vec3& v) {
 }
 
 /// Calls `call` for one shape id, or for each of an array of ids. Returns an int or an array.
-template <class Call>
+template <class Result, class Call>
 py::object for_each_shape(const py::object& shapes, const Call& call) {
     constexpr ShapeId most = std::numeric_limits<ShapeId>::max();
     const py::array_t<ShapeId, py::array::c_style> ids(whole_numbers(shapes, "shapes", most));
-    py::array_t<std::uint32_t> result(
-        std::vector<py::ssize_t>(ids.shape(), ids.shape() + ids.ndim()));
+    py::array_t<Result> result(axes_of(ids));
     try {
         std::transform(ids.data(), ids.data() + ids.size(), result.mutable_data(), call);
     } catch (const InvalidValue& error) {
@@ -82,11 +81,14 @@ void bind_scene(py::module_& module) {
              })
         .def("material_of",
              [](const Scene& scene, const py::object& shapes) {
-                 return for_each_shape(shapes, [&](ShapeId id) { return scene.material_of(id); });
+                 return for_each_shape<std::int64_t>(shapes, [&](ShapeId id) {
+                     return id == no_shape ? -1 : std::int64_t{scene.material_of(id)};
+                 });
              })
         .def("solid_of",
              [](const Scene& scene, const py::object& shapes) {
-                 return for_each_shape(shapes, [&](ShapeId id) { return scene.solid_of(id); });
+                 return for_each_shape<ShapeId>(
+                     shapes, [&](ShapeId id) { return id == no_shape ? id : scene.solid_of(id); });
              })
         .def("material",
              [](const Scene& scene, const py::object& index) {

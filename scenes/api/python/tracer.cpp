@@ -1,3 +1,4 @@
+#include "broadcast.hpp"
 #include "values.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -101,41 +102,89 @@ void naming_rays(std::size_t from, const Call& call) {
     try {
         call();
     } catch (const InvalidRay& invalid) {
-        const std::string column = invalid.array.substr(std::string_view("origin_").size());
+        std::string column = invalid.array.substr(std::string_view("origin_").size());
+        if (column == "shape") column = "shape_id";
         throw InvalidValue("leaving." + column + "/" + std::to_string(from + invalid.ray),
                            invalid.expectation);
     }
 }
 
+/// The arrays of rays: origins, directions, t_min, t_max, and the shapes, faces and sides that the
+/// rays leave. They broadcast with each other. All but the first two may be None.
+class RayArrays {
+  public:
+    RayArrays(const py::object& origins, const py::object& directions, const py::tuple& rest) {
+        arrays_ = {origins, directions};
+        for (const py::handle& other : rest)
+            arrays_.push_back(py::reinterpret_borrow<py::object>(other));
+        for_each([&](py::object& array, const Axes& row, const char* name) {
+            const py::array converted = any_array(array, name);
+            broadcast(axes_, converted, row, name);
+            array = converted;
+        });
+    }
+    /// Returns the axes of the results.
+    const Axes& axes() const { return axes_; }
+    /// Gives all arrays the shapes (n, 3) and (n,), or (3,) and () if they have one row for all.
+    /// Returns true if none had to be copied.
+    bool flatten() {
+        bool in_place = true;
+        for_each([&](py::object& array, const Axes& row, const char*) {
+            const auto whole = py::reinterpret_borrow<py::array>(array);
+            const py::array flat = flattened(whole, row, axes_);
+            in_place = in_place && flat.data() == whole.data();
+            array = flat;
+        });
+        return in_place;
+    }
+    const py::object& operator[](std::size_t i) const { return arrays_[i]; }
+
+    static constexpr const char* names[] = {"origins",       "directions",       "t_min",
+                                            "t_max",         "leaving.shape_id", "leaving.face",
+                                            "leaving.inward"};
+
+  private:
+    template <class Call>
+    void for_each(const Call& call) {
+        for (std::size_t i = 0; i < arrays_.size(); ++i)
+            if (i < 2 || !arrays_[i].is_none())
+                call(arrays_[i], i < 2 ? Axes{3} : Axes{}, names[i]);
+    }
+    std::vector<py::object> arrays_;
+    Axes axes_;
+};
+
 /// The arrays of n rays, with any strides.
 template <class Real>
 class RayColumns {
   public:
-    RayColumns(const py::object& origins, const py::object& directions, const py::object& t_min,
-               const py::object& t_max, const py::object& shapes, const py::object& faces,
-               const py::object& inward)
-        : origins_(origins, {3}, "origins", count_of(origins, directions)),
-          directions_(directions, {3}, "directions", origins_.count()) {
+    /// Takes flattened arrays.
+    explicit RayColumns(const RayArrays& arrays)
+        : axes_(arrays.axes()), origins_(arrays[0], {3}, arrays.names[0], count_of(axes_)),
+          directions_(arrays[1], {3}, arrays.names[1], count_of(axes_)) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             origin_[axis] = origins_.column(axis);
             direction_[axis] = directions_.column(axis);
         }
-        const auto take = [&](const py::object& from, auto& values, const char* name) {
-            if (!from.is_none()) values = {from, count(), name};
+        const auto take = [&](std::size_t i, auto& values) {
+            if (!arrays[i].is_none()) values = {arrays[i], count(), arrays.names[i]};
         };
-        take(t_min, t_min_, "t_min");
-        take(t_max, t_max_, "t_max");
-        const auto take_whole = [&]<class Value>(const py::object& from, Values<Value>& values,
-                                                 const char* name,
+        take(2, t_min_);
+        take(3, t_max_);
+        const auto take_whole = [&]<class Value>(std::size_t i, Values<Value>& values,
                                                  std::type_identity_t<Value> most) {
-            if (!from.is_none()) values = {whole_numbers(from, name, most), count(), name};
+            const char* const name = arrays.names[i];
+            if (!arrays[i].is_none())
+                values = {whole_numbers(arrays[i], name, most), count(), name};
         };
-        take_whole(shapes, shapes_, "leaving.shape", raylane::no_shape);
-        take_whole(faces, faces_, "leaving.face", std::uint8_t{255});
-        take_whole(inward, inward_, "leaving.inward", std::uint8_t{1});
+        take_whole(4, shapes_, raylane::no_shape);
+        take_whole(5, faces_, std::uint8_t{255});
+        take_whole(6, inward_, std::uint8_t{1});
     }
 
     std::size_t count() const { return directions_.count(); }
+    /// Returns the axes of the results, whose elements are the rays in the order of C.
+    const Axes& axes() const { return axes_; }
     /// Returns true if all columns are contiguous, so that no ray has to be copied.
     bool is_spans() const {
         bool all = true;
@@ -196,11 +245,7 @@ class RayColumns {
     }
 
   private:
-    /// Returns the number of rays: the rows of the origins or directions, or 1.
-    static std::size_t count_of(const py::object& origins, const py::object& directions) {
-        const py::array o = any_array(origins, "origins"), d = any_array(directions, "directions");
-        return static_cast<std::size_t>(o.ndim() > 1 ? o.shape(0) : d.ndim() > 1 ? d.shape(0) : 1);
-    }
+    Axes axes_;
     Rows<Real> origins_, directions_;
     Column<Real> origin_[3], direction_[3];
     Values<Real> t_min_, t_max_;
@@ -208,20 +253,20 @@ class RayColumns {
     Values<std::uint8_t> faces_, inward_;
 };
 
-/// Returns the caller's contiguous output array of `count` values as a span, which is empty for
+/// Returns the caller's contiguous output array with the given axes as a span, which is empty for
 /// None. Throws InvalidValue for an array of another type, shape or layout.
 template <class Value>
-std::span<Value> out(const py::object& array, std::size_t count, const char* field) {
+std::span<Value> out(const py::object& array, const Axes& axes, const char* field) {
     if (array.is_none()) return {};
     refuse_masked(array, field);
     using Array = py::array_t<Value, py::array::c_style>;
     if (!py::isinstance<Array>(array))
         throw InvalidValue(field, "must be a contiguous array of its type");
     auto values = py::reinterpret_borrow<Array>(array);
-    if (values.ndim() != 1 || static_cast<std::size_t>(values.size()) != count)
-        throw InvalidValue(field, "must have the shape (" + std::to_string(count) + ",), got " +
+    if (axes_of(values) != axes)
+        throw InvalidValue(field, "must have the shape " + shape_text(axes) + ", got " +
                                       shape_text(values));
-    return {values.mutable_data(), count};
+    return {values.mutable_data(), count_of(axes)};
 }
 
 /// Returns true if rays are float rays: all arrays are of float32, or limits with such values.
@@ -239,16 +284,20 @@ auto by_type(const py::object& origins, const py::object& directions, const py::
                                                          : call(std::type_identity<double>());
 }
 
-/// Calls `answer` with the rays. `rest`: t_min, t_max, and the shapes, faces and sides that the
-/// rays leave, each possibly None.
+/// Calls `answer` with the rays. `rest`: the others of RayArrays.
 template <class Answer>
 auto with_rays(const py::object& origins, const py::object& directions, const py::tuple& rest,
                const Answer& answer) {
-    return by_type(origins, directions, rest[0], rest[1],
-                   [&]<class Real>(std::type_identity<Real>) {
-                       return answer(RayColumns<Real>(origins, directions, rest[0], rest[1],
-                                                      rest[2], rest[3], rest[4]));
-                   });
+    RayArrays arrays(origins, directions, rest);
+    arrays.flatten();
+    return by_type(
+        origins, directions, rest[0], rest[1],
+        [&]<class Real>(std::type_identity<Real>) { return answer(RayColumns<Real>(arrays)); });
+}
+
+/// Returns the shape of the results for rays.
+py::tuple shape_of(const py::object& origins, const py::object& directions, const py::tuple& rest) {
+    return py::tuple(py::cast(RayArrays(origins, directions, rest).axes()));
 }
 
 /// Each query returns the number of refused rays or points, or stores it as "refused".
@@ -256,13 +305,13 @@ std::uint64_t intersect(SharedTracer& tracer, const py::object& origins,
                         const py::object& directions, const py::tuple& rest, const py::tuple& to) {
     std::atomic<std::uint64_t> refused = 0;
     with_rays(origins, directions, rest, [&](const auto& rays) {
-        const std::size_t n = rays.count();
+        const Axes& n = rays.axes();
         const auto t_double = out<double>(to[7], n, to[0].is_none() ? "out.t" : "out.t_double");
         const HitSpan all{.t = out<float>(to[0], n, "out.t"),
                           .normal_x = out<float>(to[1], n, "out.normal"),
                           .normal_y = out<float>(to[2], n, "out.normal"),
                           .normal_z = out<float>(to[3], n, "out.normal"),
-                          .shape = out<ShapeId>(to[4], n, "out.shape"),
+                          .shape = out<ShapeId>(to[4], n, "out.shape_id"),
                           .entering = out<std::uint8_t>(to[5], n, "out.entering"),
                           .face = out<std::uint8_t>(to[6], n, "out.face"),
                           .t_double = t_double};
@@ -291,14 +340,15 @@ std::uint64_t intersect(SharedTracer& tracer, const py::object& origins,
 /// Returns true if the rays are traced in place, without a copy.
 bool reads_in_place(const py::object& origins, const py::object& directions,
                     const py::tuple& rest) {
-    return with_rays(origins, directions, rest, [](const auto& rays) { return rays.is_spans(); });
+    return RayArrays(origins, directions, rest).flatten() &&
+           with_rays(origins, directions, rest, [](const auto& rays) { return rays.is_spans(); });
 }
 
 std::uint64_t occluded(SharedTracer& tracer, const py::object& origins,
                        const py::object& directions, const py::tuple& rest, const py::object& to) {
     std::atomic<std::uint64_t> refused = 0;
     with_rays(origins, directions, rest, [&](const auto& rays) {
-        const auto all = out<std::uint8_t>(to, rays.count(), "out");
+        const auto all = out<std::uint8_t>(to, rays.axes(), "out");
         rays.share_out(
             tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
                 QueryStatistics statistics;
@@ -353,7 +403,7 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
     py::dict result;
     result["first"] = array_from(std::move(all.first));
     result["t"] = array_from(std::move(all.t));
-    result["shape"] = array_from(std::move(all.shape));
+    result["shape_id"] = array_from(std::move(all.shape));
     result["entering"] = bools_from(std::move(all.entering));
     result["face"] = array_from(std::move(all.face));
     result["tied"] = bools_from(std::move(all.tied));
@@ -404,8 +454,11 @@ py::dict contains(const SharedTracer& tracer, const py::object& points) {
     QueryStatistics statistics;
     std::uint64_t refused = 0;
     all.first = {0};
+    const py::array array = any_array(points, "points");
+    Axes axes;
+    broadcast(axes, array, {3}, "points");
     by_type(points, py::none(), py::none(), py::none(), [&]<class Real>(std::type_identity<Real>) {
-        const Rows<Real> rows(points, {3}, "points");
+        const Rows<Real> rows(flattened(array, {3}, axes), {3}, "points");
         Room<Real> room[3];
         in_turn(rows.count(), max_rows, [&](std::size_t from, std::size_t to) {
             const auto [x, y, z] = rows.parts(from, to, room);
@@ -419,7 +472,7 @@ py::dict contains(const SharedTracer& tracer, const py::object& points) {
     });
     py::dict result;
     result["first"] = array_from(std::move(all.first));
-    result["shape"] = array_from(std::move(all.shape));
+    result["shape_id"] = array_from(std::move(all.shape));
     result["on_surface"] = bools_from(std::move(all.on_surface));
     result["refused"] = refused;
     return result;
@@ -438,6 +491,7 @@ void bind_tracer(py::module_& module) {
             }))
         .def_static("reads_in_place", &reads_in_place)
         .def_static("are_floats", &are_floats)
+        .def_static("shape_of", &shape_of)
         .def("intersect", &intersect)
         .def("occluded", &occluded)
         .def("crossings", &crossings)

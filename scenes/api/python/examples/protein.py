@@ -37,7 +37,7 @@ def accessible_areas(centers, radii, points=2000):
     asked = (centers[:, None] + radii[:, None, None] * directions).reshape(-1, 3)
     owner = np.repeat(np.arange(len(centers)), points)
     solids = tracer.contains(asked)
-    others = solids.shape != owner[solids.of()]
+    others = solids.shape_id != owner[solids.of()]
     covered = np.bincount(solids.of()[others], minlength=len(asked)) > 0
     return 4 * np.pi * radii**2 * np.bincount(owner[~covered], minlength=len(centers)) / points
 

@@ -27,7 +27,7 @@ def trace(tracer, origins, directions, index):
         entering = crossings.entering[:, None]
         normals = np.where(entering, 1, -1) * crossings.normal.astype(np.float64)
         directions = refract(directions, normals, 1 / index if surface == 0 else index)
-        leaving = raylane.Leaving(crossings.shape, crossings.face, crossings.entering)
+        leaving = raylane.Leaving(crossings.shape_id, crossings.face, crossings.entering)
     return origins, directions
 
 

@@ -31,7 +31,7 @@ def by_rays(r1, r2, distance, count, between=None, seed=1):
     # Arrays with contiguous columns are read in place, without a copy.
     origins = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(count)]).T
     directions = np.stack([sine * np.cos(around), sine * np.sin(around), np.sqrt(1 - sine**2)]).T
-    return np.mean(tracer.intersect(origins, directions).shape == target[0])
+    return np.mean(tracer.intersect(origins, directions).shape_id == target[0])
 
 
 def main(count=1 << 20):

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from . import _raylane
 from ._fields import Fields
+from ._renamed import renamed
 from ._scene import Scene, inner
 from ._values import Camera, Precision, Settings
 
@@ -28,10 +29,11 @@ class Cancelled(Exception):
     """Raised by :func:`render` if its callback has returned False."""
 
 
+@renamed("shape", "shape_id")
 class Layers:
     """AOVs (render outputs): the first visible surface on the ray through the centre of each pixel.
 
-    ``shape``, ``material`` and ``samples`` have the shape (height, width). ``shape`` is ``NO_SHAPE`` and
+    ``shape_id``, ``material`` and ``samples`` have the shape (height, width). ``shape_id`` is ``NO_SHAPE`` and
     ``material`` is 4294967295 where nothing is hit. ``samples``: number of samples in the pixel's colour.
     """
 
@@ -40,7 +42,7 @@ class Layers:
         """(height, width): distance along the ray, in units of length; infinite where nothing is hit."""
         self.normal: NDArray[np.float32] = arrays["normal"]
         """(height, width, 3): unit shading normal on the visible side; 0 where nothing is hit."""
-        self.shape: NDArray[np.uint32] = arrays["shape"]
+        self.shape_id: NDArray[np.uint32] = arrays["shape"]
         self.material: NDArray[np.uint32] = arrays["material"]
         self.samples: NDArray[np.uint32] = arrays["samples"]
 

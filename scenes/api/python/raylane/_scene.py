@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _raylane
 from ._errors import BadInput, InvalidValue
 from ._fields import Fields
+from ._renamed import ids_in
 from ._values import Camera, Fog, Light, Material, Settings, Vector
 
 if TYPE_CHECKING:
@@ -52,10 +53,13 @@ class Scene:
     @overload
     def material_of(self, shapes: int) -> int: ...
     @overload
-    def material_of(self, shapes: NDArray[Any]) -> Ids: ...
+    def material_of(self, shapes: NDArray[Any]) -> NDArray[np.int64]: ...
     def material_of(self, shapes: Any) -> Any:
-        """Returns the material index of a shape, or an array of them for an array of shapes."""
-        return self._scene.material_of(shapes)
+        """Returns the material index of a shape, or an array of them for an array of ids.
+
+        -1 for ``NO_SHAPE``, the id of a miss. Raises :class:`InvalidValue` if the scene has no shape with an id.
+        """
+        return self._scene.material_of(ids_in(shapes))
 
     @overload
     def solid_of(self, shapes: int) -> int: ...
@@ -64,9 +68,9 @@ class Scene:
     def solid_of(self, shapes: Any) -> Any:
         """Returns the id of the solid that a shape is a part of: the id of the solid's first part.
 
-        Returns the id of any other shape unchanged. Takes a shape or an array of shapes.
+        Returns the id of any other shape unchanged, and ``NO_SHAPE`` for ``NO_SHAPE``. Takes an id or an array of ids.
         """
-        return self._scene.solid_of(shapes)
+        return self._scene.solid_of(ids_in(shapes))
 
     def material(self, index: int) -> Material:
         return self._scene.material(index)

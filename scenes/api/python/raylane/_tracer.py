@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _raylane
 from ._errors import InvalidValue
 from ._fields import Fields
+from ._renamed import ShapeOfHits, ids_in, renamed
 from ._scene import Scene, inner
 from ._values import Precision
 
@@ -27,76 +28,111 @@ Firsts = NDArray[np.uint64]
 AnyRows = TypeVar("AnyRows")
 
 
+@renamed("shape", "shape_id")
 @dataclass(eq=False)
 class Leaving(Fields):
     """The surfaces that rays start on, from the hits that they continue. :meth:`Hits.onward` makes it.
 
-    Such a ray starts exactly on the surface, regardless of the rounding of its origin. ``shape`` and ``face``: those of
-    the hit, (n,) or one value for all rays; ``NO_SHAPE`` for a ray that starts on no surface. ``inward``: true if the
-    ray goes to the inside of that surface, that is, it is transmitted after an entering hit, or reflected after one that
-    is not entering. None: the direction decides, by the exact normal at the origin; a tangent goes to the outside.
+    Such a ray starts exactly on the surface, regardless of the rounding of its origin. ``shape_id`` and ``face``: those
+    of the hit, arrays that broadcast with the rays; ``NO_SHAPE`` for a ray that starts on no surface. ``inward``: true
+    if the ray goes to the inside of that surface, that is, it is transmitted after an entering hit, or reflected after
+    one that is not entering. None: the direction decides, by the exact normal at the origin; a tangent goes to the
+    outside.
 
-    Queries raise :class:`InvalidValue`, with the field ``leaving.shape/7`` for ray 7, if an origin is farther from the
-    shape than rounding explains: 2^-6 of the shape's size for float32, 2^-10 for float64, and 2^-18 of the coordinates.
+    Queries raise :class:`InvalidValue`, with the field ``leaving.shape_id/7`` for the ray with the flat index 7, if an
+    origin is farther from the shape than rounding explains: 2^-6 of the shape's size for float32, 2^-10 for float64,
+    and 2^-18 of the coordinates.
     Unbounded shapes take any origin. ``leaving.face/7``: the shape has no such face. ``leaving.inward/7``: the direction
     goes to the other side, by an angle of more than 2^-5 (float32) or 2^-9 (float64), from the origin and from points
     that far beside it.
     """
 
-    shape: ArrayLike
+    shape_id: ArrayLike
     face: ArrayLike
     inward: Optional[ArrayLike] = None
 
 
 class Hits(Fields):
-    """The nearest hits of n rays. Pass it as ``out`` to :meth:`Tracer.intersect` to reuse its arrays."""
+    """The nearest hits of rays, in arrays of the shape to which the rays' arrays broadcast, written (...) here.
+
+    ``hits[index]`` indexes all arrays: ``hits[hits.hit]`` has the rays that hit a shape. ``len(hits)`` is the length of
+    the first axis. Pass it as ``out`` to :meth:`Tracer.intersect` to reuse its arrays.
+    """
 
     t: Union[Floats, Doubles]
-    """(n,): > 0 and finite, the number nearest to the true t in the type of the rays; infinite where nothing is hit."""
-    shape: Ids
-    """(n,): ids of shapes, or ``NO_SHAPE`` where nothing is hit."""
+    """(...): > 0 and finite, the number nearest to the true t in the type of the rays; infinite where nothing is hit."""
+    shape_id: Ids
+    """(...): ids of shapes, or ``NO_SHAPE`` where nothing is hit."""
     entering: Bools
-    """(n,): true if the ray goes from the outside (front) to the inside (back), or only touches the surface."""
+    """(...): true if the ray goes from the outside (front) to the inside (back), or only touches the surface."""
     face: Bytes
-    """(n,): the part of the shape's surface, for :class:`Leaving`."""
+    """(...): the part of the shape's surface, for :class:`Leaving`."""
     t_double: Optional[Doubles]
-    """(n,): t in float64, or None if not wanted. For rays in float64, it is ``t``; for others it takes longer to
+    """(...): t in float64, or None if not wanted. For rays in float64, it is ``t``; for others it takes longer to
     compute than all other values together."""
 
-    def __init__(self, count: int, double: bool = False) -> None:
-        self.t = np.empty(count, np.float32)
-        self._normal = np.empty((3, count), np.float32)
-        self.shape = np.empty(count, np.uint32)
-        self.entering = np.empty(count, np.bool_)
-        self.face = np.empty(count, np.uint8)
-        self.t_double = np.empty(count, np.float64) if double else None
+    def __init__(self, shape: Union[int, Tuple[int, ...]], double: bool = False) -> None:
+        """Makes arrays, without values, for rays of a shape, or for so many rays."""
+        self.t = np.empty(shape, np.float32)
+        self._normal = np.empty((3, *self.t.shape), np.float32)
+        self.shape_id = np.empty(shape, np.uint32)
+        self.entering = np.empty(shape, np.bool_)
+        self.face = np.empty(shape, np.uint8)
+        self.t_double = np.empty(shape, np.float64) if double else None
         self._rays: Optional[Tuple[ArrayLike, ArrayLike]] = None
 
     @property
     def normal(self) -> Floats:
-        """(n, 3): unit normal on the outside of the surface, also if the ray hits the back; 0 where nothing is hit."""
-        return self._normal.T
+        """(..., 3): unit normal on the outside of the surface, also if the ray hits the back; 0 where nothing is hit."""
+        return np.moveaxis(self._normal, 0, -1)
 
     @property
     def hit(self) -> Bools:
-        """(n,): true where the ray hits a shape."""
-        return np.not_equal(self.shape, NO_SHAPE)
+        """(...): true where the ray hits a shape."""
+        return np.not_equal(self.shape_id, NO_SHAPE)
+
+    @property
+    def shape(self) -> Tuple[int, ...]:
+        """The shape of the arrays, as of an array. The ids of shapes are ``shape_id``.
+
+        This name was that of the ids. For one version, ``hits.shape[mask]``, comparisons with numbers or arrays,
+        ``tolist``, ``astype``, ``scene.material_of(hits.shape)`` and :class:`Leaving` still take it for the ids, with a
+        ``DeprecationWarning``.
+        """
+        shape = ShapeOfHits(self.t.shape)
+        shape._ids = self.shape_id
+        return shape
 
     def onward(self, directions: ArrayLike) -> Tuple[Union[Floats, Doubles], Leaving]:
-        """Returns the points of the hits, (n, 3), and the :class:`Leaving` of rays from there: ``tracer.intersect(points,
-        directions, leaving=leaving)``.
+        """Returns the points of the hits, (..., 3), and the :class:`Leaving` of rays from there:
+        ``tracer.intersect(points, directions, leaving=leaving)``.
 
-        ``directions``: (n, 3) or (3,). Each ray goes to the side of the normal to which its direction goes. Points have
-        the type of ``t``. A ray that hit nothing gets the point NaN, and a query refuses such rays: leave them out by
-        ``hits.hit``. Reads the arrays of rays that were passed to :meth:`Tracer.intersect`.
+        ``directions``: (..., 3), which broadcasts to that shape. Each ray goes to the side of the normal to which its
+        direction goes. Points have the type of ``t``. A ray that hit nothing gets the point NaN, and a query refuses
+        such rays: leave them out by ``hits.hit``. Reads the arrays of rays that were passed to
+        :meth:`Tracer.intersect`.
         """
         if self._rays is None:
             raise ValueError("onward needs hits that Tracer.intersect returned")
         origins, along = (np.asarray(rays, np.float64) for rays in self._rays)
         with np.errstate(invalid="ignore"):
-            points = np.where(self.hit[:, None], origins + self.t[:, None] * along, np.nan)
-        inward = np.einsum("ij,ij->i", self.normal, np.broadcast_to(np.asarray(directions, np.float64), points.shape)) < 0
-        return points.astype(self.t.dtype), Leaving(self.shape, self.face, inward)
+            points = np.where(self.hit[..., None], origins + self.t[..., None] * along, np.nan)
+        towards = np.broadcast_to(np.asarray(directions, np.float64), points.shape)
+        inward = np.einsum("...i,...i->...", self.normal, towards) < 0
+        return points.astype(self.t.dtype), Leaving(self.shape_id, self.face, inward)
+
+    def __getitem__(self, index: Any) -> Hits:
+        """Returns the hits at an index, a slice, a mask or anything else that indexes an array of their shape."""
+        part = Hits(0)
+        for name in ("t", "shape_id", "entering", "face", "t_double"):
+            values = getattr(self, name)
+            setattr(part, name, None if values is None else np.asarray(values[index]))
+        part._normal = np.stack([self._normal[i, ...][index] for i in range(3)])
+        if self._rays is not None:
+            wholes = [np.broadcast_to(np.asarray(rays), (*self.t.shape, 3)) for rays in self._rays]
+            origins, directions = (np.stack([rays[..., i][index] for i in range(3)], axis=-1) for rays in wholes)
+            part._rays = origins, directions
+        return part
 
     def __len__(self) -> int:
         return len(self.t)
@@ -105,21 +141,25 @@ class Hits(Fields):
         """Returns the arrays to fill for rays of a type, and adds those that are missing."""
         kind = np.float32 if floats else np.float64
         if self.t.dtype != kind:
-            self.t = np.empty(len(self), kind)
+            self.t = np.empty(self.t.shape, kind)
         if not floats and (double or self.t_double is not None):
             self.t_double = np.asarray(self.t, np.float64)  # the same array
         elif double and self.t_double is None:
-            self.t_double = np.empty(len(self), np.float64)
-        n = self._normal
+            self.t_double = np.empty(self.t.shape, np.float64)
+        x, y, z = (self._normal[i, ...] for i in range(3))
         t = (self.t, self.t_double) if floats else (None, self.t)
-        return (t[0], n[0], n[1], n[2], self.shape, self.entering.view(np.uint8), self.face, t[1])
+        return (t[0], x, y, z, self.shape_id, self.entering.view(np.uint8), self.face, t[1])
 
     def __repr__(self) -> str:
-        return f"<raylane.Hits: {int(self.hit.sum())} of {len(self)} rays>"
+        return f"<raylane.Hits: {np.count_nonzero(self.hit)} of {self.t.size} rays>"
 
 
 class _Rows:
-    """Rows of different lengths, concatenated. Row i has the elements ``first[i]`` to ``first[i + 1] - 1``."""
+    """Rows of different lengths, concatenated. Row i has the elements ``first[i]`` to ``first[i + 1] - 1``.
+
+    n rays or points in arrays of any shape are numbered in the order of C, the last axis first. So
+    ``rows.counts().reshape(height, width)`` has the counts of an image's rays.
+    """
 
     first: Firsts
 
@@ -138,6 +178,7 @@ class _Rows:
         return f"<raylane.{type(self).__name__}: {int(self.first[-1])} of {len(self)}>"
 
 
+@renamed("shape", "shape_id")
 @dataclass(repr=False, eq=False)
 class Crossings(_Rows):
     """All m crossings of n rays: a row for each ray, in the order along the ray.
@@ -148,7 +189,7 @@ class Crossings(_Rows):
     first: Firsts
     """(n + 1,): index of the first crossing of each ray."""
     t: Doubles
-    shape: Ids
+    shape_id: Ids
     entering: Bools
     face: Bytes
     tied: Bools
@@ -159,12 +200,13 @@ class Crossings(_Rows):
     """(m, 3): normals as in :class:`Hits`, or None if not wanted."""
 
 
+@renamed("shape", "shape_id")
 @dataclass(repr=False, eq=False)
 class Solids(_Rows):
     """The solids that contain each of n points: a row for each point, in the order of the ids."""
 
     first: Firsts
-    shape: Ids
+    shape_id: Ids
     on_surface: Bools
     """True if the point is exactly on the solid's surface."""
 
@@ -187,8 +229,12 @@ class Lengths(_Rows):
 class Tracer:
     """Answers ray and point queries about a scene.
 
-    ``origins`` and ``directions`` have the shape (n, 3), or (3,) for all rays. Directions may have any length except
-    zero; t is in units of that length. ``t_min`` and ``t_max`` have the shape (n,), or are numbers for all rays.
+    ``origins`` and ``directions`` have the shape (..., 3), ``t_min`` and ``t_max`` the shape (...). All of them
+    broadcast as in NumPy, and results have the shape to which they do. Rays of the shape (height, width, 3) have hits of
+    the shape (height, width); one origin (3,) and n directions (n, 3) have hits of the shape (n,); single rays have hits
+    of the shape (). Rows of crossings, lengths and solids are in the order of C. Directions may have any length except
+    zero; t is in units of that length.
+
     All finite numbers are used exactly. A ray is refused if a component is infinite or NaN, its direction is 0, or a
     limit is NaN. It then hits nothing, and the call warns with a ``RuntimeWarning`` that has the number of such rays.
     Rays with numbers far outside of the range of float32 take some microseconds each: with coordinates from 2^128 on, or
@@ -198,8 +244,9 @@ class Tracer:
     If all arrays, including ``t_min`` and ``t_max``, are float32, the rays are traced as float rays, otherwise as
     double rays, with exactly the given numbers. ``t`` has the type of the rays. A limit takes the type of the rays if it
     is a plain number, or an array whose values are all float32 values. Arrays with contiguous columns
-    (``np.empty((3, n)).T`` or Fortran order) are read in place. Other arrays are copied in parts, and arrays of another
-    type are converted first.
+    (``np.empty((3, n)).T`` or Fortran order) are read in place, and so is ``np.moveaxis(planes, 0, -1)`` of planes
+    (3, height, width). Other arrays are copied in parts. Arrays of another type are converted first, and arrays that
+    broadcast, other than to one row or number for all rays, are expanded first.
 
     A line that lies in a flat or open surface, or in a quadric, does not hit it there. A line that lies in a face of a
     solid or along its side hits it where the line reaches it. The same holds for the parts of a constructed solid: along
@@ -230,7 +277,7 @@ class Tracer:
             return (t_min, t_max, None, None, None)
         if not isinstance(leaving, Leaving):
             raise TypeError(f"leaving must be a raylane.Leaving, not {type(leaving).__name__}")
-        return (t_min, t_max, leaving.shape, leaving.face, leaving.inward)
+        return (t_min, t_max, ids_in(leaving.shape_id, 6), leaving.face, leaving.inward)
 
     def intersect(
         self,
@@ -246,15 +293,16 @@ class Tracer:
         """Returns the nearest crossing of each ray with t_min < t <= t_max.
 
         Limits compare with t as it is returned: a t that is passed back as ``t_min`` leads to the next crossing, and as
-        ``t_max`` includes its own. ``double=True`` also computes ``t_double``. ``out``: the :class:`Hits` of n rays to
-        fill and return; it gets a new ``t`` if that has another type than the rays.
+        ``t_max`` includes its own. ``double=True`` also computes ``t_double``. ``out``: the :class:`Hits` to fill and
+        return, of the results' shape; it gets a new ``t`` if that has another type than the rays.
         """
+        rest = self._rest(t_min, t_max, leaving)
         if out is None:
-            out = Hits(_count(origins, directions), double)
+            out = Hits(self._tracer.shape_of(origins, directions, rest), double)
         elif not isinstance(out, Hits):
             raise TypeError(f"out must be a raylane.Hits, not {type(out).__name__}")
         to = out._arrays(self._tracer.are_floats(origins, directions, t_min, t_max), double)
-        _warn(self._tracer.intersect(origins, directions, self._rest(t_min, t_max, leaving), to))
+        _warn(self._tracer.intersect(origins, directions, rest, to))
         out._rays = (origins, directions)
         return out
 
@@ -268,15 +316,15 @@ class Tracer:
         leaving: Optional[Leaving] = None,
         out: Optional[Bools] = None,
     ) -> Bools:
-        """Returns an array of bool, (n,): true where a ray has a crossing with t_min < t <= t_max.
+        """Returns an array of bool, of the results' shape: true where a ray has a crossing with t_min < t <= t_max.
 
-        ``out``: a contiguous array of bool, (n,), to fill and return.
+        ``out``: a contiguous array of bool, of that shape, to fill and return.
         """
+        rest = self._rest(t_min, t_max, leaving)
         if out is None:
-            out = np.empty(_count(origins, directions), np.bool_)
+            out = np.empty(self._tracer.shape_of(origins, directions, rest), np.bool_)
         elif not isinstance(out, np.ndarray) or out.dtype != np.bool_ or not out.flags.c_contiguous:
             raise InvalidValue("out", "must be a contiguous array of bool")
-        rest = self._rest(t_min, t_max, leaving)
         _warn(self._tracer.occluded(origins, directions, rest, out.view(np.uint8)))
         return out
 
@@ -311,7 +359,7 @@ class Tracer:
         return _rows(Lengths, self._tracer.path_lengths(origins, directions, self._rest(t_min, t_max, None)))
 
     def contains(self, points: ArrayLike) -> Solids:
-        """Returns the solids that contain each point inside or on the surface. ``points``: (n, 3). Always exact."""
+        """Returns the solids that contain each point inside or on the surface. ``points``: (..., 3). Always exact."""
         return _rows(Solids, self._tracer.contains(points), "points are refused: a coordinate is infinite or NaN")
 
 
@@ -326,19 +374,3 @@ def _warn(refused: int, reason: str = _REFUSED, stacklevel: int = 3) -> None:
 def _rows(kind: Type[AnyRows], columns: Dict[str, Any], reason: str = _REFUSED) -> AnyRows:
     _warn(columns.pop("refused"), reason, 4)
     return kind(**columns)
-
-
-def _count(origins: ArrayLike, directions: ArrayLike) -> int:
-    """Returns the number of rays. The compiled module checks the arrays themselves."""
-    for rays in (origins, directions):
-        shape: Tuple[int, ...] = getattr(rays, "shape", None) or _shape(rays)
-        if len(shape) > 1:
-            return shape[0]
-    return 1
-
-
-def _shape(rays: ArrayLike) -> Tuple[int, ...]:
-    try:
-        return np.shape(rays)
-    except ValueError:
-        return ()
