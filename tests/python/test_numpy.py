@@ -1,7 +1,10 @@
-"""Arrays behave as users of NumPy expect: broadcasting, shapes, masks, and old names."""
+"""Arrays behave as users of NumPy expect: broadcasting, shapes, masks, DLPack, and old names."""
 
 import copy
+import os
 import pickle
+import subprocess
+import sys
 import warnings
 
 import numpy as np
@@ -196,6 +199,39 @@ def test_misses_have_no_material(ball):
         ball.material_of(NO_SHAPE - 1)
 
 
+class OnlyDLPack:
+    """An array of another library, without NumPy's protocols."""
+
+    def __init__(self, array):
+        self._array = array
+
+    def __dlpack__(self, *values, **named):
+        return self._array.__dlpack__(*values, **named)
+
+    def __dlpack_device__(self):
+        return self._array.__dlpack_device__()
+
+
+@pytest.mark.skipif(not hasattr(np, "from_dlpack"), reason="NumPy before 1.23 has no from_dlpack")
+def test_dlpack(ball):
+    tracer = Tracer(ball)
+    for dtype in (np.float32, np.float64):
+        o, d = image_rays(6, 7, dtype, np.asarray)
+        t_max = np.full((6, 7), 4.25, dtype)
+        expected = tracer.intersect(o, d, t_max=t_max)
+        hits = tracer.intersect(OnlyDLPack(o), OnlyDLPack(d), t_max=OnlyDLPack(t_max))
+        assert same(hits, expected) and hits.t.dtype == dtype
+        assert raylane._raylane.Tracer.reads_in_place(OnlyDLPack(o), OnlyDLPack(d), (None,) * 5)
+        assert np.shares_memory(np.from_dlpack(hits.t), hits.t)
+        assert np.array_equal(hits[2:].onward(OnlyDLPack(d[2:]))[0], expected.onward(d)[0][2:], equal_nan=True)
+    # A limit in float64 that no float32 equals makes the rays double, as that of an array does.
+    o, d = (OnlyDLPack(np.array(v, np.float32)) for v in ([0, 0, 5], [0, 0, -1]))
+    assert not tracer.occluded(o, d, t_max=OnlyDLPack(np.array(4 - 1e-12)))
+    builder = raylane.SceneBuilder()
+    builder.add_spheres(OnlyDLPack(np.eye(3, dtype=np.float32)), OnlyDLPack(np.float32([1, 2, 3])), material=builder.add_material())
+    assert builder.build().shape_count == 3
+
+
 def test_old_names_warn(ball):
     tracer = Tracer(ball)
     o, d = np.array([[0, 0, 5], [0, 9, 5], [0, 0, 0.75]]), [0, 0, -1]
@@ -230,3 +266,25 @@ def test_old_names_warn(ball):
         leaving.shape = 7
     assert leaving.shape_id == 7
     assert pickle.loads(pickle.dumps(hits.shape)) == copy.deepcopy(hits.shape) == (3,)
+
+
+def test_an_old_pybind11_reads_arrays_of_numpy_1_only():
+    """Importing says so, instead of a crash later."""
+    code = (
+        "import numpy; major = int(numpy.__version__.split('.')[0]); numpy.__version__ = '2.0.0'\n"
+        "try: import raylane\n"
+        "except ImportError as error: assert major == 1 and 'install numpy<2' in str(error), error; print('refused')\n"
+        "else: print('imported')"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=os.environ.copy())
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.strip() in ("refused", "imported")
+
+
+def test_images_are_arrays():
+    image = raylane.Image(np.ones((2, 3, 3), np.float32))
+    assert np.asarray(image) is image.rgb and image.__array__(copy=False) is image.rgb
+    assert not np.shares_memory(image.__array__(copy=True), image.rgb)
+    assert np.asarray(image, np.float64).dtype == np.float64 and not np.shares_memory(np.array(image), image.rgb)
+    with pytest.raises(ValueError):
+        image.__array__(np.float64, copy=False)

@@ -57,12 +57,18 @@ inline void refuse_masked(const py::handle& values, const std::string& field) {
         if (py::isinstance<py::array>(each)) refuse(each);
 }
 
-/// Converts any object to an array by numpy.asarray, including masked values. Throws InvalidValue
-/// if NumPy refuses the object.
+/// Returns true for an object that NumPy can read only by DLPack.
+inline bool is_dlpack(const py::handle& values) {
+    return py::hasattr(values, "__dlpack__") && !py::hasattr(values, "__array__");
+}
+
+/// Converts any object to an array by numpy.asarray or numpy.from_dlpack, including masked values.
+/// Throws InvalidValue if NumPy refuses the object.
 inline py::array converted(const py::handle& values, const char* field) {
     if (py::isinstance<py::array>(values)) return py::reinterpret_borrow<py::array>(values);
     try {
-        return py::array(py::module_::import("numpy").attr("asarray")(values));
+        const char* const by = is_dlpack(values) ? "from_dlpack" : "asarray"; // from NumPy 1.23 on
+        return py::array(py::module_::import("numpy").attr(by)(values));
     } catch (const py::error_already_set& error) {
         if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
         throw InvalidValue(field, "must be an array of numbers");
@@ -78,7 +84,7 @@ inline py::array any_array(const py::handle& values, const char* field) {
 
 /// Returns true for a plain number and for a list: an object without a type of its numbers.
 inline bool is_plain(const py::object& values) {
-    return !py::hasattr(values, "dtype");
+    return !py::hasattr(values, "dtype") && !is_dlpack(values);
 }
 
 /// Returns true for arrays and scalars of float32, in either byte order, and for None.

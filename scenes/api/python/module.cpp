@@ -34,6 +34,12 @@ void set_error(std::exception_ptr error) {
 
 PYBIND11_MODULE(_raylane, module) {
     using namespace raylane::python;
+#if PYBIND11_VERSION_HEX < 0x020C0000
+    if (std::stoi(py::module_::import("numpy").attr("__version__").cast<std::string>()) > 1)
+        throw py::import_error("this raylane was built with a pybind11 before 2.12, which reads "
+                               "arrays of NumPy 1 only: install numpy<2, or build raylane with a "
+                               "newer pybind11");
+#endif
     py::register_exception_translator(&set_error);
     module.attr("version") = raylane::version();
     module.attr("NO_SHAPE") = raylane::no_shape;

@@ -99,8 +99,11 @@ class Image(Fields):
         rounded: NDArray[np.uint8] = np.floor(planes * 255.0 + 0.5).astype(np.uint8)
         return rounded
 
-    def __array__(self, dtype: Any = None) -> NDArray[Any]:
-        return self.rgb if dtype is None else self.rgb.astype(dtype)
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> NDArray[Any]:
+        dtype = self.rgb.dtype if dtype is None else np.dtype(dtype)
+        if copy is False and dtype != self.rgb.dtype:
+            raise ValueError(f"the image needs a copy to become {dtype}")
+        return self.rgb.astype(dtype, copy=bool(copy))
 
     def _repr_png_(self) -> bytes:
         with tempfile.TemporaryDirectory(prefix="raylane-") as folder:

@@ -114,10 +114,10 @@ class Hits(Fields):
         """
         if self._rays is None:
             raise ValueError("onward needs hits that Tracer.intersect returned")
-        origins, along = (np.asarray(rays, np.float64) for rays in self._rays)
+        origins, along = (_array(rays).astype(np.float64, copy=False) for rays in self._rays)
         with np.errstate(invalid="ignore"):
             points = np.where(self.hit[..., None], origins + self.t[..., None] * along, np.nan)
-        towards = np.broadcast_to(np.asarray(directions, np.float64), points.shape)
+        towards = np.broadcast_to(_array(directions).astype(np.float64, copy=False), points.shape)
         inward = np.einsum("...i,...i->...", self.normal, towards) < 0
         return points.astype(self.t.dtype), Leaving(self.shape_id, self.face, inward)
 
@@ -129,7 +129,7 @@ class Hits(Fields):
             setattr(part, name, None if values is None else np.asarray(values[index]))
         part._normal = np.stack([self._normal[i, ...][index] for i in range(3)])
         if self._rays is not None:
-            wholes = [np.broadcast_to(np.asarray(rays), (*self.t.shape, 3)) for rays in self._rays]
+            wholes = [np.broadcast_to(_array(rays), (*self.t.shape, 3)) for rays in self._rays]
             origins, directions = (np.stack([rays[..., i][index] for i in range(3)], axis=-1) for rays in wholes)
             part._rays = origins, directions
         return part
@@ -152,6 +152,12 @@ class Hits(Fields):
 
     def __repr__(self) -> str:
         return f"<raylane.Hits: {np.count_nonzero(self.hit)} of {self.t.size} rays>"
+
+
+def _array(values: Any) -> NDArray[Any]:
+    """Returns the array that the compiled module reads."""
+    is_dlpack = hasattr(values, "__dlpack__") and not hasattr(values, "__array__")
+    return np.from_dlpack(values) if is_dlpack else np.asarray(values)
 
 
 class _Rows:
@@ -246,7 +252,9 @@ class Tracer:
     is a plain number, or an array whose values are all float32 values. Arrays with contiguous columns
     (``np.empty((3, n)).T`` or Fortran order) are read in place, and so is ``np.moveaxis(planes, 0, -1)`` of planes
     (3, height, width). Other arrays are copied in parts. Arrays of another type are converted first, and arrays that
-    broadcast, other than to one row or number for all rays, are expanded first.
+    broadcast, other than to one row or number for all rays, are expanded first. Any object with ``__array__`` or
+    ``__dlpack__`` in this computer's memory is an array, such as tensors of PyTorch; these take results by
+    ``torch.from_dlpack(hits.t)`` without a copy.
 
     A line that lies in a flat or open surface, or in a quadric, does not hit it there. A line that lies in a face of a
     solid or along its side hits it where the line reaches it. The same holds for the parts of a constructed solid: along
