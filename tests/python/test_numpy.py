@@ -144,6 +144,8 @@ def test_planes_are_read_in_place(dtype):
     planes = np.moveaxis(np.ones((3, 6, 8), dtype), 0, -1)
     limits, ids = np.ones((6, 8), dtype), np.zeros((6, 8), np.uint32)
     assert in_place(planes, planes, limits, limits, ids)
+    camera = raylane.Camera().rays(8, 6)
+    assert in_place(*camera)
     for o, d, *rest in (
         (planes.copy(), planes),
         (planes[:, ::2], planes[:, ::2]),
@@ -229,7 +231,7 @@ def test_dlpack(ball):
     assert not tracer.occluded(o, d, t_max=OnlyDLPack(np.array(4 - 1e-12)))
     builder = raylane.SceneBuilder()
     builder.add_spheres(OnlyDLPack(np.eye(3, dtype=np.float32)), OnlyDLPack(np.float32([1, 2, 3])), material=builder.add_material())
-    assert builder.build().shape_count == 3
+    assert np.array_equal(builder.build().spheres().center, np.eye(3))
 
 
 def test_old_names_warn(ball):

@@ -1,6 +1,7 @@
 #include "values.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <pybind11/functional.h>
 #include <pybind11/stl/filesystem.h>
@@ -47,6 +48,85 @@ Scene with_positions(const Scene& scene, const py::object& positions) {
     return scene.with_positions(centers);
 }
 
+/// Returns shapes as an array of their numbers, (n, k): of float32 if all of them are floats,
+/// otherwise of float64.
+template <class Shape>
+py::array numbers_of(const std::vector<Shape>& shapes) {
+    constexpr std::size_t width = sizeof(Shape) / sizeof(double);
+    const std::span numbers(reinterpret_cast<const double*>(shapes.data()), width * shapes.size());
+    const auto stored = [&]<class Number>(std::type_identity<Number>) -> py::array {
+        py::array_t<Number> array(Axes{static_cast<py::ssize_t>(shapes.size()), width});
+        std::ranges::transform(numbers, array.mutable_data(),
+                               [](double number) { return static_cast<Number>(number); });
+        return array;
+    };
+    const bool are_floats = std::ranges::all_of(
+        numbers, [](double number) { return double{static_cast<float>(number)} == number; });
+    return are_floats ? stored(std::type_identity<float>()) : stored(std::type_identity<double>());
+}
+
+/// Returns the ids, material indices and numbers of all shapes of a type.
+template <template <class> class ShapeOf>
+py::tuple shapes_of(const Scene& scene) {
+    ShapesOf<ShapeOf<double>> shapes = [&] {
+        const py::gil_scoped_release free;
+        return scene.shapes<ShapeOf>();
+    }();
+    const py::array numbers = numbers_of(shapes.shape);
+    return py::make_tuple(array_from(std::move(shapes.id)), array_from(std::move(shapes.material)),
+                          numbers);
+}
+
+/// The types of shapes in the order of ShapeVariant, by the names of raylane/_shapes.py.
+struct ShapeType {
+    const char* name;
+    py::tuple (*shapes)(const Scene&);
+};
+constexpr ShapeType shape_types[] = {{"sphere", &shapes_of<SphereOf>},
+                                     {"plane", &shapes_of<PlaneOf>},
+                                     {"disc", &shapes_of<DiscOf>},
+                                     {"triangle", &shapes_of<TriangleOf>},
+                                     {"smooth triangle", &shapes_of<SmoothTriangleOf>},
+                                     {"box", &shapes_of<BoxOf>},
+                                     {"open cylinder", &shapes_of<OpenCylinderOf>},
+                                     {"capped cylinder", &shapes_of<CappedCylinderOf>},
+                                     {"open cone", &shapes_of<OpenConeOf>},
+                                     {"capped cone", &shapes_of<CappedConeOf>},
+                                     {"quadric", &shapes_of<QuadricOf>},
+                                     {"ellipsoid", &shapes_of<EllipsoidOf>}};
+static_assert(std::size(shape_types) == std::variant_size_v<ShapeVariant>);
+
+py::tuple shapes_of_type(const Scene& scene, const std::string& name) {
+    return std::ranges::find(shape_types, name, &ShapeType::name)->shapes(scene);
+}
+
+/// Returns the type's name and the numbers, (1, k), of one shape.
+py::tuple one_shape(const Scene& scene, const py::object& id) {
+    const std::size_t number = count_from(id, "id");
+    try {
+        const ShapeVariant shape =
+            scene.shape(static_cast<ShapeId>(std::min(number, std::size_t{no_shape})));
+        const py::array numbers = std::visit(
+            []<class Shape>(const Shape& of) { return numbers_of(std::vector<Shape>{of}); }, shape);
+        return py::make_tuple(shape_types[shape.index()].name, numbers);
+    } catch (const InvalidValue& error) {
+        throw InvalidValue("id", error.expectation);
+    }
+}
+
+/// Returns the origins and directions of an image's rays, each (3, height, width).
+py::tuple rays_of(const py::object& camera, const py::object& width, const py::object& height) {
+    const Camera from = camera_from(camera);
+    const int columns = int_from(width, "width"), rows = int_from(height, "height");
+    PixelRays rays = [&] {
+        const py::gil_scoped_release free;
+        return camera_rays(from, columns, rows);
+    }();
+    const Axes planes{3, rows, columns};
+    return py::make_tuple(array_from(std::move(rays.origins)).reshape(planes),
+                          array_from(std::move(rays.directions)).reshape(planes));
+}
+
 } // namespace
 
 void bind_scene(py::module_& module) {
@@ -90,6 +170,8 @@ void bind_scene(py::module_& module) {
                  return for_each_shape<ShapeId>(
                      shapes, [&](ShapeId id) { return id == no_shape ? id : scene.solid_of(id); });
              })
+        .def("shape", &one_shape)
+        .def("shapes", &shapes_of_type)
         .def("material",
              [](const Scene& scene, const py::object& index) {
                  const MaterialIndex of = one_material(index, "index");
@@ -111,6 +193,7 @@ void bind_scene(py::module_& module) {
         .def("background", [](const Scene& scene) { return to_python(scene.background()); })
         .def("settings", [](const Scene& scene) { return to_python(scene.settings()); });
 
+    module.def("camera_rays", &rays_of);
     module.def("load", [](const std::filesystem::path& path, const py::object& on_remark) {
         const OnRemark remarks = remarks_to(on_remark);
         const py::gil_scoped_release free;

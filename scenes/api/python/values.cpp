@@ -304,6 +304,11 @@ float number_from(const py::handle& number, const std::string& field) {
     take(number, field, result);
     return result;
 }
+int int_from(const py::handle& number, const std::string& field) {
+    int result = 0;
+    take(number, field, result);
+    return result;
+}
 bool bool_from(const py::handle& value, const std::string& field) {
     bool result = false;
     take(value, field, result);

@@ -17,6 +17,7 @@ Settings settings_from(const py::handle& settings);
 std::vector<double> wavelengths_from(const py::handle& wavelengths);
 Color color_from(const py::handle& color, const std::string& field);
 float number_from(const py::handle& number, const std::string& field);
+int int_from(const py::handle& number, const std::string& field);
 bool bool_from(const py::handle& value, const std::string& field);
 std::size_t count_from(const py::handle& count, const std::string& field);
 int threads_from(const py::handle& threads);

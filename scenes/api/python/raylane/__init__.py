@@ -15,6 +15,7 @@ from ._image import Cancelled, Image, Layers, imshow, render
 from ._orbit import orbit
 from ._raylane import version as __version__
 from ._scene import Scene, SceneBuilder, Solid, load, parse
+from ._shapes import Shapes
 from ._tracer import NO_SHAPE, Crossings, Hits, Leaving, Lengths, Solids, Tracer
 from ._values import Camera, Fog, Light, Material, Outline, Pattern, Sellmeier, Settings
 
@@ -40,6 +41,7 @@ __all__ = [
     "SceneBuilder",
     "Sellmeier",
     "Settings",
+    "Shapes",
     "Solid",
     "Solids",
     "SystemRefused",

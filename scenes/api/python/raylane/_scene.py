@@ -14,6 +14,7 @@ from . import _raylane
 from ._errors import BadInput, InvalidValue
 from ._fields import Fields
 from ._renamed import ids_in
+from ._shapes import Shapes
 from ._values import Camera, Fog, Light, Material, Settings, Vector
 
 if TYPE_CHECKING:
@@ -71,6 +72,56 @@ class Scene:
         Returns the id of any other shape unchanged, and ``NO_SHAPE`` for ``NO_SHAPE``. Takes an id or an array of ids.
         """
         return self._scene.solid_of(ids_in(shapes))
+
+    def shape(self, id: int) -> Shapes:
+        """Returns one shape with exactly the numbers that it was given, or that :meth:`with_positions` gave it.
+
+        For a part of a constructed solid, returns the part as it was given, except that ``lower`` and ``upper`` of a
+        quadric are bounds of its visible surface. Takes time in proportion to the number of shapes, 4 ms for a million:
+        for many shapes use :meth:`spheres` and the methods after it, which take 0.2 s for a million. Raises
+        :class:`InvalidValue` if the scene has no shape with this id.
+        """
+        kind, numbers = self._scene.shape(id)
+        return Shapes(kind, int(id), self.material_of(id), numbers[0])
+
+    def spheres(self) -> Shapes:
+        """Returns all spheres in the order of their ids, as :class:`Shapes`.
+
+        Like the following methods, returns the numbers that the shapes were given, or that :meth:`with_positions` gave
+        them. Equal shapes that count as one are all returned. Parts of constructed solids are not. So row i is that
+        of :meth:`with_positions`. Which triangles form a polygon is lost.
+        """
+        return self._shapes("sphere")
+
+    def ellipsoids(self) -> Shapes:
+        return self._shapes("ellipsoid")
+
+    def planes(self) -> Shapes:
+        return self._shapes("plane")
+
+    def discs(self) -> Shapes:
+        return self._shapes("disc")
+
+    def triangles(self, smooth: bool = False) -> Shapes:
+        """Returns the triangles without normals or, if ``smooth``, those with normals. See :meth:`spheres`."""
+        return self._shapes("smooth triangle" if smooth else "triangle")
+
+    def boxes(self) -> Shapes:
+        return self._shapes("box")
+
+    def cylinders(self, caps: bool = True) -> Shapes:
+        """Returns the cylinders with ``caps``, which are solids, or those without. See :meth:`spheres`."""
+        return self._shapes("capped cylinder" if caps else "open cylinder")
+
+    def cones(self, caps: bool = True) -> Shapes:
+        """Returns the cones and frusta with ``caps``, which are solids, or those without. See :meth:`spheres`."""
+        return self._shapes("capped cone" if caps else "open cone")
+
+    def quadrics(self) -> Shapes:
+        return self._shapes("quadric")
+
+    def _shapes(self, kind: str) -> Shapes:
+        return Shapes(kind, *self._scene.shapes(kind))
 
     def material(self, index: int) -> Material:
         return self._scene.material(index)
@@ -403,6 +454,15 @@ class SceneBuilder(Fields):
         Q = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz) + 2 (x px + y py + z pz) + one.
         """
         return range(*self._builder.add_quadrics(centers, coefficients, lower, upper, material))
+
+    def add(self, shapes: Shapes) -> range:
+        """Adds shapes that a scene gave back, such as ``scene.spheres()`` or ``scene.shape(id)``.
+
+        Their materials have the indices that they had in that scene.
+        """
+        if not isinstance(shapes, Shapes):
+            raise TypeError(f"must be a raylane.Shapes, not {type(shapes).__name__}")
+        return shapes._add_to(self)
 
     def add_solid(self, solid: Solid, *, material: int) -> range:
         """Adds a constructed solid. Returns the ids of its parts; the first one is also the id of the solid.

@@ -6,6 +6,10 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal, Tuple, Union
 
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _raylane
 from ._fields import Fields
 
 Vector = Tuple[float, float, float]
@@ -143,6 +147,21 @@ class Camera(Fields):
     """Radius of the thin lens, >= 0, in units of length. 0: a pinhole, without depth of field."""
     focus_distance: float = 0.0
     """Distance from the lens to the plane of focus, >= 0, in units of length. 0: that plane goes through ``at``."""
+
+    def rays(self, width: int, height: int) -> Tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Returns the origins and unit directions of the rays of an image, each (height, width, 3), for a tracer.
+
+        They are the rays that :func:`render` traces from this camera with one sample at the centre of each pixel: with
+        ``grid=1``, regular samples, the box filter and no quality. Row 0 is the upper edge of the image. A tracer reads
+        the arrays in place. With a lens, each ray starts at a point of the lens that depends on the pixel.
+        ``width`` and ``height``: 1 to 65535, at most 2^28 pixels in all. Raises :class:`InvalidValue`.
+
+        >>> origins, directions = Camera(position=(0, 0, 5)).rays(64, 48)
+        >>> directions.shape
+        (48, 64, 3)
+        """
+        origins, directions = _raylane.camera_rays(self, width, height)
+        return np.moveaxis(origins, 0, -1), np.moveaxis(directions, 0, -1)
 
 
 @dataclass
