@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace glm {
@@ -56,6 +57,13 @@ template <class Real>
 Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
     return {Real(Real(a.y * b.z) - Real(a.z * b.y)), Real(Real(a.z * b.x) - Real(a.x * b.z)),
             Real(Real(a.x * b.y) - Real(a.y * b.x))};
+}
+
+/// Returns the largest magnitude of a component.
+template <class Real>
+Real largest_component(const Vec3<Real>& a) {
+    using std::abs;
+    return std::max({abs(a.x), abs(a.y), abs(a.z)});
 }
 
 template <class Real>

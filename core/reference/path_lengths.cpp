@@ -14,7 +14,7 @@ using Extended = Bounded<DoubleDouble>;
 
 /// Returns the length of a vector that is not 0, as a number times 2^exponent.
 Extended length_of(const Vec3d& v, int& exponent) {
-    exponent = std::ilogb(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
+    exponent = std::ilogb(largest_component(v));
     Vec3<Extended> scaled;
     for (int axis = 0; axis < 3; ++axis)
         scaled[axis] = std::ldexp(v[axis], -exponent); // tiny components do not matter

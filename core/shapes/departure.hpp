@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-/// Rays that start on a shape: the side to which they go, and checks of what a caller says of them.
+/// Rays that start on a shape: the side to which they go, and checks of the starts that callers
+/// give.
 namespace raylane::core {
 
 /// Returns the number of a shape's faces: see Face.
@@ -54,9 +55,7 @@ double distance_from(const Shape& shape, const Vec3d& point, Face face, const Ve
 /// shape's size, and 2^-18 of all coordinates.
 template <class Shape>
 double tolerance_of(const Shape& shape, const Vec3d& origin, double share_of_size) {
-    double size = 0.0, coordinate = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-        coordinate = std::max(coordinate, std::abs(origin[axis]));
+    double size = 0.0, coordinate = largest_component(origin);
     if constexpr (is_bounded<Shape>) {
         const Bounds bounds = bounds_of(shape);
         for (int axis = 0; axis < 3; ++axis) {
@@ -139,7 +138,7 @@ int clear_side_of_departure(const Shape& shape, const Ray<double>& ray, Face fac
             return 0;
         // At most 16 roundings, each by 2^-53 of `size`. Underflow is far below that.
         const double along = dot(normal, d);
-        const double most = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+        const double most = largest_component(d);
         if (most > 0x1p-300 && most < 0x1p400 && size > 0x1p-600 * most &&
             std::abs(along) > 0x1p-45 * size)
             return along > 0.0 ? 1 : -1;
@@ -151,8 +150,7 @@ int clear_side_of_departure(const Shape& shape, const Ray<double>& ray, Face fac
 /// not explain. Near a tip, or on a tiny shape, the normal is another one just beside the origin.
 template <class Shape>
 bool departs_clearly(const Shape& shape, const Ray<double>& ray, Face face, double share_of_size) {
-    const Vec3d& d = ray.direction;
-    const Vec3d along = d / std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+    const Vec3d along = ray.direction / largest_component(ray.direction);
     const auto sine_at = [&](const Vec3d& point) {
         const Vec3d normal = outward_direction(shape, point, face);
         return dot(normal, along) / (length(normal) * length(along));

@@ -94,7 +94,7 @@ bool goes_inside(const core::Scene& scene, core::Kind kind, core::Place place,
 /// 2^-exponent is exact. Otherwise returns the ray itself, and the exponent 0.
 core::Ray<double> scaled(const core::Ray<double>& ray, int& exponent) {
     const core::Vec3d& d = ray.direction;
-    exponent = std::ilogb(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}));
+    exponent = std::ilogb(core::largest_component(d));
     core::Ray<double> result = ray;
     for (int axis = 0; axis < 3; ++axis) {
         result.direction[axis] = std::ldexp(d[axis], -exponent);
