@@ -105,7 +105,7 @@ def test_a_builder_takes_what_a_scene_gives(random):
         assert np.array_equal(hits.t, expected.t) and np.array_equal(hits.shape_id, expected.shape_id)
         ids = np.arange(other.shape_count)
         assert np.array_equal(other.material_of(ids), scene.material_of(ids))
-    # What a scene gives may be changed, copied and pickled.
+    # The arrays may be changed, copied and pickled.
     balls = scene.spheres()
     for again in (copy.deepcopy(balls), pickle.loads(pickle.dumps(balls))):
         again.radius = 2 * again.radius

@@ -84,7 +84,7 @@ TEST_CASE("equal rays in double and in float have equal answers") {
     }
 }
 
-TEST_CASE("rays of any finite doubles hit what they meet, and others are counted") {
+TEST_CASE("rays of any finite doubles are traced, and others are counted") {
     const Tracer tracer(ball());
     DoubleRays rays;
     const auto add = [&](const Vec3d& origin, const Vec3d& direction) {

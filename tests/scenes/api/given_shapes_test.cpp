@@ -24,7 +24,7 @@ struct Given {
 template <class CoreShape>
 using AllGiven = std::vector<Given<CoreShape>>;
 
-/// Adds a shape, in double if its numbers are to be no floats, and keeps what was given.
+/// Adds a shape to a builder and to a list. `in_double`: with numbers that are not floats.
 template <class CoreShape>
 void give(SceneBuilder& builder, const CoreShape& shape, bool in_double, MaterialIndex material,
           AllGiven<CoreShape>& all) {
