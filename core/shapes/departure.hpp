@@ -108,12 +108,16 @@ int side_of_departure(const Shape& shape, const Ray<double>& ray, Face face) {
 
 /// Returns side_of_departure() of a ray that may_start_on() a shape, if both are decided by few
 /// operations, as for most rays from spheres and from the sides of cylinders. Otherwise returns 0.
+/// Uses no FMA: processors without it would call a function for each.
 template <class Shape>
 int clear_side_of_departure(const Shape& shape, const Ray<double>& ray, Face face,
                             double share_of_size) {
     constexpr Kind kind = kind_of<Shape>;
     if constexpr (kind == Kind::sphere || kind == Kind::open_cylinder ||
                   kind == Kind::capped_cylinder) {
+        const auto product = [](const Vec3d& a, const Vec3d& b) {
+            return a.x * b.x + a.y * b.y + a.z * b.z;
+        };
         const auto sizes = [](const Vec3d& a, const Vec3d& b) {
             return std::abs(a.x * b.x) + std::abs(a.y * b.y) + std::abs(a.z * b.z);
         };
@@ -126,18 +130,18 @@ int clear_side_of_departure(const Shape& shape, const Ray<double>& ray, Face fac
         } else {
             const Vec3d axis = convert<double>(shape.axis);
             const Vec3d from_base = ray.origin - convert<double>(shape.base);
-            const double axis_squared = squared_length(axis);
-            const double height = dot(from_base, axis) / axis_squared;
+            const double axis_squared = product(axis, axis);
+            const double height = product(from_base, axis) / axis_squared;
             if (face != body || !(height >= 0.0 && height <= 1.0)) return 0;
             normal = from_base - height * axis;
             size = sizes(from_base, d) + sizes(from_base, axis) / axis_squared * sizes(axis, d);
         }
         const auto radius = static_cast<double>(shape.radius);
-        if (!(std::abs(squared_length(normal) - radius * radius) <=
+        if (!(std::abs(product(normal, normal) - radius * radius) <=
               share_of_size * (radius * radius)))
             return 0;
-        // At most 16 roundings, each by 2^-53 of `size`. Underflow is far below that.
-        const double along = dot(normal, d);
+        // At most 20 roundings, each by 2^-53 of `size`. Underflow is far below that.
+        const double along = product(normal, d);
         const double most = largest_component(d);
         if (most > 0x1p-300 && most < 0x1p400 && size > 0x1p-600 * most &&
             std::abs(along) > 0x1p-45 * size)

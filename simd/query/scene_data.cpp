@@ -345,8 +345,7 @@ SceneData::ShapeRecord SceneData::find_record(std::uint32_t slot) const {
 }
 
 core::Place SceneData::place_of(std::uint32_t slot) const {
-    const auto kind = static_cast<int>(record_of(slot).kind);
-    const std::uint32_t place = slot - view_.tables[kind].first_slot;
+    const std::uint32_t place = slot - view_.tables[static_cast<int>(kind_of(slot))].first_slot;
     return {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)};
 }
 

@@ -45,6 +45,11 @@ core::Ray<double> ray_in_double(const RayStream<Real>& rays, std::size_t i) {
     return {vector(rays.origin), vector(rays.direction)};
 }
 
+/// How far the origin of a ray may be from the shape that it leaves, as a share of the shape's
+/// size.
+template <class Real>
+constexpr double rounding_in = std::is_same_v<Real, float> ? 0x1p-6 : 0x1p-10;
+
 /// The start of a ray on a face of a shape, as the caller gives it.
 struct GivenStart {
     core::Ray<double> ray;
@@ -232,10 +237,9 @@ void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,
     const std::uint32_t slot = shape < slots.size() ? slots[shape] : no_slot;
     if (slot == no_slot) return paths.start_nowhere(lane, lane + 1);
     const SceneData::NamedShape named = scene.shape_named(shape, slot);
-    const GivenStart start{ray_in_double(rays, i),
-                           rays.origin_face != nullptr ? rays.origin_face[i] : core::body,
-                           from(rays.origin_inward, i), scene.scene().solids().is_reversed(shape),
-                           std::is_same_v<Real, float> ? 0x1p-6 : 0x1p-10};
+    const GivenStart start{
+        ray_in_double(rays, i), rays.origin_face != nullptr ? rays.origin_face[i] : core::body,
+        from(rays.origin_inward, i), scene.scene().solids().is_reversed(shape), rounding_in<Real>};
     try {
         const bool inward = goes_inside(scene.scene(), named.kind, scene.place_of(slot), start);
         paths.start_on(lane, slot, named, std::uint32_t{start.face} | (inward ? hit_entering : 0),
@@ -245,19 +249,82 @@ void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,
     }
 }
 
+/// Starts rays on spheres that are no parts of solids, as start_on() does, if few operations decide
+/// the side to which they go.
+class StartsOnSpheres {
+  public:
+    explicit StartsOnSpheres(const SceneData& scene)
+        : spheres_(std::get<core::Table<core::Sphere>>(scene.scene().shapes())),
+          solids_(scene.scene().solids()), first_slot_(scene.slot_of(core::Kind::sphere, {0, 0})),
+          slots_(spheres_.block_count() * core::block_size) {}
+
+    /// Fetches the block of a sphere into the cache.
+    void prefetch(std::uint32_t slot) const {
+        const std::uint32_t place = slot - first_slot_;
+        if (place >= slots_) return;
+        const std::size_t block = place / core::block_size;
+        if (spheres_.is_packed())
+            fetch(spheres_.packed()->blocks[block]);
+        else
+            fetch(spheres_.plain_blocks()[block].values);
+    }
+
+    /// Returns false, and does nothing, if this ray needs start_on().
+    template <class Real>
+    bool start(const Paths& paths, std::size_t lane, std::uint32_t slot,
+               const RayStream<Real>& rays, std::size_t i) const {
+        const std::uint32_t place = slot - first_slot_;
+        if (place >= slots_ || solids_.has(rays.origin_shape[i]) ||
+            (rays.origin_face != nullptr && rays.origin_face[i] != core::body))
+            return false;
+        const int side = core::clear_side_of_departure(
+            spheres_.get(
+                {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)}),
+            ray_in_double(rays, i), core::body, rounding_in<Real>);
+        if (side == 0 ||
+            (rays.origin_inward != nullptr && (rays.origin_inward[i] != 0) != (side < 0)))
+            return false;
+        const core::ShapeId id = rays.origin_shape[i];
+        const SceneData::NamedShape sphere{{id, id}, core::Kind::sphere, /*flat=*/false};
+        paths.start_on(lane, slot, sphere, core::body | (side < 0 ? hit_entering : 0U),
+                       /*through=*/true);
+        return true;
+    }
+
+  private:
+    template <class Numbers>
+    static void fetch(const Numbers& numbers) {
+        constexpr std::size_t line = 64;
+        for (std::size_t byte = 0; byte < sizeof(numbers); byte += line)
+            __builtin_prefetch(reinterpret_cast<const char*>(&numbers) + byte);
+    }
+
+    const core::Table<core::Sphere>& spheres_;
+    const core::Solids& solids_;
+    std::uint32_t first_slot_;
+    std::size_t slots_;
+};
+
 template <class Real>
 void StreamIntake::start_on(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
     const std::span<const std::uint32_t> slots = shapes_.slots();
+    const StartsOnSpheres on_spheres(scene_);
+    const auto slot_of = [&](std::size_t i) {
+        const core::ShapeId shape = rays.origin_shape[i];
+        return shape < slots.size() ? slots[shape] : no_slot;
+    };
     constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < count; ++i) {
-        if (i + ahead < count && rays.origin_shape[i + ahead] < slots.size())
-            __builtin_prefetch(&slots[rays.origin_shape[i + ahead]]);
-        const std::uint32_t of_limits = paths_.origin_bits[to + i];
-        if (is_ray(to + i) || !is_refused(rays, i))
-            simd::start_on(paths_, to + i, scene_, slots, rays, i);
-        else
-            paths_.start_nowhere(to + i, to + i + 1);
-        paths_.origin_bits[to + i] |= of_limits;
+        if (i + 2 * ahead < count && rays.origin_shape[i + 2 * ahead] < slots.size())
+            __builtin_prefetch(&slots[rays.origin_shape[i + 2 * ahead]]);
+        if (i + ahead < count) on_spheres.prefetch(slot_of(i + ahead));
+        const std::size_t lane = to + i;
+        const std::uint32_t of_limits = paths_.origin_bits[lane];
+        if (!is_ray(lane) && is_refused(rays, i))
+            paths_.start_nowhere(lane, lane + 1);
+        else if (!on_spheres.start(paths_, lane, slot_of(i), rays, i))
+            simd::start_on(paths_, lane, scene_, slots, rays, i);
+        paths_.origin_bits[lane] |= of_limits;
     }
 }
 
