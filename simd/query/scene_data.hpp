@@ -43,7 +43,9 @@ class SceneData {
     /// Returns the best number of rays for one exact search for nearest hits, if the rays are
     /// incoherent. Where the search makes lists, these should be long; otherwise the rays' data
     /// should stay in the cache.
-    std::size_t best_ray_count() const { return has_tree() && !view_.large ? 2 * long_list : 1024; }
+    std::size_t best_ray_count() const { return has_tree() && !is_large() ? 2 * long_list : 1024; }
+    /// Returns true if nodes and shapes do not fit in the cache of a core.
+    bool is_large() const { return view_.large; }
     /// Returns true if it costs less to reorder rays than to trace packets of rays that are not
     /// neighbours in both directions.
     bool best_in_tiles() const { return has_tree() && slots_ >= 8192; }

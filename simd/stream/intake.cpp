@@ -150,8 +150,7 @@ RayStream<Real> StreamIntake::take(const RayStream<Real>& rays, std::size_t firs
     const std::size_t left = rays.count - first;
     std::size_t count = std::min(left, together);
     take(part_of(rays, first, count), count, 0);
-    const bool coherent = tracing_.precision == core::Precision::exact &&
-                          kernels().find_coherence(count, taken_, scene_.radius(), in_common_);
+    const bool coherent = finds_coherence(count);
     coherence_ = coherent ? &in_common_ : nullptr;
     if (!coherent && count < std::min(left, capacity_)) {
         const std::size_t more = std::min(left, capacity_) - count;
@@ -164,6 +163,16 @@ RayStream<Real> StreamIntake::take(const RayStream<Real>& rays, std::size_t firs
         paths_.t_after = paths_.start = nullptr;
     paths_.count = count;
     return part_of(rays, first, count);
+}
+
+/// Returns true if the first rays share a property that makes them faster.
+bool StreamIntake::finds_coherence(std::size_t count) {
+    if (tracing_.precision != core::Precision::exact ||
+        !kernels().find_coherence(count, taken_, scene_.radius(), in_common_))
+        return false;
+    constexpr std::size_t fewest_in_large = 512; // near origins alone do not pay for fewer rays
+    return !in_common_.loose || !in_common_.scattered || !scene_.is_large() ||
+           count >= fewest_in_large;
 }
 
 /// Takes all these rays into the lanes from `to` on.

@@ -127,6 +127,7 @@ class StreamIntake {
     const StreamKernels& kernels() const { return tracing_.kernels->stream; }
     template <class Real>
     void take(const RayStream<Real>& rays, std::size_t count, std::size_t to);
+    bool finds_coherence(std::size_t count);
     template <class Real>
     void start_on(const RayStream<Real>& rays, std::size_t count, std::size_t to);
     template <class Real>

@@ -147,17 +147,28 @@ void StreamWorker::occluded_in_tiles(const RayStream<Real>& rays, std::uint8_t* 
     TileColumns::hand_back(found, order, answers);
 }
 
+template <class Trace>
+void StreamWorker::FrustaToTry::trace(const Coherence* coherence, std::size_t count,
+                                      const Trace& trace) {
+    EngineCounters counters;
+    if (coherence == nullptr || coherence->loose) {
+        trace(coherence, counters);
+    } else if (count <= without_) {
+        trace(coherence->scattered ? nullptr : &neighbours, counters);
+        without_ -= count;
+    } else {
+        trace(coherence, counters);
+        without_ = counters.in_frusta == 0 ? most_without : 0;
+    }
+}
+
 template <class Real>
 void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits) {
-    EngineCounters counters;
-    const bool may_make_frusta = intake_.coherence() != nullptr && !intake_.coherence()->loose;
-    const bool skips_frusta = may_make_frusta && rays.count <= without_frusta_;
-    query_.nearest(intake_.paths(), skips_frusta ? &neighbours : intake_.coherence(), counters,
-                   is_exact() && rays.t_max != nullptr ? intake_.taken().t_limit : nullptr);
-    if (skips_frusta)
-        without_frusta_ -= rays.count;
-    else if (may_make_frusta)
-        without_frusta_ = counters.in_frusta == 0 ? most_without_frusta : 0;
+    to_hits_.trace(
+        intake_.coherence(), rays.count, [&](const Coherence* coherence, EngineCounters& counters) {
+            query_.nearest(intake_.paths(), coherence, counters,
+                           is_exact() && rays.t_max != nullptr ? intake_.taken().t_limit : nullptr);
+        });
     mark_unanswered(rays, hits.wants_normals());
     LeftOver left{doubtful_, unsharp_, 0, 0};
     UpperLimits limits{nullptr, rays.t_max != nullptr};
@@ -432,9 +443,11 @@ void StreamWorker::occluded_of(const RayStream<Real>& rays, std::uint8_t* occlud
         if ((intake_.paths().origin_bits[lane] & origin_may_return) != 0) state_[lane] = doubtful;
         if (!intake_.is_ray(lane)) state_[lane] = blocked;
     }
-    EngineCounters counters;
-    query_.occluded(intake_.paths().columns(), intake_.taken().t_limit, state_, intake_.coherence(),
-                    counters);
+    to_occluders_.trace(intake_.coherence(), rays.count,
+                        [&](const Coherence* coherence, EngineCounters& counters) {
+                            query_.occluded(intake_.paths().columns(), intake_.taken().t_limit,
+                                            state_, coherence, counters);
+                        });
     // Without certificates, bounds cannot decide lower limits either.
     if (!is_exact() && rays.t_min != nullptr)
         for (std::size_t lane = 0; lane < rays.count; ++lane)

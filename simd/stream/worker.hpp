@@ -93,10 +93,18 @@ class StreamWorker {
         HitStream take(std::size_t count, bool normals);
     } columns_;
     std::size_t refused_ = 0;
-    /// The number of rays, also of other calls, for which no frusta are tried because those before
-    /// them gave up. Has no influence on answers.
-    std::size_t without_frusta_ = 0;
-    static constexpr std::size_t most_without_frusta = 1024;
+    /// Skips frusta after some that gave up. Has no influence on answers.
+    class FrustaToTry {
+      public:
+        /// Calls trace(coherence, counters) for some rays.
+        template <class Trace>
+        void trace(const Coherence* coherence, std::size_t count, const Trace& trace);
+
+      private:
+        static constexpr std::size_t most_without = 1024;
+        std::size_t without_ = 0; ///< number of rays, also of other calls, that try no frusta
+    };
+    FrustaToTry to_hits_, to_occluders_;
     Arena arena_;
 };
 

@@ -116,6 +116,9 @@ struct Coherence {
     bool loose;          ///< they are only near each other: the other members are meaningless
     bool beyond;         ///< they start beyond the apex
     float spread = 0.0F; ///< largest distance by which they miss the apex
+    /// Consecutive rays that end at one point do not start near each other, or loose ones have
+    /// different directions.
+    bool scattered = false;
 };
 constexpr Coherence neighbours{{}, false, false, true, false};
 

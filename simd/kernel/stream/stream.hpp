@@ -32,10 +32,16 @@ class CallerStream {
                                Coherence& coherence) {
         coherence = {};
         if (count < fewest) return false;
-        const Steps steps = steps_between(count, rays);
+        const Steps steps = steps_between(count, rays, max_move * static_cast<double>(radius));
         const double most = static_cast<double>(count - 1);
-        if (ends_at_one_point(count, rays, coherence)) return true;
-        if (!(steps.turn <= max_turn * most)) return false;
+        if (ends_at_one_point(count, rays, coherence)) {
+            coherence.scattered = steps.near < 0.5 * most;
+            return true;
+        }
+        if (!(steps.turn <= max_turn * most)) {
+            coherence.loose = coherence.scattered = true;
+            return count >= fewest_near && steps.near >= 0.65 * most;
+        }
         if (steps.turn == 0.0) {
             coherence.parallel = steps.is_near(radius, most);
             return coherence.parallel;
@@ -102,6 +108,8 @@ class CallerStream {
 
     /// The smallest number of rays that is worth an examination.
     static constexpr std::size_t fewest = 16;
+    /// The same, of rays that have nothing in common but near origins.
+    static constexpr std::size_t fewest_near = 128;
     /// Mean steps from one ray to the next that count as small: of directions, and of origins in
     /// radii of the scene.
     static constexpr double max_turn = 0.25, max_move = 0.05;
@@ -329,13 +337,14 @@ class CallerStream {
     /// Sums of the steps from each ray to the next, over the coordinates.
     struct Steps {
         double turn, move;
+        double near; ///< number of short moves
 
         bool is_near(float radius, double count) const {
             return move <= max_move * static_cast<double>(radius) * count;
         }
     };
-    static Steps steps_between(std::size_t count, const StreamRays& rays) {
-        Number turn = zero<D>(), move = zero<D>();
+    static Steps steps_between(std::size_t count, const StreamRays& rays, double short_move) {
+        Number turn = zero<D>(), move = zero<D>(), near = zero<D>();
         for (std::size_t i = 0; i + 1 < count; i += half) {
             Number turned = zero<D>(), moved = zero<D>();
             for (int axis = 0; axis < 3; ++axis) {
@@ -347,8 +356,9 @@ class CallerStream {
             const Mask<D> here = first_lanes(count - 1 - i);
             turn = turn + select(here, turned, zero<D>());
             move = move + select(here, moved, zero<D>());
+            near = near + select(here & (moved <= Number(short_move)), Number(1.0), zero<D>());
         }
-        return {sum_of(turn), sum_of(move)};
+        return {sum_of(turn), sum_of(move), sum_of(near)};
     }
 
     static Mask<D> first_lanes(std::size_t count) {

@@ -66,26 +66,36 @@ struct Trace : Streams<Arch> {
                          const Coherence* coherence, std::size_t count, const RoundedRays& rays,
                          const Occlusions& occlusions, const Workspace& workspace,
                          TraceCounters& counters) {
-        if (!makes_frusta(coherence)) {
-            occluded_of_any(scene, kind_bits, coherence, 0, count, rays, occlusions, workspace,
-                            counters);
-        } else if (coherence->converging && SortedByDirection<Arch>::has_room(count, workspace)) {
-            const SortedByDirection<Arch> sorted(rays, occlusions, count, workspace);
-            Workspace left = workspace;
-            left.capacity = 0; // its memory holds the sorted rays
-            occluded_frusta(scene, kind_bits, *coherence, count, sorted.rays, sorted.occlusions,
-                            left, counters);
-            sorted.hand_back(occlusions, count);
-        } else {
-            occluded_frusta(scene, kind_bits, *coherence, count, rays, occlusions, workspace,
-                            counters);
+        std::size_t done = 0;
+        if (makes_frusta(coherence)) {
+            if (coherence->converging && SortedByDirection<Arch>::has_room(count, workspace)) {
+                const SortedByDirection<Arch> sorted(rays, occlusions, count, workspace);
+                Workspace left = workspace;
+                left.capacity = 0; // its memory holds the sorted rays
+                done = occluded_frusta(scene, kind_bits, *coherence, count, sorted.rays,
+                                       sorted.occlusions, left, counters);
+                if (done != 0 && done != count)
+                    occluded_of_any(scene, kind_bits, nullptr, done, count, sorted.rays,
+                                    sorted.occlusions, left, counters);
+                sorted.hand_back(occlusions, count);
+                if (done != 0) return;
+            } else {
+                done = occluded_frusta(scene, kind_bits, *coherence, count, rays, occlusions,
+                                       workspace, counters);
+            }
+            coherence = coherence->scattered ? nullptr : &neighbours;
         }
+        if (done != count)
+            occluded_of_any(scene, kind_bits, coherence, done, count, rays, occlusions, workspace,
+                            counters);
     }
 
-    static void occluded_frusta(const SceneView& scene, std::uint32_t kind_bits,
-                                const Coherence& coherence, std::size_t count,
-                                const RoundedRays& rays, const Occlusions& occlusions,
-                                const Workspace& workspace, TraceCounters& counters) {
+    /// Returns the number of rays that are done. If it is less than `count`, frusta of the rays
+    /// that follow would usually list too many shapes.
+    static std::size_t occluded_frusta(const SceneView& scene, std::uint32_t kind_bits,
+                                       const Coherence& coherence, std::size_t count,
+                                       const RoundedRays& rays, const Occlusions& occlusions,
+                                       const Workspace& workspace, TraceCounters& counters) {
         for (std::size_t begin = 0; begin < count; begin += Rays::max_rays) {
             const std::size_t end = count - begin < Rays::max_rays ? count : begin + Rays::max_rays;
             Rays frustum;
@@ -99,13 +109,10 @@ struct Trace : Streams<Arch> {
                 Walk<false>(scene, frustum, workspace, counters, max_occluders(end - begin))
                     .go(kind_bits, found);
             found.hand_back(occlusions, begin, end);
-            if (!done) { // usually, the frusta that follow would give up, too
-                occluded_of_any(scene, kind_bits, nullptr, begin, count, rays, occlusions,
-                                workspace, counters);
-                return;
-            }
+            if (!done) return begin;
             counters.in_frusta += end - begin;
         }
+        return count;
     }
 
     /// Returns the streams from ray `begin` on.
