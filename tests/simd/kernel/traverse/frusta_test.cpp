@@ -126,6 +126,50 @@ TEST_CASE("reordering rays to a light does not change their answers") {
     }
 }
 
+TEST_CASE("rays to a light behind many shapes go as lists, unless they are scattered") {
+    for (const Isa isa : available_isas()) {
+        const Kernels& kernels = kernels_of(isa);
+        CAPTURE(std::string(kernels.name));
+        Rays rays(256, 9.0);
+        Random random(3);
+        SceneBuilder builder;
+        builder.wants_light = false;
+        builder.add_material({});
+        for (int i = 0; i < 5000; ++i)
+            builder.add(Sphere{{static_cast<float>(random.uniform(-8.0, 0.0)),
+                                static_cast<float>(random.uniform(0.0, 0.15)),
+                                static_cast<float>(random.uniform(0.0, 0.15))},
+                               0.0005F},
+                        0);
+        const Traced traced(std::move(builder).build(), rays.padded);
+        SceneView view = traced.data.view();
+        view.small = false;
+        const Vec3d light(20.0, 0.0, 0.0);
+        for (std::size_t i = 0; i < rays.padded; ++i) {
+            rays.start(
+                i, {-9.0, 0.01 * static_cast<double>(i % 16), 0.01 * static_cast<double>(i / 16)});
+            const Vec3d way = light - rays.get(i).origin;
+            rays.aim(i, normalized(way));
+            rays.t_limit[i] = static_cast<float>(length(way));
+        }
+        for (const bool scattered : {false, true}) {
+            CAPTURE(scattered);
+            Coherence to_light{{20.0F, 0.0F, 0.0F}, true, false, false, false};
+            to_light.scattered = scattered;
+            const RoundedRays rounded = rays.round(kernels);
+            Answers answers(rays.padded);
+            TraceCounters counters{};
+            Traced::exactly(kernels).occluded(view, 0, &to_light, rays.count, rounded,
+                                              {rays.t_limit.data(), answers.state.data()},
+                                              traced.workspace, counters);
+            CHECK((scattered ? counters.in_flight : counters.in_lists) == rays.count);
+            const auto dark =
+                std::count(answers.state.begin(), answers.state.begin() + 256, blocked);
+            CHECK((dark > 0 && dark < 256));
+        }
+    }
+}
+
 TEST_CASE("rays see the same in a frustum as alone") {
     for (const Isa isa : available_isas()) {
         for (const Coherence& coherence : {
