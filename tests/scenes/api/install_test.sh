@@ -41,6 +41,17 @@ for header in "$prefix"/include/raylane/*; do
     esac
 done
 
+echo "an older standard of C++ is one error"
+cd "$folder"
+for each in "$compiler" g++ clang++; do
+    command -v "$each" >/dev/null || continue
+    for text in "#include <raylane/tracer.hpp>" "$(cat "$source/scenes/api/examples/hits.cpp")"; do
+        ! echo "$text" | "$each" -std=c++17 -fsyntax-only -I "$prefix/include" -x c++ - 2>log || fail "$each: C++17"
+        { [ "$(grep -c 'error: ' log)" -eq 1 ] && grep -q 'error: .*raylane needs C++20' log; } ||
+            fail "$each: $(cat log)"
+    done
+done
+
 ours='raylane|glm|nlohmann|stbi|CLI'
 archive=$(find "$prefix" -name libraylane.a)
 if [ -n "$archive" ]; then
@@ -78,7 +89,6 @@ quietly "$cmake" -S "$source/scenes/api/examples" -B "$folder/examples" -G "$gen
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$c_compiler" -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_C_FLAGS="$flags"
 quietly "$cmake" --build "$folder/examples"
-cd "$folder"
 "$folder/examples/hits"
 [ -s sphere.png ] || fail "no picture"
 "$folder/examples/hits_in_c"

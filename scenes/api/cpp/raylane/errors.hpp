@@ -1,6 +1,6 @@
 #pragma once
 
-#include "raylane/api.h"
+#include "raylane/api.hpp"
 
 #include <cstddef>
 #include <memory>

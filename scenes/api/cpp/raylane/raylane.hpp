@@ -7,6 +7,7 @@
 /// RGB, where 1 is white. A surface is exactly the one that the numbers of its shape define, and
 /// real arithmetic on these numbers decides which surface a ray hits.
 
+#include "raylane/api.hpp"
 #include "raylane/camera_rays.hpp"
 #include "raylane/errors.hpp"
 #include "raylane/image.hpp"

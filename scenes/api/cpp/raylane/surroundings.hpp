@@ -1,6 +1,6 @@
 #pragma once
 
-#include "raylane/api.h"
+#include "raylane/api.hpp"
 #include "raylane/vector.hpp"
 
 #include <cstdint>

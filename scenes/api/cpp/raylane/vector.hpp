@@ -1,6 +1,6 @@
 #pragma once
 
-#include "raylane/api.h"
+#include "raylane/api.hpp"
 
 namespace RAYLANE_API raylane {
 
