@@ -138,11 +138,12 @@ else
     echo "(there is none)"
 fi
 
-echo "as a part of another project it is the library alone"
+echo "as a part of another project it is the library alone, optimised"
 mkdir outer
 cat >outer/CMakeLists.txt <<EOF
 cmake_minimum_required(VERSION 3.25)
 project(outer LANGUAGES C CXX)
+add_library(theirs theirs.cpp)
 add_subdirectory("$source" raylane)
 if(NOT TARGET raylane::raylane)
   message(FATAL_ERROR "no library")
@@ -157,8 +158,14 @@ if(tests)
   message(FATAL_ERROR "tests")
 endif()
 EOF
+echo >outer/theirs.cpp
+unset CFLAGS CXXFLAGS CMAKE_BUILD_TYPE
 quietly "$cmake" -S outer -B outer/build -G "$generator" -DCMAKE_C_COMPILER="$c_compiler" \
-    -DCMAKE_CXX_COMPILER="$compiler"
+    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+commands=$(grep '"command":' outer/build/compile_commands.json)
+slow=$(echo "$commands" | grep -v -e theirs.cpp -e ' -O3 -DNDEBUG ' || true)
+[ -z "$slow" ] || fail "not optimised: $slow"
+! echo "$commands" | grep theirs.cpp | grep -e -O3 || fail "other targets are changed"
 quietly "$cmake" --install outer/build --prefix "$folder/none"
 [ ! -e "$folder/none" ] || fail "it installs itself with another project"
 
