@@ -55,7 +55,7 @@ elif [ "${1-}" = kernels ]; then
     done
     build() { quietly cmake --build build/own --target "$@"; }
 else
-    set -- bin/raylane bin/raylane-window.so scenes/api/cpp/libraylane.a \
+    set -- bin/raylane bin/raylane-window.so scenes/api/cpp/libraylane.a scenes/api/cpp/libraylane_trace.a \
         scenes/tool/manual/raylane-render.1 scenes/tool/completions/raylane
     build() {
         quietly cmake --build build/own

@@ -3,6 +3,7 @@
 #include "raylane/raylane.h"
 #include "raylane/raylane.hpp"
 
+#include <memory>
 #include <new>
 #include <span>
 #include <type_traits>
@@ -23,7 +24,7 @@ namespace raylane::c {
 
 /// Stores the text for raylane_error_text() and returns `status`. If memory runs out, the text is
 /// empty.
-raylane_status failed(raylane_status status, const char* text) noexcept;
+RAYLANE_API raylane_status failed(raylane_status status, const char* text) noexcept;
 
 /// Runs `call` and converts its exceptions to a status.
 template <class Call>
@@ -68,6 +69,16 @@ template <class Value>
 std::span<Value> span_of(const char* name, Value* values, std::size_t count) {
     if (count == 0) return {};
     return {&checked(name, values), count};
+}
+
+/// Stores the scene that `make` returns in a new handle.
+template <class Make>
+raylane_status scene_of(raylane_scene** scene, const Make& make) noexcept {
+    return guarded([&] {
+        raylane_scene*& to = checked("scene", scene);
+        to = nullptr;
+        to = std::make_unique<raylane_scene>(raylane_scene{make()}).release();
+    });
 }
 
 } // namespace raylane::c

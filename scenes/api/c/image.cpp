@@ -40,19 +40,3 @@ raylane_status raylane_render(const raylane_scene* scene, const raylane_settings
         return RAYLANE_OK;
     });
 }
-
-raylane_status raylane_write_image(const char* path, int width, int height, const float* rgb,
-                                   int transfer) {
-    return guarded([&] {
-        Image image{width, height, {}};
-        // write_image() rejects other sizes, so their pixels need no copy.
-        const auto is_side = [](int pixels) { return pixels >= 1 && pixels <= 65535; };
-        if (is_side(width) && is_side(height)) {
-            const std::size_t count =
-                3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-            const std::span<const float> all = span_of("rgb", rgb, count);
-            image.rgb.assign(all.begin(), all.end());
-        }
-        write_image(&checked("path", path), image, enum_from_int<Transfer>("transfer", transfer));
-    });
-}

@@ -2,22 +2,11 @@
 #include "values.hpp"
 
 #include <limits>
-#include <memory>
 
 using namespace raylane;
 using namespace raylane::c;
 
 namespace {
-
-/// Stores the scene that `make` returns in a new handle.
-template <class Make>
-raylane_status scene_of(raylane_scene** scene, const Make& make) noexcept {
-    return guarded([&] {
-        raylane_scene*& to = checked("scene", scene);
-        to = nullptr;
-        to = std::make_unique<raylane_scene>(raylane_scene{make()}).release();
-    });
-}
 
 /// `positions` holds three numbers for each of `count` centres.
 template <class Number, class Positions>
@@ -34,21 +23,6 @@ raylane_status with_positions(const raylane_scene* scene, const Positions* posit
 
 raylane_status raylane_build(raylane_builder* builder, raylane_scene** scene) {
     return scene_of(scene, [&] { return checked("builder", builder).builder.build(); });
-}
-
-raylane_status raylane_load(const char* path, raylane_scene** scene) {
-    return scene_of(scene, [&] { return load(&checked("path", path)); });
-}
-
-raylane_status raylane_parse(const char* text, size_t length, const char* name,
-                             raylane_scene** scene) {
-    return scene_of(scene, [&] {
-        return parse({length != 0 ? &checked("text", text) : "", length}, &checked("name", name));
-    });
-}
-
-raylane_status raylane_save(const raylane_scene* scene, const char* path) {
-    return guarded([&] { save(checked("scene", scene).scene, &checked("path", path)); });
 }
 
 void raylane_scene_release(raylane_scene* scene) {

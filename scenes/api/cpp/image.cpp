@@ -3,7 +3,6 @@
 #include "scenes/api/cpp/convert.hpp"
 #include "scenes/api/cpp/internals.hpp"
 #include "scenes/api/cpp/translate.hpp"
-#include "scenes/images/writer.hpp"
 #include "simd/threads/threads.hpp"
 #include "simd/wavefront/render.hpp"
 
@@ -86,12 +85,6 @@ Tile tile_of(const core::Film& film, const core::Region& region) {
             film.has_alpha() ? &film.alphas()[film.index(region.x0, region.y0)] : nullptr};
 }
 
-void require_side(const char* field, int pixels) {
-    if (pixels < 1 || pixels > core::Settings::max_size)
-        throw InvalidValue(field, "must be from 1 to " + std::to_string(core::Settings::max_size) +
-                                      ", got " + std::to_string(pixels));
-}
-
 } // namespace
 
 Image render(const Scene& scene, const RenderOptions& options) {
@@ -120,35 +113,6 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
     simd::Rendering rendering = render_with(scene, settings, inner);
     if (!rendering.complete || has_ended) return std::nullopt;
     return image_of(std::move(rendering));
-}
-
-void write_image(const std::filesystem::path& path, const Image& image, Transfer transfer) {
-    require_side("width", image.width);
-    require_side("height", image.height);
-    if (transfer > Transfer::linear) throw InvalidValue("transfer", "must be a Transfer");
-    if (image.rgb.size() != std::size_t{3} * image.width * image.height)
-        throw InvalidValue("rgb", "must be 3 components for each of " +
-                                      std::to_string(image.width) + " x " +
-                                      std::to_string(image.height) + " pixels, got " +
-                                      std::to_string(image.rgb.size()));
-    if (!image.alpha.empty() && 3 * image.alpha.size() != image.rgb.size())
-        throw InvalidValue("alpha", "must be empty, or one for each of " +
-                                        std::to_string(image.width) + " x " +
-                                        std::to_string(image.height) + " pixels, got " +
-                                        std::to_string(image.alpha.size()));
-    translated([&] {
-        scenes::OutputFile file(path);
-        core::Film film(image.width, image.height, !image.alpha.empty());
-        std::size_t i = 0;
-        for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x, ++i) {
-                const Color pixel = image.at(x, y);
-                film.at(x, y) = {pixel.x, pixel.y, pixel.z};
-                if (film.has_alpha()) film.alpha_at(x, y) = image.alpha[i];
-            }
-        file.reserve(image.width, image.height);
-        file.commit(film, converted<core::Transfer>(transfer));
-    });
 }
 
 } // namespace raylane

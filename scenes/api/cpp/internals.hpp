@@ -19,4 +19,9 @@ struct Internals {
     static const core::Solid& of(const Solid& solid) { return *solid.solid_; }
 };
 
+/// Returns the public scene that shares the ownership of a core scene.
+inline Scene owning(core::Scene&& scene) {
+    return Internals::scene(std::make_shared<const core::Scene>(std::move(scene)));
+}
+
 } // namespace raylane::library

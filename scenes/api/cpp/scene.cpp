@@ -3,13 +3,11 @@
 #include "core/scene/auto_camera.hpp"
 #include "core/scene/given_shapes.hpp"
 #include "core/scene/validate.hpp"
+#include "core/shapes/checks.hpp"
 #include "raylane/scene.hpp"
 #include "scenes/api/cpp/convert.hpp"
 #include "scenes/api/cpp/internals.hpp"
 #include "scenes/api/cpp/translate.hpp"
-#include "scenes/export/export.hpp"
-#include "scenes/files/number.hpp"
-#include "scenes/formats/scene_file.hpp"
 #include "simd/threads/threads.hpp"
 
 #include <bit>
@@ -21,6 +19,7 @@
 namespace raylane {
 
 using library::converted;
+using library::owning;
 using library::translated;
 
 namespace {
@@ -29,10 +28,6 @@ void require_index(std::size_t index, std::size_t count, const char* what) {
     if (index >= count)
         throw InvalidValue("", "must be one of " + std::to_string(count) + " " + what + ", got " +
                                    std::to_string(index));
-}
-
-Scene owning(core::Scene&& scene) {
-    return library::Internals::scene(std::make_shared<const core::Scene>(std::move(scene)));
 }
 
 template <class Number>
@@ -57,12 +52,6 @@ ShapesOf<Shape> shapes_of(const core::Scene& scene) {
     for (const core::InDouble<CoreShape>& shape : given.shapes)
         shapes.shape.push_back(std::bit_cast<Shape>(shape));
     return shapes;
-}
-
-/// Returns a path that names the file "-", which the readers and writers take for standard input or
-/// output.
-std::filesystem::path file_named(const std::filesystem::path& path) {
-    return path == "-" ? "./-" : path;
 }
 
 } // namespace
@@ -155,7 +144,7 @@ Scene Scene::with_positions(std::span<const Vec3Of<double>> positions) const {
 Camera Scene::camera_on_all(const Vec3& direction, float aspect) const {
     if (!(aspect >= 1e-5F && aspect <= 1e5F))
         throw InvalidValue("aspect",
-                           "must be from 0.00001 to 100000, got " + scenes::to_text(aspect));
+                           "must be from 0.00001 to 100000, got " + core::checks::text_of(aspect));
     return translated([&] {
         const auto way = converted<core::Vec3f>(direction);
         const double squared_length = core::squared_length(core::convert<double>(way));
@@ -273,44 +262,6 @@ Scene SceneBuilder::build() {
         builder.workers = &workers;
         return owning(std::move(builder).build());
     });
-}
-
-Scene load(const std::filesystem::path& path, const OnRemark& on_remark) {
-    return translated([&] {
-        simd::ParallelWorkers workers;
-        return owning(
-            scenes::load_scene(file_named(path), {.workers = &workers, .on_remark = on_remark}));
-    });
-}
-
-Scene parse(std::string_view text, const std::string& name, const OnRemark& on_remark) {
-    return translated([&] {
-        simd::ParallelWorkers workers;
-        return owning(
-            scenes::parse_scene(name, text, {.workers = &workers, .on_remark = on_remark}));
-    });
-}
-
-Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
-                  const OnRemark& on_remark) {
-    return translated([&] {
-        simd::ParallelWorkers workers;
-        scenes::LoadOptions options;
-        options.workers = &workers;
-        options.on_remark = on_remark;
-        options.drawing.show_cell = show_cell;
-        return owning(scenes::parse_scene(name, text, options));
-    });
-}
-
-void save(const Scene& scene, const std::filesystem::path& path, const OnRemark& on_remark) {
-    const std::filesystem::path file = file_named(path);
-    const std::vector<std::string> differences =
-        translated([&] { return scenes::export_scene(file, library::Internals::of(scene)); });
-    if (on_remark)
-        for (const std::string& what : differences)
-            on_remark(file.string() +
-                      ": differs from the scene, because the format cannot express: " + what);
 }
 
 } // namespace raylane

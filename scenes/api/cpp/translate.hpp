@@ -4,11 +4,7 @@
 #include "core/shapes/precision.hpp"
 #include "raylane/errors.hpp"
 #include "raylane/precision.hpp"
-#include "scenes/files/errors.hpp"
 #include "simd/threads/default_rounding.hpp"
-
-#include <utility>
-#include <vector>
 
 namespace raylane::library {
 
@@ -21,13 +17,6 @@ decltype(auto) translated(const F& f) {
         return f();
     } catch (const core::InvalidValue& invalid) {
         throw InvalidValue(invalid.field, invalid.expectation);
-    } catch (const scenes::BadInput& error) {
-        std::vector<InputError> errors;
-        for (const scenes::InputError& e : error.errors())
-            errors.push_back({e.file, e.position.line, e.position.column, e.place, e.message});
-        throw BadInput(error.what(), std::move(errors));
-    } catch (const scenes::SystemRefused& error) {
-        throw SystemRefused(error.what());
     }
 }
 

@@ -53,33 +53,34 @@ for each in "$compiler" g++ clang++; do
 done
 
 ours='raylane|glm|nlohmann|stbi|CLI'
-archive=$(find "$prefix" -name libraylane.a)
-if [ -n "$archive" ]; then
-    echo "the archive claims no name outside of raylane, and what takes it in exports none of it"
-    others=$(nm -gC --defined-only "$archive" | awk '$2 ~ /^[TDBRC]$/' | grep -v raylane || true)
+archives=$(find "$prefix" -name 'libraylane*.a')
+if [ -n "$archives" ]; then
+    echo "the archives claim no name outside of raylane, and what takes them in exports none of it"
+    [ "$(echo "$archives" | wc -l)" -eq 2 ] || fail "not two libraries: $archives"
+    cp "$(dirname "$(echo "$archives" | head -n 1)")"/libraylane*.a .
+    others=$(nm -gC --defined-only libraylane*.a | awk '$2 ~ /^[TDBRC]$/' | grep -v raylane || true)
     [ -z "$others" ] || fail "$others"
     # shellcheck disable=SC2086 # a list of words
-    quietly "$compiler" $flags -shared -o "$folder/all.so" -Wl,--whole-archive "$archive" \
-        -Wl,--no-whole-archive -ltbb -lz
-    exported=$(nm -DC --defined-only "$folder/all.so" | grep -v ' std::' |
-        grep -E "$ours" || true)
+    quietly "$compiler" $flags -shared -o all.so -Wl,--whole-archive libraylane*.a -Wl,--no-whole-archive -ltbb -lz
+    exported=$(nm -DC --defined-only all.so | grep -v ' std::' | grep -E "$ours" || true)
     [ -z "$exported" ] || fail "$exported"
     run_path=
 else
-    echo "the shared library exports what its headers declare, and nothing else"
-    shared=$(find "$prefix" -name libraylane.so)
-    [ -n "$shared" ] || fail "no library"
+    echo "the shared libraries export what their headers declare, and nothing else"
     version=$(sed -n 's/^#define RAYLANE_VERSION "\(.*\)"/\1/p' "$prefix/include/raylane/version.h")
     case $version in 0.*) abi=${version%.*} ;; *) abi=${version%%.*} ;; esac
-    readelf -dW "$shared" | grep -qF "Library soname: [libraylane.so.$abi]" || fail "no soname of version $abi"
-    exported=$(nm -DC --defined-only "$shared" | cut -d' ' -f3-)
-    others=$(echo "$exported" |
-        grep -vE '^(((typeinfo|typeinfo name|vtable) for|unsigned int) )?raylane(_|::)' || true)
+    for library in raylane_trace raylane; do
+        shared=$(find "$prefix" -name "lib$library.so")
+        [ -n "$shared" ] || fail "no library"
+        readelf -dW "$shared" | grep -qF "Library soname: [lib$library.so.$abi]" || fail "no soname of version $abi"
+        nm -DC --defined-only "$shared" | cut -d' ' -f3- >>exported
+    done
+    others=$(grep -vE '^(((typeinfo|typeinfo name|vtable) for|unsigned int) )?raylane(_|::)' exported || true)
     [ -z "$others" ] || fail "$others"
-    inside=$(echo "$exported" | grep -E '^([a-z ]+ for )?raylane::(core|simd|scenes|library)::' || true)
+    inside=$(grep -E '^([a-z ]+ for )?raylane::(core|simd|scenes|library)::' exported || true)
     [ -z "$inside" ] || fail "$inside"
     for function in $(sed -n 's/^RAYLANE_API .*\(raylane_[a-z_]*\)(.*/\1/p' "$prefix/include/raylane/raylane.h"); do
-        echo "$exported" | grep -qx "$function" || fail "$function is not exported"
+        grep -qx "$function" exported || fail "$function is not exported"
     done
     run_path="-Wl,-rpath,$(dirname "$shared")"
 fi
@@ -118,10 +119,42 @@ EOF
     [ -s ball.png ] || fail "no picture from C alone"
 fi
 
+echo "a program that only traces links no readers, and no libraries for files"
+mkdir traces
+cat >traces/CMakeLists.txt <<EOF
+cmake_minimum_required(VERSION 3.25)
+project(traces LANGUAGES C CXX)
+find_package(raylane REQUIRED COMPONENTS trace)
+add_executable(traces traces.cpp)
+target_link_libraries(traces PRIVATE raylane::trace)
+EOF
+cat >traces/traces.cpp <<EOF
+#include <raylane/raylane.hpp>
+int main() {
+    raylane::SceneBuilder builder;
+    builder.add(raylane::Sphere{{0, 0, 0}, 1}, builder.add_material({}));
+    const float zero[] = {0}, z[] = {5}, dz[] = {-1};
+    float t[1];
+    raylane::Tracer(builder.build()).intersect({zero, zero, z, zero, zero, dz}, {.t = t});
+    return t[0] == 4 ? 0 : 1;
+}
+EOF
+quietly "$cmake" -S traces -B traces/build -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_C_COMPILER="$c_compiler" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" \
+    -DCMAKE_DISABLE_FIND_PACKAGE_PNG=ON -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON
+quietly "$cmake" --build traces/build
+traces/build/traces || fail "wrong t"
+! ldd traces/build/traces | grep -E 'png|libz|libraylane\.so' || fail "see above"
+! nm -C traces/build/traces | grep 'raylane::scenes::' || fail "see above"
+
 echo "pkg-config finds it"
 if command -v pkg-config >/dev/null; then
-    pc=$(find "$prefix" -name raylane.pc)
-    words=$(PKG_CONFIG_PATH=$(dirname "$pc") pkg-config --cflags --libs raylane)
+    PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name raylane.pc)")
+    export PKG_CONFIG_PATH
+    words=$(pkg-config --cflags --libs raylane-trace)
+    eval "quietly \"$compiler\" $flags -std=c++20 traces/traces.cpp -o traces.pc $words ${run_path:+\"$run_path\"}"
+    ./traces.pc || fail "wrong t"
+    words=$(pkg-config --cflags --libs raylane)
     eval "quietly \"$compiler\" $flags -std=c++20 \"$source/scenes/api/examples/hits.cpp\" -o hits.pc \
         $words ${run_path:+\"$run_path\"}"
     rm sphere.png

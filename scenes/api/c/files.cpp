@@ -1,0 +1,36 @@
+#include "calls.hpp"
+#include "values.hpp"
+
+using namespace raylane;
+using namespace raylane::c;
+
+raylane_status raylane_load(const char* path, raylane_scene** scene) {
+    return scene_of(scene, [&] { return load(&checked("path", path)); });
+}
+
+raylane_status raylane_parse(const char* text, size_t length, const char* name,
+                             raylane_scene** scene) {
+    return scene_of(scene, [&] {
+        return parse({length != 0 ? &checked("text", text) : "", length}, &checked("name", name));
+    });
+}
+
+raylane_status raylane_save(const raylane_scene* scene, const char* path) {
+    return guarded([&] { save(checked("scene", scene).scene, &checked("path", path)); });
+}
+
+raylane_status raylane_write_image(const char* path, int width, int height, const float* rgb,
+                                   int transfer) {
+    return guarded([&] {
+        Image image{width, height, {}};
+        // write_image() rejects other sizes, so their pixels need no copy.
+        const auto is_side = [](int pixels) { return pixels >= 1 && pixels <= 65535; };
+        if (is_side(width) && is_side(height)) {
+            const std::size_t count =
+                3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+            const std::span<const float> all = span_of("rgb", rgb, count);
+            image.rgb.assign(all.begin(), all.end());
+        }
+        write_image(&checked("path", path), image, enum_from_int<Transfer>("transfer", transfer));
+    });
+}
