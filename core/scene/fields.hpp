@@ -179,11 +179,7 @@ template <class T>
 concept SettingsLike = requires(T of) {
     of.max_depth;
 };
-// Two fields that the C interface lacks.
-template <class T>
-concept HasGlass = requires(T of) {
-    of.glass;
-};
+// The C interface lacks this field.
 template <class T>
 concept HasAlpha = requires(T of) {
     of.alpha;
@@ -244,9 +240,8 @@ constexpr void for_each_field(const Visit& visit, Of&... of) {
     visit(Field("opacity", fraction, "Weight of the surface's color.", sparse), of.opacity...);
     visit(Field("index", positive, "Index of refraction; outside of all shapes it is 1."),
           of.index...);
-    if constexpr ((HasGlass<Of> && ...))
-        visit(Field("glass", several, "Replaces index: glass by name, or by the coefficients"),
-              of.glass...);
+    visit(Field("glass", several, "Replaces index: glass by name, or by the coefficients"),
+          of.glass...);
     visit(Field("absorption", not_negative, "Absorption [red, green, blue] per unit of length"),
           of.absorption...);
     visit(Field("visible", word(visible_words), "Sides from which the surface is visible.", sparse),

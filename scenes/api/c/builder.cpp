@@ -10,7 +10,7 @@ using namespace raylane::c;
 
 namespace {
 
-/// Adds shapes. CShape and Shape hold the same floats in the same order.
+/// Adds shapes. CShape and Shape hold the same numbers in the same order.
 template <class Shape, class CShape>
 raylane_status add(raylane_builder* builder, const CShape* shapes, std::size_t count,
                    std::uint32_t material, std::uint32_t* first) noexcept {
@@ -26,6 +26,18 @@ raylane_status add(raylane_builder* builder, const CShape* shapes, std::size_t c
                 if (!error.field.empty()) field.append("/").append(error.field);
                 throw InvalidValue(field, error.expectation);
             }
+    });
+}
+
+template <class Shape, class CShape>
+raylane_status add_polygon(raylane_builder* builder, const CShape* triangles, std::size_t count,
+                           std::uint32_t material, std::uint32_t* first) noexcept {
+    return guarded([&] {
+        std::vector<Shape> all;
+        for (const CShape& triangle : span_of("triangles", triangles, count))
+            all.push_back(std::bit_cast<Shape>(triangle));
+        const ShapeId id = checked("builder", builder).builder.add_polygon(all, material);
+        if (first != nullptr) *first = id;
     });
 }
 
@@ -102,32 +114,46 @@ raylane_status raylane_set_settings(raylane_builder* builder, const raylane_sett
     });
 }
 
-#define RAYLANE_ADD(name, Shape, c_shape)                                                          \
-    raylane_status name(raylane_builder* builder, const c_shape* shapes, size_t count,             \
-                        uint32_t material, uint32_t* first) {                                      \
+#define RAYLANE_ADD(shapes, Shape, c_shape)                                                        \
+    raylane_status raylane_add_##shapes(raylane_builder* builder, const raylane_##c_shape* shapes, \
+                                        size_t count, uint32_t material, uint32_t* first) {        \
         return add<Shape>(builder, shapes, count, material, first);                                \
+    }                                                                                              \
+    raylane_status raylane_add_##shapes##_doubles(                                                 \
+        raylane_builder* builder, const raylane_double_##c_shape* shapes, size_t count,            \
+        uint32_t material, uint32_t* first) {                                                      \
+        return add<Shape##Of<double>>(builder, shapes, count, material, first);                    \
     }
-RAYLANE_ADD(raylane_add_spheres, Sphere, raylane_sphere)
-RAYLANE_ADD(raylane_add_planes, Plane, raylane_plane)
-RAYLANE_ADD(raylane_add_discs, Disc, raylane_disc)
-RAYLANE_ADD(raylane_add_triangles, Triangle, raylane_triangle)
-RAYLANE_ADD(raylane_add_smooth_triangles, SmoothTriangle, raylane_smooth_triangle)
-RAYLANE_ADD(raylane_add_boxes, Box, raylane_box)
-RAYLANE_ADD(raylane_add_open_cylinders, OpenCylinder, raylane_cylinder)
-RAYLANE_ADD(raylane_add_capped_cylinders, CappedCylinder, raylane_cylinder)
-RAYLANE_ADD(raylane_add_open_cones, OpenCone, raylane_cone)
-RAYLANE_ADD(raylane_add_capped_cones, CappedCone, raylane_cone)
-RAYLANE_ADD(raylane_add_quadrics, Quadric, raylane_quadric)
-RAYLANE_ADD(raylane_add_ellipsoids, Ellipsoid, raylane_ellipsoid)
+RAYLANE_ADD(spheres, Sphere, sphere)
+RAYLANE_ADD(planes, Plane, plane)
+RAYLANE_ADD(discs, Disc, disc)
+RAYLANE_ADD(triangles, Triangle, triangle)
+RAYLANE_ADD(smooth_triangles, SmoothTriangle, smooth_triangle)
+RAYLANE_ADD(boxes, Box, box)
+RAYLANE_ADD(open_cylinders, OpenCylinder, cylinder)
+RAYLANE_ADD(capped_cylinders, CappedCylinder, cylinder)
+RAYLANE_ADD(open_cones, OpenCone, cone)
+RAYLANE_ADD(capped_cones, CappedCone, cone)
+RAYLANE_ADD(quadrics, Quadric, quadric)
+RAYLANE_ADD(ellipsoids, Ellipsoid, ellipsoid)
 #undef RAYLANE_ADD
 
 raylane_status raylane_add_polygon(raylane_builder* builder, const raylane_triangle* triangles,
                                    size_t count, uint32_t material, uint32_t* first) {
+    return add_polygon<Triangle>(builder, triangles, count, material, first);
+}
+
+raylane_status raylane_add_polygon_doubles(raylane_builder* builder,
+                                           const raylane_double_triangle* triangles, size_t count,
+                                           uint32_t material, uint32_t* first) {
+    return add_polygon<TriangleOf<double>>(builder, triangles, count, material, first);
+}
+
+raylane_status raylane_add_solid(raylane_builder* builder, const raylane_solid* solid,
+                                 uint32_t material, uint32_t* first) {
     return guarded([&] {
-        std::vector<Triangle> all;
-        for (const raylane_triangle& triangle : span_of("triangles", triangles, count))
-            all.push_back(std::bit_cast<Triangle>(triangle));
-        const ShapeId id = checked("builder", builder).builder.add_polygon(all, material);
+        SceneBuilder& to = checked("builder", builder).builder;
+        const ShapeId id = to.add(checked("solid", solid).solid, material);
         if (first != nullptr) *first = id;
     });
 }

@@ -7,6 +7,7 @@
 #include <new>
 #include <span>
 #include <type_traits>
+#include <variant>
 
 /// Shared by all calls of the C interface: handles, errors and checks of arguments.
 
@@ -16,8 +17,14 @@ struct raylane_builder {
 struct raylane_scene {
     raylane::Scene scene;
 };
+struct raylane_solid {
+    raylane::Solid solid;
+};
 struct raylane_tracer {
     raylane::Tracer tracer;
+};
+struct raylane_rows {
+    std::variant<raylane::CrossingRows, raylane::SolidRows, raylane::LengthRows> rows;
 };
 
 namespace raylane::c {
@@ -71,14 +78,19 @@ std::span<Value> span_of(const char* name, Value* values, std::size_t count) {
     return {&checked(name, values), count};
 }
 
-/// Stores the scene that `make` returns in a new handle.
+/// Stores the value that `make` returns in a new handle.
+template <class Handle, class Make>
+raylane_status handle_of(const char* name, Handle** handle, const Make& make) noexcept {
+    return guarded([&] {
+        Handle*& to = checked(name, handle);
+        to = nullptr;
+        to = std::make_unique<Handle>(Handle{make()}).release();
+    });
+}
+
 template <class Make>
 raylane_status scene_of(raylane_scene** scene, const Make& make) noexcept {
-    return guarded([&] {
-        raylane_scene*& to = checked("scene", scene);
-        to = nullptr;
-        to = std::make_unique<raylane_scene>(raylane_scene{make()}).release();
-    });
+    return handle_of("scene", scene, make);
 }
 
 } // namespace raylane::c

@@ -37,6 +37,30 @@ size_t raylane_material_count(const raylane_scene* scene) {
     return scene != nullptr ? scene->scene.material_count() : 0;
 }
 
+raylane_status raylane_scene_material(const raylane_scene* scene, uint32_t index,
+                                      raylane_material* material) {
+    return guarded([&] {
+        const Material found = checked("scene", scene).scene.material(index);
+        checked("material", material) = converted<raylane_material>(found);
+    });
+}
+
+raylane_status raylane_scene_material_of(const raylane_scene* scene, uint32_t shape_id,
+                                         uint32_t* material) {
+    return guarded([&] {
+        const MaterialIndex found = checked("scene", scene).scene.material_of(shape_id);
+        checked("material", material) = found;
+    });
+}
+
+raylane_status raylane_scene_solid_of(const raylane_scene* scene, uint32_t shape_id,
+                                      uint32_t* solid) {
+    return guarded([&] {
+        const ShapeId found = checked("scene", scene).scene.solid_of(shape_id);
+        checked("solid", solid) = found;
+    });
+}
+
 void raylane_scene_bounds(const raylane_scene* scene, raylane_vec3* lower, raylane_vec3* upper) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};

@@ -23,8 +23,15 @@ BasicRaySpan<Real> rays_from(const CRays* from) {
             span_of(rays.origin_inward, n)};
 }
 
-template <class CRays>
-void store(const QueryStatistics& statistics, const CRays* rays) {
+template <class Real, class CPoints>
+BasicPointSpan<Real> points_from(const CPoints* from) {
+    const CPoints& points = checked("points", from);
+    const std::size_t n = points.count;
+    return {span_of("x", points.x, n), span_of("y", points.y, n), span_of("z", points.z, n)};
+}
+
+template <class Statistics, class CRays>
+void store(const Statistics& statistics, const CRays* rays) {
     if (rays->refused != nullptr) *rays->refused = statistics.refused;
 }
 
@@ -56,6 +63,45 @@ raylane_status occluded(const raylane_tracer* tracer, const CRays* rays,
         checked("tracer", tracer)
             .tracer.occluded(asked, span_of("occluded", result, rays->count), &statistics);
         store(statistics, rays);
+    });
+}
+
+template <class Real, class CRays>
+raylane_status crossings(const raylane_tracer* tracer, const CRays* rays, std::size_t most,
+                         int normals, raylane_rows** rows) noexcept {
+    return handle_of("rows", rows, [&] {
+        const BasicRaySpan<Real> asked = rays_from<Real>(rays);
+        CrossingRows found;
+        CrossingStatistics statistics;
+        checked("tracer", tracer).tracer.crossings(asked, found, {most, normals != 0}, &statistics);
+        store(statistics, rays);
+        return found;
+    });
+}
+
+template <class Real, class CPoints>
+raylane_status contains(const raylane_tracer* tracer, const CPoints* points,
+                        raylane_rows** rows) noexcept {
+    return handle_of("rows", rows, [&] {
+        const BasicPointSpan<Real> asked = points_from<Real>(points);
+        SolidRows found;
+        QueryStatistics statistics;
+        checked("tracer", tracer).tracer.contains(asked, found, &statistics);
+        store(statistics, points);
+        return found;
+    });
+}
+
+template <class Real, class CRays>
+raylane_status path_lengths(const raylane_tracer* tracer, const CRays* rays,
+                            raylane_rows** rows) noexcept {
+    return handle_of("rows", rows, [&] {
+        const BasicRaySpan<Real> asked = rays_from<Real>(rays);
+        LengthRows found;
+        QueryStatistics statistics;
+        checked("tracer", tracer).tracer.path_lengths(asked, found, &statistics);
+        store(statistics, rays);
+        return found;
     });
 }
 
@@ -95,4 +141,35 @@ raylane_status raylane_occluded(const raylane_tracer* tracer, const raylane_rays
 raylane_status raylane_occluded_doubles(const raylane_tracer* tracer,
                                         const raylane_double_rays* rays, uint8_t* result) {
     return occluded<double>(tracer, rays, result);
+}
+
+raylane_status raylane_crossings(const raylane_tracer* tracer, const raylane_rays* rays,
+                                 size_t most, int normals, raylane_rows** rows) {
+    return crossings<float>(tracer, rays, most, normals, rows);
+}
+
+raylane_status raylane_crossings_doubles(const raylane_tracer* tracer,
+                                         const raylane_double_rays* rays, size_t most, int normals,
+                                         raylane_rows** rows) {
+    return crossings<double>(tracer, rays, most, normals, rows);
+}
+
+raylane_status raylane_contains(const raylane_tracer* tracer, const raylane_points* points,
+                                raylane_rows** rows) {
+    return contains<float>(tracer, points, rows);
+}
+
+raylane_status raylane_contains_doubles(const raylane_tracer* tracer,
+                                        const raylane_double_points* points, raylane_rows** rows) {
+    return contains<double>(tracer, points, rows);
+}
+
+raylane_status raylane_path_lengths(const raylane_tracer* tracer, const raylane_rays* rays,
+                                    raylane_rows** rows) {
+    return path_lengths<float>(tracer, rays, rows);
+}
+
+raylane_status raylane_path_lengths_doubles(const raylane_tracer* tracer,
+                                            const raylane_double_rays* rays, raylane_rows** rows) {
+    return path_lengths<double>(tracer, rays, rows);
 }

@@ -1,9 +1,8 @@
-#include "raylane/raylane.h"
+#include "tests/scenes/api/c_handles.hpp"
 #include "tests/scenes/api/ray_arrays.hpp"
 #include "tests/support/catch.hpp"
 
 #include <cstring>
-#include <memory>
 #include <string>
 #include <tuple>
 
@@ -13,35 +12,6 @@ using namespace raylane::tests;
 /// Tests of the C interface against the C++ library.
 
 namespace {
-
-template <auto release>
-struct Release {
-    template <class Handle>
-    void operator()(Handle* handle) const {
-        release(handle);
-    }
-};
-using Builder = std::unique_ptr<raylane_builder, Release<raylane_builder_release>>;
-using SceneHandle = std::unique_ptr<raylane_scene, Release<raylane_scene_release>>;
-using TracerHandle = std::unique_ptr<raylane_tracer, Release<raylane_tracer_release>>;
-
-Builder builder_in_c() {
-    raylane_builder* builder = nullptr;
-    REQUIRE(raylane_builder_create(&builder) == RAYLANE_OK);
-    return Builder(builder);
-}
-
-SceneHandle built(const Builder& builder) {
-    raylane_scene* scene = nullptr;
-    CHECK(raylane_build(builder.get(), &scene) == RAYLANE_OK);
-    return SceneHandle(scene);
-}
-
-TracerHandle tracer_of(const SceneHandle& scene) {
-    raylane_tracer* tracer = nullptr;
-    CHECK(raylane_tracer_create(scene.get(), 1, RAYLANE_EXACT, &tracer) == RAYLANE_OK);
-    return TracerHandle(tracer);
-}
 
 /// Returns a scene of two balls and one light.
 SceneHandle balls_in_c() {

@@ -43,14 +43,20 @@ typedef enum raylane_status {
 RAYLANE_API const char* raylane_error_text(void);
 
 typedef struct raylane_builder raylane_builder;
+typedef struct raylane_solid raylane_solid;
 typedef struct raylane_scene raylane_scene;
 typedef struct raylane_tracer raylane_tracer;
+typedef struct raylane_rows raylane_rows;
 
 #define RAYLANE_NO_SHAPE UINT32_MAX
+#define RAYLANE_NO_MATERIAL UINT32_MAX
 
 typedef struct raylane_vec3 {
     float x, y, z;
 } raylane_vec3;
+typedef struct raylane_double_vec3 {
+    double x, y, z;
+} raylane_double_vec3;
 
 /** Shapes, with the fields and valid ranges of shapes.hpp. */
 typedef struct raylane_sphere {
@@ -90,6 +96,44 @@ typedef struct raylane_ellipsoid {
     raylane_vec3 center, axis_u, axis_v, axis_w;
 } raylane_ellipsoid;
 
+/** The same shapes in double, whose numbers count exactly. */
+typedef struct raylane_double_sphere {
+    raylane_double_vec3 center;
+    double radius;
+} raylane_double_sphere;
+typedef struct raylane_double_plane {
+    raylane_double_vec3 point, normal;
+} raylane_double_plane;
+typedef struct raylane_double_disc {
+    raylane_double_vec3 center, normal;
+    double radius;
+} raylane_double_disc;
+typedef struct raylane_double_triangle {
+    raylane_double_vec3 a, b, c;
+} raylane_double_triangle;
+typedef struct raylane_double_smooth_triangle {
+    raylane_double_vec3 a, b, c, normal_a, normal_b, normal_c;
+} raylane_double_smooth_triangle;
+typedef struct raylane_double_box {
+    raylane_double_vec3 corner, edge_u, edge_v, edge_w;
+} raylane_double_box;
+typedef struct raylane_double_cylinder {
+    raylane_double_vec3 base, axis;
+    double radius;
+} raylane_double_cylinder;
+typedef struct raylane_double_cone {
+    raylane_double_vec3 base, axis;
+    double base_radius, top_radius;
+} raylane_double_cone;
+typedef struct raylane_double_quadric {
+    raylane_double_vec3 center;
+    double xx, yy, zz, xy, xz, yz, x, y, z, one;
+    raylane_double_vec3 lower, upper;
+} raylane_double_quadric;
+typedef struct raylane_double_ellipsoid {
+    raylane_double_vec3 center, axis_u, axis_v, axis_w;
+} raylane_double_ellipsoid;
+
 /** Enumerators of the C++ headers, in the same order. */
 enum { RAYLANE_SOLID, RAYLANE_CHECKER, RAYLANE_STRIPES, RAYLANE_GRADIENT, RAYLANE_BACK_PLANE };
 enum { RAYLANE_CONSTANT, RAYLANE_SCHLICK, RAYLANE_DIELECTRIC };
@@ -109,7 +153,7 @@ enum { RAYLANE_REGULAR, RAYLANE_STRATIFIED };
 enum { RAYLANE_BOX_FILTER, RAYLANE_GAUSSIAN, RAYLANE_BLACKMAN_HARRIS };
 enum { RAYLANE_FAST, RAYLANE_ROBUST, RAYLANE_EXACT, RAYLANE_PLAIN_DOUBLE };
 
-/** Fields of Material in material.hpp, except glass. */
+/** Fields of Material in material.hpp. */
 typedef struct raylane_material {
     struct {
         uint8_t kind;
@@ -121,6 +165,9 @@ typedef struct raylane_material {
     float ambient, diffuse, specular, exponent;
     uint8_t reflection;
     float reflectivity, transmission, index;
+    struct {
+        double B[3], C[3];
+    } glass;
     raylane_vec3 absorption;
     uint8_t visible;
     float opacity;
@@ -231,6 +278,123 @@ RAYLANE_API raylane_status raylane_add_polygon(raylane_builder* builder,
                                                const raylane_triangle* triangles, size_t count,
                                                uint32_t material, uint32_t* first);
 
+/** The same for shapes in double. */
+RAYLANE_API raylane_status raylane_add_spheres_doubles(raylane_builder* builder,
+                                                       const raylane_double_sphere* shapes,
+                                                       size_t count, uint32_t material,
+                                                       uint32_t* first);
+RAYLANE_API raylane_status raylane_add_planes_doubles(raylane_builder* builder,
+                                                      const raylane_double_plane* shapes,
+                                                      size_t count, uint32_t material,
+                                                      uint32_t* first);
+RAYLANE_API raylane_status raylane_add_discs_doubles(raylane_builder* builder,
+                                                     const raylane_double_disc* shapes,
+                                                     size_t count, uint32_t material,
+                                                     uint32_t* first);
+RAYLANE_API raylane_status raylane_add_triangles_doubles(raylane_builder* builder,
+                                                         const raylane_double_triangle* shapes,
+                                                         size_t count, uint32_t material,
+                                                         uint32_t* first);
+RAYLANE_API raylane_status raylane_add_smooth_triangles_doubles(
+    raylane_builder* builder, const raylane_double_smooth_triangle* shapes, size_t count,
+    uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_boxes_doubles(raylane_builder* builder,
+                                                     const raylane_double_box* shapes, size_t count,
+                                                     uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_open_cylinders_doubles(raylane_builder* builder,
+                                                              const raylane_double_cylinder* shapes,
+                                                              size_t count, uint32_t material,
+                                                              uint32_t* first);
+RAYLANE_API raylane_status raylane_add_capped_cylinders_doubles(
+    raylane_builder* builder, const raylane_double_cylinder* shapes, size_t count,
+    uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_open_cones_doubles(raylane_builder* builder,
+                                                          const raylane_double_cone* shapes,
+                                                          size_t count, uint32_t material,
+                                                          uint32_t* first);
+RAYLANE_API raylane_status raylane_add_capped_cones_doubles(raylane_builder* builder,
+                                                            const raylane_double_cone* shapes,
+                                                            size_t count, uint32_t material,
+                                                            uint32_t* first);
+RAYLANE_API raylane_status raylane_add_quadrics_doubles(raylane_builder* builder,
+                                                        const raylane_double_quadric* shapes,
+                                                        size_t count, uint32_t material,
+                                                        uint32_t* first);
+RAYLANE_API raylane_status raylane_add_ellipsoids_doubles(raylane_builder* builder,
+                                                          const raylane_double_ellipsoid* shapes,
+                                                          size_t count, uint32_t material,
+                                                          uint32_t* first);
+RAYLANE_API raylane_status raylane_add_polygon_doubles(raylane_builder* builder,
+                                                       const raylane_double_triangle* triangles,
+                                                       size_t count, uint32_t material,
+                                                       uint32_t* first);
+
+/** Create solids, same as Solid in solid.hpp: a solid of one shape, or of other solids. The caller
+ * releases each of them, and may do so before those that are made of it. `material`: an index, or
+ * RAYLANE_NO_MATERIAL for that of the solid or object that this becomes a part of. A float counts
+ * exactly as the double of the same value. raylane_add_solid() checks the numbers of shapes. */
+RAYLANE_API raylane_status raylane_solid_sphere(const raylane_double_sphere* shape,
+                                                uint32_t material, raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_plane(const raylane_double_plane* shape, uint32_t material,
+                                               raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_disc(const raylane_double_disc* shape, uint32_t material,
+                                              raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_triangle(const raylane_double_triangle* shape,
+                                                  uint32_t material, raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_smooth_triangle(
+    const raylane_double_smooth_triangle* shape, uint32_t material, raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_box(const raylane_double_box* shape, uint32_t material,
+                                             raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_open_cylinder(const raylane_double_cylinder* shape,
+                                                       uint32_t material, raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_capped_cylinder(const raylane_double_cylinder* shape,
+                                                         uint32_t material, raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_open_cone(const raylane_double_cone* shape,
+                                                   uint32_t material, raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_capped_cone(const raylane_double_cone* shape,
+                                                     uint32_t material, raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_quadric(const raylane_double_quadric* shape,
+                                                 uint32_t material, raylane_solid** solid);
+RAYLANE_API raylane_status raylane_solid_ellipsoid(const raylane_double_ellipsoid* shape,
+                                                   uint32_t material, raylane_solid** solid);
+
+/** A lens, same as Lens in solid.hpp. */
+typedef struct raylane_lens {
+    raylane_double_vec3 vertex, axis;
+    double radii[2], conics[2], thickness, radius;
+} raylane_lens;
+/** Returns the default values of the C++ struct. */
+RAYLANE_API raylane_lens raylane_default_lens(void);
+/** Creates the solid of a lens. Fails if a field is out of range, or if the surfaces meet inside of
+ * the cylinder or do not reach it. */
+RAYLANE_API raylane_status raylane_solid_lens(const raylane_lens* lens, uint32_t material,
+                                              raylane_solid** solid);
+
+/** All points inside of at least one of `count` parts. This and the following functions fail if the
+ * result is nested more than 1024 levels deep. */
+RAYLANE_API raylane_status raylane_solid_union(const raylane_solid* const* parts, size_t count,
+                                               uint32_t material, raylane_solid** solid);
+/** All points inside of every one of `count` parts. */
+RAYLANE_API raylane_status raylane_solid_intersection(const raylane_solid* const* parts,
+                                                      size_t count, uint32_t material,
+                                                      raylane_solid** solid);
+/** All points inside of `whole` and outside of each of `count` solids in `taken_away`. */
+RAYLANE_API raylane_status raylane_solid_difference(const raylane_solid* whole,
+                                                    const raylane_solid* const* taken_away,
+                                                    size_t count, uint32_t material,
+                                                    raylane_solid** solid);
+/** The part of the surface of `whole` that lies inside of all `count` solids in `by`. The cuts stay
+ * open: they get no cap faces. */
+RAYLANE_API raylane_status raylane_solid_clipped(const raylane_solid* whole,
+                                                 const raylane_solid* const* by, size_t count,
+                                                 uint32_t material, raylane_solid** solid);
+RAYLANE_API void raylane_solid_release(raylane_solid* solid);
+
+/** Adds a solid, same as SceneBuilder::add(solid, material). *first is the id of its first part;
+ * the ids of the other parts follow. `first` may be NULL. */
+RAYLANE_API raylane_status raylane_add_solid(raylane_builder* builder, const raylane_solid* solid,
+                                             uint32_t material, uint32_t* first);
+
 /** Builds the scene. Leaves the builder empty, even if the call fails, unless it fails because the
  * environment variable RAYLANE_THREADS is invalid. */
 RAYLANE_API raylane_status raylane_build(raylane_builder* builder, raylane_scene** scene);
@@ -246,6 +410,15 @@ RAYLANE_API raylane_status raylane_save(const raylane_scene* scene, const char* 
 RAYLANE_API void raylane_scene_release(raylane_scene* scene);
 RAYLANE_API size_t raylane_shape_count(const raylane_scene* scene);
 RAYLANE_API size_t raylane_material_count(const raylane_scene* scene);
+/** Gives a material of the scene. Fails if none has this index. */
+RAYLANE_API raylane_status raylane_scene_material(const raylane_scene* scene, uint32_t index,
+                                                  raylane_material* material);
+/** Gives the index of a shape's material, and the id of the solid that a shape is a part of, same
+ * as Scene::material_of and Scene::solid_of in scene.hpp. Fail if no shape has this id. */
+RAYLANE_API raylane_status raylane_scene_material_of(const raylane_scene* scene, uint32_t shape_id,
+                                                     uint32_t* material);
+RAYLANE_API raylane_status raylane_scene_solid_of(const raylane_scene* scene, uint32_t shape_id,
+                                                  uint32_t* solid);
 /** Gives the bounds of all shapes except planes; lower > upper if the scene has no such shapes.
  * `lower` and `upper` may be NULL. */
 RAYLANE_API void raylane_scene_bounds(const raylane_scene* scene, raylane_vec3* lower,
@@ -303,6 +476,64 @@ RAYLANE_API raylane_status raylane_occluded(const raylane_tracer* tracer, const 
 RAYLANE_API raylane_status raylane_occluded_doubles(const raylane_tracer* tracer,
                                                     const raylane_double_rays* rays,
                                                     uint8_t* occluded);
+
+/** Points, structure of arrays of `count` values each, same as PointSpan in tracer.hpp. `refused`:
+ * as for rays. */
+typedef struct raylane_points {
+    size_t count;
+    const float *x, *y, *z;
+    uint64_t* refused;
+} raylane_points;
+typedef struct raylane_double_points {
+    size_t count;
+    const double *x, *y, *z;
+    uint64_t* refused;
+} raylane_double_points;
+
+/** Create rows of results, one for each ray or point, which the caller releases. The queries are
+ * those of Tracer in tracer.hpp, with the same results. `most`: maximum number of crossings of each
+ * ray, nearest first; 0: all. `normals`: 0 leaves out the columns of normals. */
+RAYLANE_API raylane_status raylane_crossings(const raylane_tracer* tracer, const raylane_rays* rays,
+                                             size_t most, int normals, raylane_rows** rows);
+RAYLANE_API raylane_status raylane_crossings_doubles(const raylane_tracer* tracer,
+                                                     const raylane_double_rays* rays, size_t most,
+                                                     int normals, raylane_rows** rows);
+/** Finds the solids that contain each point. */
+RAYLANE_API raylane_status raylane_contains(const raylane_tracer* tracer,
+                                            const raylane_points* points, raylane_rows** rows);
+RAYLANE_API raylane_status raylane_contains_doubles(const raylane_tracer* tracer,
+                                                    const raylane_double_points* points,
+                                                    raylane_rows** rows);
+/** Measures the length of each ray inside of the solids of each material. */
+RAYLANE_API raylane_status raylane_path_lengths(const raylane_tracer* tracer,
+                                                const raylane_rays* rays, raylane_rows** rows);
+RAYLANE_API raylane_status raylane_path_lengths_doubles(const raylane_tracer* tracer,
+                                                        const raylane_double_rays* rays,
+                                                        raylane_rows** rows);
+RAYLANE_API void raylane_rows_release(raylane_rows* rows);
+
+/** Returns the number of rows. */
+RAYLANE_API size_t raylane_rows_count(const raylane_rows* rows);
+/** Returns the row offsets (as in compressed sparse rows, CSR), one more than there are rows. The
+ * elements of row i are those from first[i] to first[i + 1] - 1 in each column. NULL for NULL. */
+RAYLANE_API const uint64_t* raylane_rows_first(const raylane_rows* rows);
+/** Return columns of first[count] elements, valid until the rows are released. A column is NULL if
+ * it has no elements or if the query has no such column:
+ * - crossings: t, shape_id, entering, face, tied, touching; normal_x, normal_y, normal_z if wanted;
+ * - contains: shape_id, on_surface;
+ * - path lengths: material, length. */
+RAYLANE_API const double* raylane_rows_t(const raylane_rows* rows);
+RAYLANE_API const double* raylane_rows_length(const raylane_rows* rows);
+RAYLANE_API const uint32_t* raylane_rows_shape_id(const raylane_rows* rows);
+RAYLANE_API const uint32_t* raylane_rows_material(const raylane_rows* rows);
+RAYLANE_API const uint8_t* raylane_rows_entering(const raylane_rows* rows);
+RAYLANE_API const uint8_t* raylane_rows_face(const raylane_rows* rows);
+RAYLANE_API const uint8_t* raylane_rows_tied(const raylane_rows* rows);
+RAYLANE_API const uint8_t* raylane_rows_touching(const raylane_rows* rows);
+RAYLANE_API const uint8_t* raylane_rows_on_surface(const raylane_rows* rows);
+RAYLANE_API const float* raylane_rows_normal_x(const raylane_rows* rows);
+RAYLANE_API const float* raylane_rows_normal_y(const raylane_rows* rows);
+RAYLANE_API const float* raylane_rows_normal_z(const raylane_rows* rows);
 
 /** Progress of a rendering, same as Progress in image.hpp. `rgb` holds the linear components of the
  * tile's upper left pixel and then of its row; each next row starts floats_a_row floats later.
