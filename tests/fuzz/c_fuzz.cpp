@@ -4,8 +4,11 @@
 #include <climits>
 
 #include <array>
+#include <cstring>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 /// Makes any calls of the interface for C, in any order and with any arguments: handles or NULL,
@@ -20,6 +23,7 @@ constexpr float untouched = -7777.0F;
 
 struct Handles {
     std::array<raylane_builder*, slots> builders{};
+    std::array<raylane_solid*, slots> solids{};
     std::array<raylane_scene*, slots> scenes{};
     std::array<raylane_tracer*, slots> tracers{};
 
@@ -30,6 +34,7 @@ struct Handles {
         for (int i = 0; i < slots; ++i) {
             const auto slot = static_cast<std::size_t>(i);
             raylane_builder_release(builders[slot]);
+            raylane_solid_release(solids[slot]);
             raylane_scene_release(scenes[slot]);
             raylane_tracer_release(tracers[slot]);
         }
@@ -63,6 +68,18 @@ std::uint8_t enumerator(Bytes& bytes, int count) {
     return static_cast<std::uint8_t>(any < 240 ? any % count : any);
 }
 
+/// Returns a shape of any numbers, in double if it has doubles.
+template <class Shape>
+Shape shape_of(Bytes& bytes) {
+    using Number = std::conditional_t<alignof(Shape) == alignof(double), double, float>;
+    Number numbers[sizeof(Shape) / sizeof(Number)];
+    for (Number& number : numbers)
+        number = static_cast<Number>(bytes.any_float());
+    Shape shape;
+    std::memcpy(&shape, numbers, sizeof shape);
+    return shape;
+}
+
 template <class Shape>
 using AddShapes = raylane_status (*)(raylane_builder*, const Shape*, size_t, uint32_t, uint32_t*);
 
@@ -70,12 +87,8 @@ template <class Shape>
 void add(AddShapes<Shape> add_shapes, raylane_builder* builder, Bytes& bytes) {
     const auto count = static_cast<std::size_t>(bytes.below(8));
     std::vector<Shape> shapes(count);
-    for (Shape& shape : shapes) {
-        float numbers[sizeof(Shape) / sizeof(float)];
-        for (float& number : numbers)
-            number = bytes.any_float();
-        std::memcpy(&shape, numbers, sizeof shape);
-    }
+    for (Shape& shape : shapes)
+        shape = shape_of<Shape>(bytes);
     const bool leaves_out = bytes.below(16) == 15;
     const auto material = static_cast<std::uint32_t>(bytes.below(20) - 1);
     std::uint32_t first = 0;
@@ -89,19 +102,117 @@ void add_by(raylane_builder* builder, Bytes& bytes) {
     add(add_shapes, builder, bytes);
 }
 
-constexpr void (*all_adding[])(raylane_builder*, Bytes&) = {add_by<raylane_add_spheres>,
-                                                            add_by<raylane_add_planes>,
-                                                            add_by<raylane_add_discs>,
-                                                            add_by<raylane_add_triangles>,
-                                                            add_by<raylane_add_smooth_triangles>,
-                                                            add_by<raylane_add_boxes>,
-                                                            add_by<raylane_add_open_cylinders>,
-                                                            add_by<raylane_add_capped_cylinders>,
-                                                            add_by<raylane_add_open_cones>,
-                                                            add_by<raylane_add_capped_cones>,
-                                                            add_by<raylane_add_quadrics>,
-                                                            add_by<raylane_add_ellipsoids>,
-                                                            add_by<raylane_add_polygon>};
+constexpr void (*all_adding[])(raylane_builder*,
+                               Bytes&) = {add_by<raylane_add_spheres>,
+                                          add_by<raylane_add_spheres_doubles>,
+                                          add_by<raylane_add_planes>,
+                                          add_by<raylane_add_planes_doubles>,
+                                          add_by<raylane_add_discs>,
+                                          add_by<raylane_add_discs_doubles>,
+                                          add_by<raylane_add_triangles>,
+                                          add_by<raylane_add_triangles_doubles>,
+                                          add_by<raylane_add_smooth_triangles>,
+                                          add_by<raylane_add_smooth_triangles_doubles>,
+                                          add_by<raylane_add_boxes>,
+                                          add_by<raylane_add_boxes_doubles>,
+                                          add_by<raylane_add_open_cylinders>,
+                                          add_by<raylane_add_open_cylinders_doubles>,
+                                          add_by<raylane_add_capped_cylinders>,
+                                          add_by<raylane_add_capped_cylinders_doubles>,
+                                          add_by<raylane_add_open_cones>,
+                                          add_by<raylane_add_open_cones_doubles>,
+                                          add_by<raylane_add_capped_cones>,
+                                          add_by<raylane_add_capped_cones_doubles>,
+                                          add_by<raylane_add_quadrics>,
+                                          add_by<raylane_add_quadrics_doubles>,
+                                          add_by<raylane_add_ellipsoids>,
+                                          add_by<raylane_add_ellipsoids_doubles>,
+                                          add_by<raylane_add_polygon>,
+                                          add_by<raylane_add_polygon_doubles>};
+
+/// Makes a solid of one shape. `to` may be NULL, as in the next functions.
+template <class Shape>
+raylane_status solid_by(raylane_status (*make)(const Shape*, uint32_t, raylane_solid**),
+                        raylane_solid** to, Bytes& bytes) {
+    const Shape shape = shape_of<Shape>(bytes);
+    const auto material = static_cast<std::uint32_t>(bytes.below(4) - 1);
+    const bool leaves_out = bytes.below(32) == 31;
+    const raylane_status status = make(leaves_out ? nullptr : &shape, material, to);
+    check(status, leaves_out || to == nullptr);
+    return status;
+}
+
+template <auto make>
+raylane_status solid_of(raylane_solid** to, Bytes& bytes) {
+    return solid_by(make, to, bytes);
+}
+
+constexpr raylane_status (*all_solids[])(raylane_solid**,
+                                         Bytes&) = {solid_of<raylane_solid_sphere>,
+                                                    solid_of<raylane_solid_plane>,
+                                                    solid_of<raylane_solid_disc>,
+                                                    solid_of<raylane_solid_triangle>,
+                                                    solid_of<raylane_solid_smooth_triangle>,
+                                                    solid_of<raylane_solid_box>,
+                                                    solid_of<raylane_solid_open_cylinder>,
+                                                    solid_of<raylane_solid_capped_cylinder>,
+                                                    solid_of<raylane_solid_open_cone>,
+                                                    solid_of<raylane_solid_capped_cone>,
+                                                    solid_of<raylane_solid_quadric>,
+                                                    solid_of<raylane_solid_ellipsoid>,
+                                                    solid_of<raylane_solid_lens>};
+
+raylane_status combine(Handles& handles, raylane_solid** to, Bytes& bytes) {
+    std::vector<const raylane_solid*> parts(static_cast<std::size_t>(bytes.below(4)));
+    bool has_null = to == nullptr;
+    for (const raylane_solid*& part : parts) {
+        part = slot_of(handles.solids, bytes);
+        has_null = has_null || part == nullptr;
+    }
+    const raylane_solid* const whole = slot_of(handles.solids, bytes);
+    const bool leaves_out = bytes.below(32) == 31;
+    has_null = has_null || (leaves_out && !parts.empty());
+    const raylane_solid* const* const all = leaves_out ? nullptr : parts.data();
+    const auto material = static_cast<std::uint32_t>(bytes.below(4) - 1);
+    const auto checked = [](raylane_status status, bool null) {
+        check(status, null);
+        return status;
+    };
+    switch (bytes.below(4)) {
+    case 0:
+        return checked(raylane_solid_union(all, parts.size(), material, to), has_null);
+    case 1:
+        return checked(raylane_solid_intersection(all, parts.size(), material, to), has_null);
+    case 2:
+        return checked(raylane_solid_difference(whole, all, parts.size(), material, to),
+                       has_null || whole == nullptr);
+    default:
+        return checked(raylane_solid_clipped(whole, all, parts.size(), material, to),
+                       has_null || whole == nullptr);
+    }
+}
+
+void make_solid(Handles& handles, Bytes& bytes) {
+    if (bytes.below(4) == 0) {
+        raylane_builder* const builder = slot_of(handles.builders, bytes);
+        const raylane_solid* const solid = slot_of(handles.solids, bytes);
+        std::uint32_t first = 0;
+        return check(raylane_add_solid(builder, solid,
+                                       static_cast<std::uint32_t>(bytes.below(4) - 1),
+                                       bytes.flag() ? &first : nullptr),
+                     builder == nullptr || solid == nullptr);
+    }
+    raylane_solid* made = nullptr;
+    raylane_solid** const to = bytes.below(32) == 31 ? nullptr : &made;
+    if (bytes.flag())
+        combine(handles, to, bytes);
+    else
+        all_solids[static_cast<std::size_t>(bytes.below(int(std::size(all_solids))))](to, bytes);
+    if (made == nullptr) return;
+    raylane_solid*& slot = slot_of(handles.solids, bytes);
+    raylane_solid_release(slot);
+    slot = made;
+}
 
 void add_material(raylane_builder* builder, Bytes& bytes) {
     raylane_material material = raylane_default_material();
@@ -234,9 +345,74 @@ class Arrays {
     std::vector<std::unique_ptr<Value[]>> arrays_;
 };
 
-template <class Real, class CRays, class Intersect, class Occluded>
+/// Reads all of a column, or nothing if it is absent. Returns whether it is there.
+template <class Element>
+bool reads(const Element* column, std::uint64_t count) {
+    Element sum{};
+    for (std::uint64_t i = 0; column != nullptr && i < count; ++i)
+        sum = static_cast<Element>(sum + column[i]);
+    volatile Element used = sum;
+    static_cast<void>(used);
+    return column != nullptr;
+}
+
+/// Checks rows that a query has made, or failed to make, and releases them.
+void check_rows(raylane_status status, bool has_null, raylane_rows* rows, std::size_t count) {
+    check(status, has_null);
+    if ((status == RAYLANE_OK) != (rows != nullptr)) found("rows of a call that failed");
+    if (rows == nullptr) return;
+    const std::uint64_t* const first = raylane_rows_first(rows);
+    if (raylane_rows_count(rows) != count || first[0] != 0) found("other rows");
+    for (std::size_t i = 0; i < count; ++i)
+        if (first[i] > first[i + 1]) found("row offsets that fall");
+    const std::uint64_t all = first[count];
+    const int columns = reads(raylane_rows_t(rows), all) + reads(raylane_rows_length(rows), all) +
+                        reads(raylane_rows_on_surface(rows), all);
+    if (columns != (all != 0 ? 1 : 0)) found("columns of another query");
+    reads(raylane_rows_shape_id(rows), all);
+    reads(raylane_rows_material(rows), all);
+    reads(raylane_rows_entering(rows), all);
+    reads(raylane_rows_face(rows), all);
+    reads(raylane_rows_tied(rows), all);
+    reads(raylane_rows_touching(rows), all);
+    for (const auto normal : {raylane_rows_normal_x, raylane_rows_normal_y, raylane_rows_normal_z})
+        reads(normal(rows), all);
+    raylane_rows_release(rows);
+}
+
+template <class CRays, class Crossings, class Lengths>
+void ask_rows(const raylane_tracer* tracer, const CRays& rays, bool has_null, Bytes& bytes,
+              const Crossings& crossings, const Lengths& lengths) {
+    raylane_rows* rows = nullptr;
+    const auto most = static_cast<std::size_t>(bytes.below(4));
+    const int normals = bytes.flag() ? 1 : 0;
+    check_rows(crossings(tracer, &rays, most, normals, &rows), has_null, rows, rays.count);
+    rows = nullptr;
+    check_rows(lengths(tracer, &rays, &rows), has_null, rows, rays.count);
+    check(crossings(tracer, &rays, most, normals, nullptr), true);
+}
+
+template <class Real, class CPoints, class Contains>
+void ask_points(const raylane_tracer* tracer, Bytes& bytes, const Contains& contains) {
+    const auto count = static_cast<std::size_t>(bytes.below(20));
+    Arrays<Real> reals(count, bytes);
+    std::uint64_t refused = 0;
+    CPoints points{};
+    points.count = count;
+    points.refused = bytes.flag() ? &refused : nullptr;
+    bool has_null = tracer == nullptr;
+    for (const Real** array : {&points.x, &points.y, &points.z}) {
+        *array = reals.make(false, [&] { return static_cast<Real>(bytes.any_float()); });
+        has_null = has_null || (*array == nullptr && count != 0);
+    }
+    raylane_rows* rows = nullptr;
+    check_rows(contains(tracer, &points, &rows), has_null, rows, count);
+    if (refused > count) found("more refused points than points");
+}
+
+template <class Real, class CRays, class Intersect, class Occluded, class Crossings, class Lengths>
 void ask(const raylane_tracer* tracer, Bytes& bytes, const Intersect& intersect,
-         const Occluded& occluded) {
+         const Occluded& occluded, const Crossings& crossings, const Lengths& lengths) {
     const auto count = static_cast<std::size_t>(bytes.below(40));
     Arrays<Real> reals(count, bytes);
     Arrays<std::uint32_t> ids(count, bytes);
@@ -270,6 +446,7 @@ void ask(const raylane_tracer* tracer, Bytes& bytes, const Intersect& intersect,
     std::uint8_t* const blocked = flags.make(false, [] { return std::uint8_t{77}; });
     const raylane_status of_blocked = occluded(tracer, &rays, blocked);
     check(of_blocked, has_null || (blocked == nullptr && count != 0));
+    ask_rows(tracer, rays, has_null, bytes, crossings, lengths);
     for (std::size_t i = 0; i < count; ++i) {
         if (hits.t != nullptr && (hits.t[i] == untouched) == (status == RAYLANE_OK))
             found("another t");
@@ -320,6 +497,13 @@ void look_at(raylane_scene* scene, Bytes& bytes) {
     raylane_scene_bounds(scene, bytes.flag() ? &lower : nullptr, bytes.flag() ? &upper : nullptr);
     if (raylane_shape_count(scene) != 0 && raylane_material_count(scene) == 0)
         found("shapes of no material");
+    const auto id = static_cast<std::uint32_t>(bytes.below(20));
+    raylane_material material;
+    std::uint32_t index = 0;
+    check(raylane_scene_material(scene, id, &material), scene == nullptr);
+    check(raylane_scene_material_of(scene, id, &index), scene == nullptr);
+    check(raylane_scene_solid_of(scene, id, &index), scene == nullptr);
+    check(raylane_scene_material(scene, id, nullptr), true);
 }
 
 void write(Bytes& bytes) {
@@ -338,7 +522,11 @@ void write(Bytes& bytes) {
 }
 
 void call(Handles& handles, Bytes& bytes) {
-    switch (bytes.below(16)) {
+    switch (bytes.below(20)) {
+    case 16:
+    case 17:
+    case 18:
+        return make_solid(handles, bytes);
     case 0: {
         raylane_builder*& slot = slot_of(handles.builders, bytes);
         raylane_builder_release(slot);
@@ -352,7 +540,8 @@ void call(Handles& handles, Bytes& bytes) {
     case 3:
     case 4:
     case 5:
-        return all_adding[bytes.below(13)](slot_of(handles.builders, bytes), bytes);
+        return all_adding[static_cast<std::size_t>(bytes.below(int(std::size(all_adding))))](
+            slot_of(handles.builders, bytes), bytes);
     case 6:
         return set_surroundings(slot_of(handles.builders, bytes), bytes);
     case 7: {
@@ -374,11 +563,16 @@ void call(Handles& handles, Bytes& bytes) {
     }
     case 11:
         return ask<float, raylane_rays>(slot_of(handles.tracers, bytes), bytes, raylane_intersect,
-                                        raylane_occluded);
+                                        raylane_occluded, raylane_crossings, raylane_path_lengths);
     case 12:
-        return ask<double, raylane_double_rays>(slot_of(handles.tracers, bytes), bytes,
-                                                raylane_intersect_doubles,
-                                                raylane_occluded_doubles);
+        return ask<double, raylane_double_rays>(
+            slot_of(handles.tracers, bytes), bytes, raylane_intersect_doubles,
+            raylane_occluded_doubles, raylane_crossings_doubles, raylane_path_lengths_doubles);
+    case 19:
+        return bytes.flag() ? ask_points<float, raylane_points>(slot_of(handles.tracers, bytes),
+                                                                bytes, raylane_contains)
+                            : ask_points<double, raylane_double_points>(
+                                  slot_of(handles.tracers, bytes), bytes, raylane_contains_doubles);
     case 13:
         return render(slot_of(handles.scenes, bytes), bytes);
     case 14:
