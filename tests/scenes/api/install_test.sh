@@ -97,6 +97,12 @@ quietly "$cmake" --build "$folder/examples"
 cmp sphere.png ball.png || fail "another picture from C"
 "$folder/examples/path" || fail "another picture than raylane's"
 [ -s path.png ] || fail "no picture of paths"
+"$folder/examples/solids_in_c" || fail "wrong numbers in C"
+if command -v gfortran >/dev/null; then
+    "$folder/examples/solids_in_fortran" || fail "wrong numbers in Fortran"
+else
+    echo "(there is no Fortran)"
+fi
 
 # A library with sanitizers must be linked by the C++ compiler.
 in_c=yes
@@ -117,6 +123,20 @@ EOF
     rm ball.png
     in_c/build/hits_in_c
     [ -s ball.png ] || fail "no picture from C alone"
+fi
+if [ -n "$in_c" ] && command -v gfortran >/dev/null; then
+    echo "a project in Fortran alone finds it, builds and runs"
+    mkdir in_fortran
+    cat >in_fortran/CMakeLists.txt <<EOF
+cmake_minimum_required(VERSION 3.25)
+project(in_fortran LANGUAGES Fortran)
+find_package(raylane REQUIRED COMPONENTS trace)
+add_executable(solids "$source/scenes/api/examples/solids_in_fortran.f90")
+target_link_libraries(solids PRIVATE raylane::trace)
+EOF
+    quietly "$cmake" -S in_fortran -B in_fortran/build -G "$generator" -DCMAKE_PREFIX_PATH="$prefix"
+    quietly "$cmake" --build in_fortran/build
+    in_fortran/build/solids || fail "wrong numbers in Fortran alone"
 fi
 
 echo "a program that only traces links no readers, and no libraries for files"
@@ -146,6 +166,13 @@ quietly "$cmake" --build traces/build
 traces/build/traces || fail "wrong t"
 ! ldd traces/build/traces | grep -E 'png|libz|libraylane\.so' || fail "see above"
 ! nm -C traces/build/traces | grep 'raylane::scenes::' || fail "see above"
+if [ -n "$archives" ] && [ -n "$in_c" ] && [ "$build_type" = Release ]; then
+    sets=$(grep -o 'Isa::' "$build/generated/simd/isa/built_isas.hpp" | wc -l)
+    strip -o traces.stripped traces/build/traces
+    size=$(wc -c <traces.stripped)
+    echo "($size bytes with kernels for $sets instruction sets)"
+    [ "$size" -le $((2900000 + 3000000 * sets)) ] || fail "too large"
+fi
 
 echo "pkg-config finds it"
 if command -v pkg-config >/dev/null; then
@@ -154,6 +181,11 @@ if command -v pkg-config >/dev/null; then
     words=$(pkg-config --cflags --libs raylane-trace)
     eval "quietly \"$compiler\" $flags -std=c++20 traces/traces.cpp -o traces.pc $words ${run_path:+\"$run_path\"}"
     ./traces.pc || fail "wrong t"
+    if [ -n "$in_c" ] && command -v gfortran >/dev/null; then
+        eval "quietly gfortran \"$source/scenes/api/examples/solids_in_fortran.f90\" -o solids.pc \
+            $words ${run_path:+\"$run_path\"}"
+        ./solids.pc || fail "wrong numbers in Fortran"
+    fi
     words=$(pkg-config --cflags --libs raylane)
     eval "quietly \"$compiler\" $flags -std=c++20 \"$source/scenes/api/examples/hits.cpp\" -o hits.pc \
         $words ${run_path:+\"$run_path\"}"
