@@ -30,6 +30,7 @@ class Checker {
         check_polygons();
         check_tree();
         for_each_table(shapes_.tables, [&](const auto& table) { check_table(table); });
+        check_merged();
         check_bounds();
     }
 
@@ -138,20 +139,29 @@ class Checker {
         });
         const auto& merged = shapes_.merged[static_cast<std::size_t>(kind_of<Shape>)];
         if (shapes + merged.size() != table.size()) refuse("other numbers of shapes than stated");
-        if (!merged.empty()) check_merged(table, merged);
     }
 
-    /// Checks that merged shapes are not stored, and that those that they equal are.
-    template <class Shape>
-    void check_merged(const Table<Shape>& table, const std::vector<MergedShape>& merged) const {
-        std::vector<bool> is_stored(shape_count());
-        for_each_shape(table, [&](const auto&, ShapeId id) { is_stored[id] = true; });
-        ShapeId next = 0;
-        for (const MergedShape& shape : merged) {
-            if (shape.id < next || shape.id >= shape_count() || shape.first >= shape.id ||
-                is_stored[shape.id] || !is_stored[shape.first])
-                refuse("merged shapes out of order");
-            next = shape.id + 1;
+    /// Checks that merged shapes are not stored, of whatever kind, and not merged twice. The shapes
+    /// that they equal must be stored, with the same kind.
+    void check_merged() const {
+        if (std::ranges::all_of(shapes_.merged, [](const auto& of) { return of.empty(); })) return;
+        constexpr std::uint8_t nowhere = kind_count, merged = kind_count + 1;
+        std::vector<std::uint8_t> place(shape_count(),
+                                        nowhere); // or the kind in which it is stored
+        for_each_table(shapes_.tables, [&]<class Shape>(const Table<Shape>& table) {
+            for_each_shape(table, [&](const auto&, ShapeId id) {
+                place[id] = static_cast<std::uint8_t>(kind_of<Shape>);
+            });
+        });
+        for (std::size_t kind = 0; kind < kind_count; ++kind) {
+            ShapeId next = 0;
+            for (const MergedShape& shape : shapes_.merged[kind]) {
+                if (shape.id < next || shape.id >= shape_count() || shape.first >= shape.id ||
+                    place[shape.id] != nowhere || place[shape.first] != kind)
+                    refuse("merged shapes out of order");
+                place[shape.id] = merged;
+                next = shape.id + 1;
+            }
         }
     }
 

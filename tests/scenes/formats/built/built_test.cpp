@@ -367,17 +367,19 @@ TEST_CASE("the check of a built file's shapes refuses inconsistent ones") {
           "inconsistent numbers of shapes");
     CHECK(refused([](auto& shapes) { shapes.tables = core::Tables(); }) != "nothing");
     // Shapes that count as another one of their kind.
-    const auto with_merged = [&](core::Kind kind, core::MergedShape merged, std::size_t more) {
-        return refused([&](auto& shapes) {
-            shapes.merged[static_cast<std::size_t>(kind)] = {merged};
-            core::with_table(shapes.tables, kind, [&]<class Shape>(core::Table<Shape>& table) {
-                core::Blocks<Shape> blocks;
-                blocks.floats = table.plain_blocks();
-                blocks.doubles = table.doubles();
-                table = {std::move(blocks), table.size() + more};
-            });
-            if (more != 0) shapes.material_of.push_back(0); // an id for the additional shape
+    const auto merge = [](core::BuiltShapes& shapes, core::Kind kind, core::MergedShape merged,
+                          std::size_t more) {
+        shapes.merged[static_cast<std::size_t>(kind)] = {merged};
+        core::with_table(shapes.tables, kind, [&]<class Shape>(core::Table<Shape>& table) {
+            core::Blocks<Shape> blocks;
+            blocks.floats = table.plain_blocks();
+            blocks.doubles = table.doubles();
+            table = {std::move(blocks), table.size() + more};
         });
+        if (more != 0) shapes.material_of.push_back(0); // an id for the additional shape
+    };
+    const auto with_merged = [&](core::Kind kind, core::MergedShape merged, std::size_t more) {
+        return refused([&](auto& shapes) { merge(shapes, kind, merged, more); });
     };
     const auto count = static_cast<core::ShapeId>(plain.shape_count());
     const core::ShapeId box = 301; // behind 300 spheres and a cylinder
@@ -386,4 +388,10 @@ TEST_CASE("the check of a built file's shapes refuses inconsistent ones") {
     CHECK(with_merged(core::Kind::box, {count, 300}, 1) == "merged shapes out of order");
     CHECK(with_merged(core::Kind::box, {count + 1, box}, 1) == "merged shapes out of order");
     CHECK(with_merged(core::Kind::box, {box, box}, 1) == "merged shapes out of order");
+    // An id that is stored in a table of another kind, and one that is merged twice.
+    CHECK(with_merged(core::Kind::box, {box + 1, box}, 1) == "merged shapes out of order");
+    CHECK(refused([&](auto& shapes) {
+              merge(shapes, core::Kind::sphere, {count, 0}, 1);
+              merge(shapes, core::Kind::box, {count, box}, 1);
+          }) == "merged shapes out of order");
 }
