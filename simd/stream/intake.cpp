@@ -15,6 +15,13 @@ namespace raylane::simd {
 
 namespace {
 
+/// Returns whether a limit of a ray is NaN.
+template <class Real>
+bool has_invalid_limit(const RayStream<Real>& rays, std::size_t i) {
+    return (rays.t_min != nullptr && std::isnan(rays.t_min[i])) ||
+           (rays.t_max != nullptr && std::isnan(rays.t_max[i]));
+}
+
 /// Returns whether a ray is refused: see StreamIntake::refused.
 template <class Real>
 bool is_refused(const RayStream<Real>& rays, std::size_t i) {
@@ -24,8 +31,7 @@ bool is_refused(const RayStream<Real>& rays, std::size_t i) {
         if (!std::isfinite(origin) || !std::isfinite(direction)) return true;
         is_zero = is_zero && direction == Real(0);
     }
-    return is_zero || (rays.t_min != nullptr && std::isnan(rays.t_min[i])) ||
-           (rays.t_max != nullptr && std::isnan(rays.t_max[i]));
+    return is_zero || has_invalid_limit(rays, i);
 }
 
 /// Returns the greatest float that is not above a number >= 0.
@@ -159,7 +165,7 @@ RayStream<Real> StreamIntake::take(const RayStream<Real>& rays, std::size_t firs
     }
     // Only Precision::exact has lower limits in its search. Other precisions check the hits that
     // they find.
-    if (tracing_.precision != core::Precision::exact || rays.t_min == nullptr)
+    if (tracing_.precision != core::Precision::exact || rays.t_min == nullptr || whole_lines_)
         paths_.t_after = paths_.start = nullptr;
     paths_.count = count;
     return part_of(rays, first, count);
@@ -178,13 +184,16 @@ bool StreamIntake::finds_coherence(std::size_t count) {
 /// Takes all these rays into the lanes from `to` on.
 template <class Real>
 void StreamIntake::take(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
+    RayStream<Real> lines = rays;
+    if (whole_lines_) lines.t_min = lines.t_max = nullptr;
     std::size_t none = 0;
     if constexpr (std::is_same_v<Real, float>)
-        none = kernels().take(rays, from(taken_, to));
+        none = kernels().take(lines, from(taken_, to));
     else {
-        none = kernels().take_doubles(rays, from(taken_, to));
+        none = kernels().take_doubles(lines, from(taken_, to));
         if (floats_) limit_floats(rays, count, to);
     }
+    if (whole_lines_) none += refuse_limits(rays, count, to);
     if (rays.origin_shape == nullptr)
         for (std::uint32_t* const column :
              {paths_.origin_first, paths_.origin_last, paths_.origin_slot})
@@ -222,6 +231,20 @@ void StreamIntake::limit_floats(const RayStream<double>& rays, std::size_t count
     }
 }
 
+/// Refuses rays that kernels took in without limits and that have one that is NaN. Returns their
+/// number.
+template <class Real>
+std::size_t StreamIntake::refuse_limits(const RayStream<Real>& rays, std::size_t count,
+                                        std::size_t to) {
+    std::size_t refused = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!is_ray(to + i) || !has_invalid_limit(rays, i)) continue;
+        taken_.t_limit[to + i] = -1.0;
+        ++refused;
+    }
+    return refused;
+}
+
 /// Counts the refused rays, and lists the rays apart. The others have no interval between their
 /// limits.
 template <class Real>
@@ -232,7 +255,7 @@ void StreamIntake::sort_out(const RayStream<Real>& rays, std::size_t count, std:
         if (is_refused(rays, i)) {
             ++refused_;
         } else if (const Limits limits = limits_of(rays, i);
-                   limits.t_min < std::min(limits.t_max, most)) {
+                   whole_lines_ || limits.t_min < std::min(limits.t_max, most)) {
             taken_.t_limit[to + i] = apart;
             apart_.push_back(static_cast<std::uint32_t>(to + i));
         }
@@ -362,18 +385,25 @@ void StreamIntake::keep(const std::uint32_t* lanes, std::size_t count) {
 
 template <class Real>
 LoneRay StreamIntake::lone(const RayStream<Real>& rays, std::size_t i, std::size_t lane) {
-    core::Ray<double> ray;
+    if (is_apart(lane)) return alone(rays, i, lane);
+    return limited(rays, i, lane, ray_of(paths_, lane), -std::ilogb(taken_.unit[lane]));
+}
+
+template <class Real>
+LoneRay StreamIntake::alone(const RayStream<Real>& rays, std::size_t i, std::size_t lane) {
+    if (rays.origin_shape != nullptr)
+        simd::start_on(paths_, lane, scene_, shapes_.slots(), rays, i);
+    else
+        paths_.start_nowhere(lane, lane + 1);
     int exponent = 0;
-    if (is_apart(lane)) {
-        if (rays.origin_shape != nullptr)
-            simd::start_on(paths_, lane, scene_, shapes_.slots(), rays, i);
-        else
-            paths_.start_nowhere(lane, lane + 1);
-        ray = scaled(ray_in_double(rays, i), exponent);
-    } else {
-        ray = ray_of(paths_, lane);
-        exponent = -std::ilogb(taken_.unit[lane]);
-    }
+    const core::Ray<double> ray = scaled(ray_in_double(rays, i), exponent);
+    return limited(rays, i, lane, ray, exponent);
+}
+
+/// Returns a ray, scaled by 2^-exponent, with its limits and the shapes that the lane's ray leaves.
+template <class Real>
+LoneRay StreamIntake::limited(const RayStream<Real>& rays, std::size_t i, std::size_t lane,
+                              const core::Ray<double>& ray, int exponent) {
     const Limits limits = limits_of(rays, i);
     // Beyond all t that round to the limit. A crossing's t may be off by 2^-27 of itself.
     const double beyond = std::max(std::ldexp(limits.t_max * (1.0 + 0x1p-20) + 0x1p-149, exponent),
@@ -397,5 +427,7 @@ template RayStream<float> StreamIntake::take(const RayStream<float>&, std::size_
 template RayStream<double> StreamIntake::take(const RayStream<double>&, std::size_t);
 template LoneRay StreamIntake::lone(const RayStream<float>&, std::size_t, std::size_t);
 template LoneRay StreamIntake::lone(const RayStream<double>&, std::size_t, std::size_t);
+template LoneRay StreamIntake::alone(const RayStream<float>&, std::size_t, std::size_t);
+template LoneRay StreamIntake::alone(const RayStream<double>&, std::size_t, std::size_t);
 
 } // namespace raylane::simd

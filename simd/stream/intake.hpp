@@ -95,6 +95,9 @@ class StreamIntake {
     /// with that float.
     void answer_floats(bool floats) { floats_ = floats; }
     bool answers_floats() const { return floats_; }
+    /// Says whether limits are ignored, so that crossings behind them are found, too. Rays with a
+    /// limit that is NaN are refused in any case.
+    void take_whole_lines(bool whole) { whole_lines_ = whole; }
     /// Returns upper limits in float, by lane, of rays in double that are answered so.
     const float* float_t_max() const { return float_t_max_.data(); }
 
@@ -122,6 +125,10 @@ class StreamIntake {
     /// shapes that the lane's ray leaves.
     template <class Real>
     LoneRay lone(const RayStream<Real>& rays, std::size_t i, std::size_t lane);
+    /// Returns ray i of any, which must not be refused. Replaces the shapes that this lane's ray
+    /// leaves.
+    template <class Real>
+    LoneRay alone(const RayStream<Real>& rays, std::size_t i, std::size_t lane = 0);
 
   private:
     const StreamKernels& kernels() const { return tracing_.kernels->stream; }
@@ -130,6 +137,11 @@ class StreamIntake {
     bool finds_coherence(std::size_t count);
     template <class Real>
     void start_on(const RayStream<Real>& rays, std::size_t count, std::size_t to);
+    template <class Real>
+    std::size_t refuse_limits(const RayStream<Real>& rays, std::size_t count, std::size_t to);
+    template <class Real>
+    LoneRay limited(const RayStream<Real>& rays, std::size_t i, std::size_t lane,
+                    const core::Ray<double>& ray, int exponent);
     template <class Real>
     void sort_out(const RayStream<Real>& rays, std::size_t count, std::size_t to);
     void limit_floats(const RayStream<double>& rays, std::size_t count, std::size_t to);
@@ -147,7 +159,7 @@ class StreamIntake {
     StreamRays taken_{}; // the columns of paths_, and those of limits
     Coherence in_common_{};
     const Coherence* coherence_ = nullptr;
-    bool floats_ = false;
+    bool floats_ = false, whole_lines_ = false;
     std::vector<float> float_t_max_;
     std::vector<std::uint32_t> apart_;
     std::size_t refused_ = 0;

@@ -327,6 +327,7 @@ template <class Real>
 std::size_t RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
                                  CrossingRows& rows, CrossingCounters& counters) {
     counters_ = {};
+    intake_.take_whole_lines(false);
     const core::Scene& scene = scene_.scene();
     const auto visit = [&](std::size_t first, std::size_t lane) {
         const RayStream<Real> some = part_of(rays, first, rays.count - first);
@@ -439,14 +440,8 @@ std::size_t RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& row
     // The crossings beyond a limit tell which solids contain the ray's point at this limit.
     RayStream<Real> lines = rays;
     lines.t_min = lines.t_max = nullptr;
-    std::size_t without_limits = 0;
     const auto visit = [&](std::size_t first, std::size_t lane) {
-        const std::size_t i = first + lane;
-        const bool has_limits = (rays.t_min == nullptr || !std::isnan(rays.t_min[i])) &&
-                                (rays.t_max == nullptr || !std::isnan(rays.t_max[i]));
-        const bool is_line = intake_.is_ray(lane) || intake_.is_apart(lane);
-        without_limits += is_line && !has_limits ? 1 : 0;
-        if (is_line && has_limits) {
+        if (intake_.is_ray(lane) || intake_.is_apart(lane)) {
             const LoneRay ray = intake_.lone(part_of(rays, first, rays.count - first), lane, lane);
             lengths_found_.clear();
             if (intake_.is_apart(lane) || !add_lengths_at_once(lines, ray, lane))
@@ -458,8 +453,8 @@ std::size_t RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& row
         }
         rows.first.push_back(rows.material.size());
     };
-    const std::size_t refused = for_each_ray(lines, /*with_normals=*/false, visit);
-    return refused + without_limits;
+    intake_.take_whole_lines(true);
+    return for_each_ray(rays, /*with_normals=*/false, visit);
 }
 
 /// Finds the lengths of one ray by all its crossings.

@@ -2,6 +2,7 @@
 #include "tests/support/catch.hpp"
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -66,6 +67,13 @@ std::string refusal(const Tracer& tracer, const Vec3Of<Real>& origin, const Vec3
         rays.origin_face = faces;
         if (inward >= 0) rays.origin_inward = sides;
         const std::string found = refusal(tracer, rays);
+        // A ray that is refused because of a limit need not start on its shape.
+        const std::vector<Real> limits = column(1, std::numeric_limits<Real>::quiet_NaN());
+        for (const bool upper : {false, true}) {
+            BasicRaySpan<Real> limited = rays;
+            (upper ? limited.t_max : limited.t_min) = limits;
+            CHECK(refusal(tracer, limited) == "none|");
+        }
         CHECK((count == 2 || found == text));
         text = found;
     }
