@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 namespace raylane::core {
@@ -91,10 +92,9 @@ struct ExactNormal {
     ExactRoot root;
     NormalAlong<Dyadic> along;
 
-    ExactNormal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit)
-        : root(SharpHit(hit).root(scene, from)),
-          along(with_shape(scene, hit, [&](const auto& shape) {
-              return normal_along(shape, ray_in<Dyadic>(from.ray), hit.face);
+    ExactNormal(const Scene& scene, const LeavingRay& from, const SharpHit& hit)
+        : root(hit.root(scene, from)), along(with_shape(scene, hit.hit(), [&](const auto& shape) {
+              return normal_along(shape, ray_in<Dyadic>(from.ray), hit.hit().face);
           })) {}
 
     int sign_of(int axis) const {
@@ -116,25 +116,29 @@ class ExactDirection : private ExactNormal {
 
     bool at_apex() const { return at_apex_; }
 
-    /// Returns the float nearest to the component, ties to even. It must be from `first` to `last`.
-    float rounded(int axis, float first, float last) const {
+    /// Returns the float or double nearest to the component, ties to even. It must be from `first`
+    /// to `last`.
+    template <class Real>
+    Real rounded(int axis, Real first, Real last) const {
+        using Bits = std::conditional_t<std::is_same_v<Real, float>, std::uint32_t, std::uint64_t>;
         const int sign = sign_of(axis);
-        if (sign == 0) return 0.0F;
+        if (sign == 0) return Real(0);
         if (sign < 0) first = -std::exchange(last, -first);
-        // The bit patterns of floats from 0 to 1 are in order.
-        auto low = std::bit_cast<std::uint32_t>(std::clamp(first, 0.0F, 1.0F) + 0.0F);
-        auto high = std::bit_cast<std::uint32_t>(std::clamp(last, 0.0F, 1.0F) + 0.0F);
+        // The bit patterns of numbers from 0 to 1 are in order.
+        auto low = std::bit_cast<Bits>(std::clamp(first, Real(0), Real(1)) + Real(0));
+        auto high = std::bit_cast<Bits>(std::clamp(last, Real(0), Real(1)) + Real(0));
         while (low < high) {
-            const std::uint32_t next = low + (high - low) / 2;
-            const double middle = 0.5 * static_cast<double>(std::bit_cast<float>(next)) +
-                                  0.5 * static_cast<double>(std::bit_cast<float>(next + 1));
+            const Bits next = low + (high - low) / 2;
+            const Dyadic middle =
+                0.5 * (Dyadic(static_cast<double>(std::bit_cast<Real>(next))) +
+                       Dyadic(static_cast<double>(std::bit_cast<Real>(next + 1))));
             const int side = compare_square(axis, middle);
             if (side < 0 || (side == 0 && (next & 1) == 0))
                 high = next;
             else
                 low = next + 1;
         }
-        return static_cast<float>(sign) * std::bit_cast<float>(low);
+        return static_cast<Real>(sign) * std::bit_cast<Real>(low);
     }
     /// Returns the component to within 2^-45.
     double approximately(int axis) const {
@@ -149,9 +153,9 @@ class ExactDirection : private ExactNormal {
 
   private:
     /// Compares the component's magnitude with `size`: -1 if it is less, 1 if it is more.
-    int compare_square(int axis, double size) const {
+    int compare_square(int axis, const Dyadic& size) const {
         const Dyadic &v = along.v[axis], &slope = along.slope[axis];
-        const Dyadic factor = Dyadic(size) * size;
+        const Dyadic factor = size * size;
         return root.sign_of({slope * slope - factor * square_.A, slope * v - factor * square_.B,
                              v * v - factor * square_.C});
     }
@@ -160,26 +164,44 @@ class ExactDirection : private ExactNormal {
     bool at_apex_;
 };
 
-/// Intervals of floats that contain the components of a direction.
+/// Intervals of floats or doubles that contain the components of a direction.
+template <class Real>
 class RoundedDirection {
   public:
-    /// Normalises a direction. Returns true if each component rounds to one float, whatever its
+    /// Normalises a direction. Returns true if each component rounds to one number, whatever its
     /// error.
     bool is_sure(const Vec3<Extended>& direction) {
+        using double_double::two_sum;
         const Extended length = core::length(direction);
         for (int axis = 0; axis < 3; ++axis) {
-            const Bounded<double> component = in_double(direction[axis] / length);
+            if (first_[axis] == last_[axis]) continue;
+            const Extended exact = direction[axis] / length;
+            const Bounded<double> component = in_double(exact);
             if (!(component.error <= 1.0)) continue;
-            first_[axis] = static_cast<float>(below(component.value, component.error));
-            last_[axis] = static_cast<float>(above(component.value, component.error));
+            first_[axis] = static_cast<Real>(below(component.value, component.error));
+            last_[axis] = static_cast<Real>(above(component.value, component.error));
+            if constexpr (std::is_same_v<Real, double>)
+                if (rounds_surely(two_sum(exact.value.high, exact.value.low), exact.error))
+                    first_[axis] = last_[axis] = component.value;
         }
         return first_ == last_;
     }
-    /// Returns the floats, which must be sure.
-    Vec3f rounded() const { return first_ + Vec3f(0.0F); } // no -0
-    /// Returns the floats; computes those exactly that are not sure.
-    Vec3f rounded(const ExactDirection& exact) const {
-        Vec3f result = rounded();
+    /// Sets the components that are exactly 0, which no number of digits proves. Returns true if
+    /// all components are sure then. Does nothing unless some component is certainly not 0.
+    bool is_sure(const ExactNormal& exact) {
+        const auto may_be_0 = [&](int axis) {
+            return first_[axis] <= Real(0) && Real(0) <= last_[axis];
+        };
+        if (may_be_0(0) && may_be_0(1) && may_be_0(2)) return false;
+        for (int axis = 0; axis < 3; ++axis)
+            if (may_be_0(axis) && exact.sign_of(axis) == 0) first_[axis] = last_[axis] = Real(0);
+        return first_ == last_;
+    }
+    /// Returns the numbers, which must be sure.
+    Vec3<Real> rounded() const { return first_ + Vec3<Real>(Real(0)); } // no -0
+    /// Returns the numbers; computes those exactly that are not sure.
+    Vec3<Real> rounded(const ExactDirection& exact) const {
+        Vec3<Real> result = rounded();
         for (int axis = 0; axis < 3; ++axis)
             if (first_[axis] != last_[axis])
                 result[axis] = exact.rounded(axis, first_[axis], last_[axis]);
@@ -187,8 +209,26 @@ class RoundedDirection {
     }
 
   private:
-    Vec3f first_{-1.0F}, last_{1.0F};
+    Vec3<Real> first_{Real(-1)}, last_{Real(1)};
 };
+
+/// Returns the unit normal of a crossing, each component rounded to the nearest number.
+template <class Real>
+Vec3<Real> nearest_normal(const Scene& scene, const LeavingRay& from, const SharpHit& sharp) {
+    const Ray<Extended> ray = ray_in<Extended>(from.ray);
+    RoundedDirection<Real> normal;
+    const auto is_sure = [&](const Extended& t) {
+        return normal.is_sure(wide_normal(scene, ray, t, sharp.hit()));
+    };
+    sharp.widen(scene, from);
+    if (is_sure(sharp.wide_t())) return normal.rounded();
+    const ExactNormal exact(scene, from, sharp);
+    if (normal.is_sure(exact) || with_wide_t(scene, from, sharp, is_sure)) return normal.rounded();
+    const ExactDirection direction(exact);
+    if (direction.at_apex() && normal.is_sure(wide_apex_normal(scene, ray, sharp.hit())))
+        return normal.rounded();
+    return normal.rounded(direction);
+}
 
 } // namespace
 
@@ -243,17 +283,11 @@ float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& h
 }
 
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
-    const Ray<Extended> ray = ray_in<Extended>(from.ray);
-    RoundedDirection normal;
-    // The vector kernels have already tried with t in double.
-    if (with_wide_t(scene, from, hit, [&](const Extended& t) {
-            return normal.is_sure(wide_normal(scene, ray, t, hit));
-        }))
-        return normal.rounded();
-    const ExactDirection exact(ExactNormal(scene, from, hit));
-    if (exact.at_apex() && normal.is_sure(wide_apex_normal(scene, ray, hit)))
-        return normal.rounded();
-    return normal.rounded(exact);
+    return nearest_normal<float>(scene, from, hit);
+}
+
+Vec3d nearest_double_normal(const Scene& scene, const LeavingRay& from, const SharpHit& hit) {
+    return nearest_normal<double>(scene, from, hit);
 }
 
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit,

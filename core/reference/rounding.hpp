@@ -35,6 +35,9 @@ Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<doubl
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit,
                      const Vec3f& known);
 
+/// The same for the nearest double.
+Vec3d nearest_double_normal(const Scene& scene, const LeavingRay& from, const SharpHit& hit);
+
 /// The normal in double, within 2^-40, and the point itself, within 2^-50 of its largest coordinate
 /// or of the shape's distance from it.
 template <class Real>

@@ -42,21 +42,35 @@ int compare_size(const Normal& n, int axis, const Exact& size) {
                    n.v1[axis] * n.v1[axis] - square * inner(n.v1, n.v1));
 }
 
-core::Vec3f rounded(const Normal& n) {
+namespace {
+
+template <class Real>
+core::Vec3<Real> nearest(const Normal& n) {
     core::Vec3<Number> v;
     for (int axis = 0; axis < 3; ++axis)
         v[axis] = n.sign(axis) == 0 ? Number(0) : abs(value_at(n.t, n.v0[axis], n.v1[axis]));
     const Number length = sqrt(Number(v.x * v.x + v.y * v.y + v.z * v.z));
-    core::Vec3f result(0.0F);
+    core::Vec3<Real> result(Real(0));
     for (int axis = 0; axis < 3; ++axis) {
         const int sign = n.sign(axis);
         if (sign == 0) continue;
+        const auto compare = [&](const Exact& sum) {
+            return compare_size(n, axis, Exact(0.5) * sum);
+        };
         result[axis] =
-            static_cast<float>(sign) * nearest_float(Number(v[axis] / length), [&](double middle) {
-                return compare_size(n, axis, Exact(middle));
-            });
+            static_cast<Real>(sign) * nearest_number<Real>(Number(v[axis] / length), compare);
     }
     return result;
+}
+
+} // namespace
+
+core::Vec3f rounded(const Normal& n) {
+    return nearest<float>(n);
+}
+
+core::Vec3d rounded_to_double(const Normal& n) {
+    return nearest<double>(n);
 }
 
 } // namespace raylane::oracle

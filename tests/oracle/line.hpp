@@ -69,5 +69,7 @@ int compare_size(const Normal& n, int axis, const Exact& size);
 
 /// Returns the unit vector, each component rounded to the nearest float, ties to even.
 core::Vec3f rounded(const Normal& n);
+/// The same for the nearest double.
+core::Vec3d rounded_to_double(const Normal& n);
 
 } // namespace raylane::oracle

@@ -45,10 +45,19 @@ std::vector<FoundRoot> roots(const Exact& A, const Exact& B, const Exact& C) {
     return {{Root{U, W, -V, D}, opens_up}, {Root{U, W, V, D}, !opens_up}};
 }
 
+namespace {
+
+template <class Real>
+Real nearest(const Root& root, const Number& digits) {
+    const Real found = nearest_number<Real>(
+        digits, [&](const Exact& sum) { return sign_at(root, Exact(-1) * sum, Exact(2)); });
+    return found == Real(0) ? std::numeric_limits<Real>::denorm_min() : found;
+}
+
+} // namespace
+
 float rounded(const Root& root, const Number& digits) {
-    const float nearest = nearest_float(
-        digits, [&](double middle) { return sign_at(root, Exact(-middle), Exact(1)); });
-    return nearest == 0.0F ? std::numeric_limits<float>::denorm_min() : nearest;
+    return nearest<float>(root, digits);
 }
 
 float rounded(const Root& root) {
@@ -56,18 +65,7 @@ float rounded(const Root& root) {
 }
 
 double rounded_to_double(const Root& root, const Number& digits) {
-    // The digits may be rounded up across the middle of two doubles, or be rounded twice.
-    double low = std::nextafter(static_cast<double>(digits), 0.0);
-    for (int steps = 0; steps < 3; ++steps) {
-        const double next = std::nextafter(low, std::numeric_limits<double>::infinity());
-        if (std::isinf(next)) break;
-        int side = compare_digits(digits, (Number(low) + Number(next)) / 2);
-        if (side == 0) side = sign_at(root, -(Exact(low) + Exact(next)), Exact(2));
-        const bool low_is_even = (__builtin_bit_cast(std::uint64_t, low) & 1) == 0;
-        if (side < 0 || (side == 0 && low_is_even)) break;
-        low = next;
-    }
-    return low == 0.0 ? std::numeric_limits<double>::denorm_min() : low;
+    return nearest<double>(root, digits);
 }
 
 } // namespace raylane::oracle

@@ -2,7 +2,10 @@
 
 #include "tests/oracle/exact.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace raylane::oracle {
@@ -44,22 +47,23 @@ struct FoundRoot {
 };
 std::vector<FoundRoot> roots(const Exact& A, const Exact& B, const Exact& C);
 
-/// Returns the float nearest to a nonnegative number with these first digits, ties to even. If the
-/// digits do not decide, compare(middle) returns on which side of the middle between two floats the
-/// number is.
-template <class Compare>
-float nearest_float(const Number& digits, const Compare& compare) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    // The digits may be rounded up across the middle of two floats, or be rounded twice.
-    float low = std::nextafter(static_cast<float>(digits), 0.0F);
+/// Returns the float or double nearest to a nonnegative number with these first digits, ties to
+/// even. If the digits do not decide, compare(sum) returns on which side of the middle between two
+/// neighbours the number is. `sum`: of the neighbours, twice the middle.
+template <class Real, class Compare>
+Real nearest_number(const Number& digits, const Compare& compare) {
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    using Bits = std::conditional_t<std::is_same_v<Real, float>, std::uint32_t, std::uint64_t>;
+    // The digits may be rounded up across the middle of two numbers, or be rounded twice.
+    Real low = std::nextafter(static_cast<Real>(digits), Real(0));
     for (int steps = 0; steps < 3; ++steps) {
-        const float next = std::nextafter(low, infinity);
+        const Real next = std::nextafter(low, infinity);
         if (next == infinity) break;
-        const double middle = 0.5 * (static_cast<double>(low) + static_cast<double>(next));
-        int side = compare_digits(digits, Number(middle));
-        if (side == 0) side = compare(middle);
+        const auto a = static_cast<double>(low), b = static_cast<double>(next);
+        int side = compare_digits(digits, (Number(a) + Number(b)) / 2);
+        if (side == 0) side = compare(Exact(a) + Exact(b));
         if (side < 0) break;
-        const bool low_is_even = (__builtin_bit_cast(std::uint32_t, low) & 1) == 0;
+        const bool low_is_even = (__builtin_bit_cast(Bits, low) & 1) == 0;
         if (side == 0 && low_is_even) break;
         low = next;
     }

@@ -83,16 +83,28 @@ class Sight {
     }
     /// Returns the normal of the crossing's shape there, rounded to the nearest floats.
     const core::Vec3f& normal_of(const Found& found, const Variant auto& shape) {
-        normals_.resize(all_.size());
-        auto& known = normals_[static_cast<std::size_t>(&found - all_.data())];
-        if (!known) known = rounded(normal(shape, ray_, found.hit));
-        return *known;
+        return known(normals_, found, [&] { return rounded(normal(shape, ray_, found.hit)); });
+    }
+    /// The same for the nearest doubles.
+    const core::Vec3d& double_normal_of(const Found& found, const Variant auto& shape) {
+        return known(double_normals_, found,
+                     [&] { return rounded_to_double(normal(shape, ray_, found.hit)); });
     }
 
   private:
+    template <class Vector, class Compute>
+    const Vector& known(std::vector<std::optional<Vector>>& all, const Found& found,
+                        const Compute& compute) const {
+        all.resize(all_.size());
+        std::optional<Vector>& one = all[static_cast<std::size_t>(&found - all_.data())];
+        if (!one) one = compute();
+        return *one;
+    }
+
     core::Ray<double> ray_;
     std::vector<Found> all_;
-    std::vector<std::optional<core::Vec3f>> normals_; // filled on demand
+    std::vector<std::optional<core::Vec3f>> normals_;        // filled on demand
+    std::vector<std::optional<core::Vec3d>> double_normals_; // likewise
 };
 
 } // namespace raylane::oracle
