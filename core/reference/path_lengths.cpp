@@ -3,6 +3,7 @@
 #include "core/reference/rounding.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 
@@ -26,26 +27,37 @@ bool is_good(const Extended& sum) {
     return sum.value.high > 0.0 && sum.error <= 0x1p-60 * sum.value.high;
 }
 
-void sort_from(std::size_t first, std::vector<MaterialLength>& lengths) {
-    std::sort(
-        lengths.begin() + static_cast<std::ptrdiff_t>(first), lengths.end(),
-        [](const MaterialLength& a, const MaterialLength& b) { return a.material < b.material; });
+void sort_from(std::size_t first, std::vector<BodyLength>& lengths) {
+    std::sort(lengths.begin() + static_cast<std::ptrdiff_t>(first), lengths.end(),
+              [](const BodyLength& a, const BodyLength& b) { return a.body < b.body; });
 }
 
 } // namespace
 
-PathLengths::PathLengths(const Scene& scene)
-    : scene_(scene), endless_(unbounded_solids(scene)), place_of_(scene.materials().size(), 0) {
+PathLengths::PathLengths(const Scene& scene) : scene_(scene), endless_(unbounded_solids(scene)) {
     std::erase_if(endless_, [&](Solids::Index solid) { return scene.solids().node(solid).open; });
 }
 
-PathLengths::OfMaterial& PathLengths::of(MaterialIndex material) {
-    std::uint32_t& place = place_of_[material];
-    if (place < count_ && materials_[place].material == material) return materials_[place];
-    if (count_ == materials_.size()) materials_.emplace_back();
-    place = static_cast<std::uint32_t>(count_);
-    OfMaterial& added = materials_[count_++];
-    added.material = material;
+/// Forgets all bodies, and prepares for at most `most`.
+void PathLengths::forget(std::size_t most) {
+    count_ = 0;
+    const std::size_t least = std::bit_ceil(2 * most + 1);
+    if (buckets_.size() < least) buckets_.resize(least);
+}
+
+PathLengths::Body& PathLengths::numbered(std::uint32_t number) {
+    std::size_t bucket = number * std::uint64_t{0x9E3779B97F4A7C15} >> 32;
+    for (;; ++bucket) {
+        bucket &= buckets_.size() - 1;
+        const std::uint32_t index = buckets_[bucket];
+        if (index >= count_ || all_[index].bucket != bucket) break;
+        if (all_[index].number == number) return all_[index];
+    }
+    buckets_[bucket] = static_cast<std::uint32_t>(count_);
+    if (count_ == all_.size()) all_.emplace_back();
+    Body& added = all_[count_++];
+    added.number = number;
+    added.bucket = bucket;
     added.depth = 0;
     added.begin = {};
     added.parts.clear();
@@ -56,7 +68,7 @@ PathLengths::OfMaterial& PathLengths::of(MaterialIndex material) {
 /// that it never crosses but that contain its end.
 void PathLengths::begin_around_start(const LeavingRay& from, std::span<const Hit<double>> hits,
                                      double t_min) {
-    const auto begin = [&](OfMaterial& material) { pass(material, true, limit_at(t_min)); };
+    const auto begin = [&](Body& one) { pass(one, true, limit_at(t_min)); };
     by_solid_.clear();
     for (std::size_t i = 0; i < hits.size(); ++i)
         by_solid_.emplace_back(scene_.solids().solid_of(hits[i].shape), i);
@@ -64,20 +76,21 @@ void PathLengths::begin_around_start(const LeavingRay& from, std::span<const Hit
     for (std::size_t k = 0; k < by_solid_.size(); ++k) {
         const auto& [solid, i] = by_solid_[k];
         const bool is_first = k == 0 || by_solid_[k - 1].first != solid;
-        if (is_first && !hits[i].enters()) begin(of(hits[i]));
+        if (is_first && !hits[i].enters()) begin(body_of(hits[i].shape));
     }
     for (const Solids::Index solid : endless_) {
         const std::pair any(scene_.solids().node(solid).shape, std::size_t{0});
         const auto met = std::lower_bound(by_solid_.begin(), by_solid_.end(), any);
         const bool is_met = met != by_solid_.end() && met->first == any.first;
         if (!is_met && side_at_end(scene_, solid, from.ray) == Side::inside)
-            begin(of(scene_.solids().medium(solid)));
+            begin(body_of(any.first));
     }
 }
 
 void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, double t_min,
-                      double t_max, std::vector<MaterialLength>& lengths) {
+                      double t_max, Bodies bodies, std::vector<BodyLength>& lengths) {
     if (!(t_min < t_max)) return;
+    bodies_ = bodies;
     // A ray may leave a solid that is cut open without having entered it.
     std::span<const Hit<double>> hits = all;
     if (std::any_of(all.begin(), all.end(),
@@ -88,7 +101,7 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
         hits = closed_;
     }
     sharp_.assign(hits.begin(), hits.end());
-    count_ = 0;
+    forget(hits.size() + endless_.size());
 
     begin_around_start(from, hits, t_min);
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -98,7 +111,7 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
             here = limit_at(t_min);
         else if (compare_t(scene_, from, hit, t_max) >= 0)
             here = limit_at(t_max);
-        pass(of(hit), hit.enters(), here);
+        pass(body_of(hit.shape), hit.enters(), here);
     }
     end_at(t_max);
 
@@ -107,35 +120,35 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
     const Extended speed = length_of(from.ray.direction, of_speed);
     const std::size_t first = lengths.size();
     for (std::size_t i = 0; i < count_; ++i) {
-        OfMaterial& material = materials_[i];
-        if (material.depth > 0 && !std::isfinite(t_max)) {
-            lengths.push_back({material.material, t_max});
+        Body& one = all_[i];
+        if (one.depth > 0 && !std::isfinite(t_max)) {
+            lengths.push_back({one.number, t_max});
             continue;
         }
-        for (const Inside& part : material.parts)
+        for (const Inside& part : one.parts)
             for (const End& end : {part.begin, part.end})
                 if (end.crossing != nullptr) end.crossing->widen(scene_, from);
-        Extended sum = sum_of(material.parts);
+        Extended sum = sum_of(one.parts);
         int exponent = 0;
         if (!is_good(sum)) {
-            std::erase_if(material.parts, [&](const Inside& part) {
+            std::erase_if(one.parts, [&](const Inside& part) {
                 return part.begin.crossing != nullptr && part.end.crossing != nullptr &&
                        order.compare(*part.begin.crossing, *part.end.crossing) == 0;
             });
-            sum = exact_sum_of(from, material.parts, exponent);
+            sum = exact_sum_of(from, one.parts, exponent);
         }
         const double length = std::ldexp(in_double(sum * speed).value, exponent + of_speed);
-        if (!material.parts.empty()) lengths.push_back({material.material, length});
+        if (!one.parts.empty()) lengths.push_back({one.number, length});
     }
     sort_from(first, lengths);
 }
 
 bool PathLengths::add_certain(const Ray<double>& ray, std::span<const SolidCrossing> crossings,
-                              double t_min, double t_max, std::vector<MaterialLength>& lengths) {
+                              double t_min, double t_max, std::vector<BodyLength>& lengths) {
     if (!(t_min < t_max)) return true;
-    count_ = 0;
+    forget(crossings.size());
     for (const SolidCrossing& crossing : crossings)
-        if (crossing.from_inside) pass(of(crossing.medium), true, limit_at(t_min));
+        if (crossing.from_inside) pass(numbered(crossing.body), true, limit_at(t_min));
     for (const SolidCrossing& crossing : crossings) {
         const Bounded<double> t = in_double(crossing.t);
         const double off = t.error + 0x1p-52 * t.magnitude(); // covers the sums' roundings
@@ -146,42 +159,42 @@ bool PathLengths::add_certain(const Ray<double>& ray, std::span<const SolidCross
             here = limit_at(t_max);
         else if (!(t.value - off > t_min && t.value + off < t_max))
             return false;
-        pass(of(crossing.medium), crossing.enters, here);
+        pass(numbered(crossing.body), crossing.enters, here);
     }
     end_at(t_max);
 
     const Extended speed = sqrt(squared_length(convert<Extended>(ray.direction)));
     const std::size_t first = lengths.size();
     for (std::size_t i = 0; i < count_; ++i) {
-        const OfMaterial& material = materials_[i];
-        if (material.parts.empty()) continue;
-        const Extended sum = sum_of(material.parts);
+        const Body& one = all_[i];
+        if (one.parts.empty()) continue;
+        const Extended sum = sum_of(one.parts);
         if (!is_good(sum)) {
             lengths.resize(first);
             return false;
         }
-        lengths.push_back({material.material, in_double(sum * speed).value});
+        lengths.push_back({one.number, in_double(sum * speed).value});
     }
     sort_from(first, lengths);
     return true;
 }
 
-/// Passes a crossing of one of the material's solids, or a limit in its place.
-void PathLengths::pass(OfMaterial& material, bool enters, const End& here) {
+/// Passes a crossing of one of the body's solids, or a limit in its place.
+void PathLengths::pass(Body& one, bool enters, const End& here) {
     if (enters) {
-        if (material.depth++ == 0) material.begin = here;
-    } else if (--material.depth == 0) {
-        const bool is_none = here.is_limit && material.begin.is_limit_at(here.at.value.high);
-        if (!is_none) material.parts.push_back({material.begin, here});
+        if (one.depth++ == 0) one.begin = here;
+    } else if (--one.depth == 0) {
+        const bool is_none = here.is_limit && one.begin.is_limit_at(here.at.value.high);
+        if (!is_none) one.parts.push_back({one.begin, here});
     }
 }
 
-/// Ends the materials that the ray never leaves at t_max.
+/// Ends the bodies that the ray never leaves at t_max.
 void PathLengths::end_at(double t_max) {
     for (std::size_t i = 0; i < count_; ++i) {
-        OfMaterial& material = materials_[i];
-        if (material.depth > 0 && !material.begin.is_limit_at(t_max))
-            material.parts.push_back({material.begin, limit_at(t_max)});
+        Body& one = all_[i];
+        if (one.depth > 0 && !one.begin.is_limit_at(t_max))
+            one.parts.push_back({one.begin, limit_at(t_max)});
     }
 }
 

@@ -8,36 +8,40 @@
 
 namespace raylane::core {
 
-/// The length of a ray inside of the solids of one material.
-struct MaterialLength {
-    MaterialIndex material;
-    double length; ///< in the scene's unit, within an ulp; infinite without an end
+/// The bodies inside of which lengths are measured: the solids of a material, taken together, or
+/// each solid.
+enum class Bodies : std::uint8_t { materials, solids };
+
+/// The length of a ray inside of one body.
+struct BodyLength {
+    std::uint32_t body; ///< the material's index, or the solid's id: that of its first part
+    double length;      ///< in the scene's unit, within an ulp; infinite without an end
 };
 
 /// A ray's crossing with a shape that is a solid by itself.
 struct SolidCrossing {
-    MaterialIndex medium;
+    std::uint32_t body; ///< as in BodyLength
     bool enters;
     bool from_inside; ///< the ray starts inside of the shape, and leaves it here
     Bounded<DoubleDouble> t;
 };
 
-/// Measures the length of a ray, from t_min to t_max, inside of each material's solids. A stretch
-/// inside of several solids of one material counts once. A solid that is cut open has no inside.
-/// For use by one thread.
+/// Measures the length of a ray, from t_min to t_max, inside of each body. A stretch inside of
+/// several solids of one body counts once. A solid that is cut open has no inside. For use by one
+/// thread.
 class PathLengths {
   public:
     explicit PathLengths(const Scene& scene);
 
-    /// Appends one length for each material, unless it is 0, in the order of the materials. `hits`:
+    /// Appends one length for each body, unless it is 0, in the order of BodyLength::body. `hits`:
     /// all of the ray's crossings with solids, in order; for solids that it starts in, only the
     /// exits.
     void add(const LeavingRay& from, std::span<const Hit<double>> hits, double t_min, double t_max,
-             std::vector<MaterialLength>& lengths);
+             Bodies bodies, std::vector<BodyLength>& lengths);
     /// Same for crossings whose order is certain, in scenes without compound solids. Returns false,
     /// and appends nothing, if a limit or a length needs more digits.
     bool add_certain(const Ray<double>& ray, std::span<const SolidCrossing> crossings, double t_min,
-                     double t_max, std::vector<MaterialLength>& lengths);
+                     double t_max, std::vector<BodyLength>& lengths);
 
   private:
     /// An end of an interval inside of a material: a crossing, or a limit.
@@ -53,16 +57,22 @@ class PathLengths {
     struct Inside {
         End begin, end;
     };
-    struct OfMaterial {
-        MaterialIndex material;
+    struct Body {
+        std::uint32_t number; ///< as in BodyLength
+        std::size_t bucket;
         int depth = 0;
         End begin{};
         std::vector<Inside> parts{};
     };
 
-    OfMaterial& of(MaterialIndex material);
-    OfMaterial& of(const Hit<double>& hit) { return of(scene_.medium_index_of(hit.shape)); }
-    static void pass(OfMaterial& material, bool enters, const End& here);
+    void forget(std::size_t most);
+    Body& numbered(std::uint32_t number);
+    std::uint32_t number_of(ShapeId shape) const {
+        return bodies_ == Bodies::materials ? scene_.medium_index_of(shape)
+                                            : scene_.solids().solid_of(shape);
+    }
+    Body& body_of(ShapeId shape) { return numbered(number_of(shape)); }
+    static void pass(Body& one, bool enters, const End& here);
     void end_at(double t_max);
     void begin_around_start(const LeavingRay& from, std::span<const Hit<double>> hits,
                             double t_min);
@@ -71,13 +81,15 @@ class PathLengths {
                                        int& exponent) const;
 
     const Scene& scene_;
+    Bodies bodies_ = Bodies::materials;
     std::vector<Solids::Index> endless_; // solids without bounds that are not cut open
     std::vector<Hit<double>> closed_; // hits of solids that are not cut open, if some are cut open
     std::vector<SharpHit> sharp_;
     std::vector<std::pair<ShapeId, std::size_t>> by_solid_; // with the index of the hit
-    std::vector<OfMaterial> materials_; // of the ray: the first count_; the rest is spare
+    std::vector<Body> all_; // of the ray: the first count_; the rest is spare
     std::size_t count_ = 0;
-    std::vector<std::uint32_t> place_of_; // by material: its index in materials_, if present
+    // A hash table of indices in all_, which is as good as empty if no body has the bucket.
+    std::vector<std::uint32_t> buckets_;
 };
 
 } // namespace raylane::core

@@ -40,6 +40,12 @@ struct LoneRay {
         return core::rounds_surely(t, error) && std::isnormal(nearest) ? nearest
                                                                        : double_t_of(scene, hit);
     }
+    /// Returns a crossing's normal for the caller, on the outside of its solid: the nearest
+    /// doubles.
+    core::Vec3d double_normal_of(const core::Scene& scene, const core::SharpHit& hit) const {
+        const core::Vec3d normal = core::nearest_double_normal(scene, leaving(), hit);
+        return hit.hit().reversed ? core::Vec3d(0.0) - normal : normal; // no -0
+    }
     double as_answered(double t) const {
         return std::clamp(std::ldexp(t, exponent), std::numeric_limits<double>::denorm_min(),
                           std::numeric_limits<double>::max());

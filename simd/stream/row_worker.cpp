@@ -1,8 +1,10 @@
 #include "simd/stream/row_worker.hpp"
 
+#include "core/optics/media.hpp"
 #include "core/shapes/solve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -29,6 +31,12 @@ Within is_within(const Limits& limits, double t, double error) {
         t = static_cast<double>(rounded);
     }
     return t > limits.t_min && t <= limits.t_max ? Within::yes : Within::no;
+}
+
+template <class Real>
+void push_back(const core::Vec3<Real>& vector, std::array<std::vector<Real>, 3>& columns) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        columns[axis].push_back(vector[static_cast<int>(axis)]);
 }
 
 } // namespace
@@ -204,11 +212,14 @@ void RowWorker::add_keys(const RayStream<Real>& rays, std::size_t lane,
         rows.entering[begin + i] = shape.is_entered(bits_[k]) ? 1 : 0;
         rows.face[begin + i] = static_cast<std::uint8_t>(bits_[k] & hit_face);
     }
-    if (!wanted.normals) return;
+    for (std::size_t i = 0; wanted.normals && i < count; ++i)
+        push_back(normal_of(rays, lane, keys_[i].crossing), rows.normal);
+    if (!wanted.normals_double || count == 0) return;
+    const LoneRay ray = intake_.lone(rays, lane, lane);
     for (std::size_t i = 0; i < count; ++i) {
-        const core::Vec3f normal = normal_of(rays, lane, keys_[i].crossing);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            rows.normal[axis].push_back(normal[static_cast<int>(axis)]);
+        const std::uint32_t k = keys_[i].crossing;
+        const core::SharpHit hit(hit_at(k), {high_[k], low_[k]}, error_[k]);
+        push_back(ray.double_normal_of(scene_.scene(), hit), rows.normal_double);
     }
 }
 
@@ -323,30 +334,51 @@ bool RowWorker::are_surely_in_order() const {
     return true;
 }
 
-template <class Real>
-std::size_t RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
-                                 CrossingRows& rows, CrossingCounters& counters) {
-    counters_ = {};
-    intake_.take_whole_lines(false);
+/// Calls visit(some, lane, ray) for each ray, once its crossings that count are known: in keys_ if
+/// `ray` is null, otherwise in crossed_. Lane `lane` has ray `lane` of `some`.
+template <class Real, class Visit>
+std::size_t RowWorker::for_each_row(const RayStream<Real>& rays, bool with_normals,
+                                    const Visit& visit) {
     const core::Scene& scene = scene_.scene();
-    const auto visit = [&](std::size_t first, std::size_t lane) {
+    intake_.take_whole_lines(false);
+    return for_each_ray(rays, with_normals, [&](std::size_t first, std::size_t lane) {
         const RayStream<Real> some = part_of(rays, first, rays.count - first);
         const auto counts = [&](std::size_t k) {
             return !scene_.looks_through() || is_seen(some, lane, k);
         };
-        if (intake_.is_ray(lane) && sort_at_once(some, lane, counts)) {
+        keys_.clear();
+        if ((!intake_.is_ray(lane) && !intake_.is_apart(lane)) ||
+            (intake_.is_ray(lane) && sort_at_once(some, lane, counts)))
+            return visit(some, lane, static_cast<const LoneRay*>(nullptr));
+        const LoneRay ray = intake_.lone(some, lane, lane);
+        find(ray, lane, [&](const core::Hit<double>& hit) { return ray.finds(scene, hit); });
+        leave_one_of_polygons();
+        visit(some, lane, &ray);
+    });
+}
+
+template <class Real>
+std::size_t RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
+                                 CrossingRows& rows, CrossingCounters& counters) {
+    counters_ = {};
+    const auto visit = [&](const RayStream<Real>& some, std::size_t lane, const LoneRay* ray) {
+        if (ray == nullptr)
             add_keys(some, lane, wanted, rows);
-        } else if (intake_.is_ray(lane) || intake_.is_apart(lane)) {
-            const LoneRay ray = intake_.lone(some, lane, lane);
-            find(ray, lane, [&](const core::Hit<double>& hit) { return ray.finds(scene, hit); });
-            leave_one_of_polygons();
-            add(ray, wanted, rows);
-        }
+        else
+            add(*ray, wanted, rows);
         rows.first.push_back(rows.t.size());
     };
-    const std::size_t refused = for_each_ray(rays, wanted.normals, visit);
+    const std::size_t refused = for_each_row(rays, wanted.normals, visit);
     counters += counters_;
     return refused;
+}
+
+template <class Real>
+std::size_t RowWorker::count_crossings(const RayStream<Real>& rays, std::uint64_t* counts) {
+    const auto visit = [&](const RayStream<Real>&, std::size_t, const LoneRay* ray) {
+        *counts++ = ray == nullptr ? keys_.size() : crossed_.size();
+    };
+    return for_each_row(rays, /*with_normals=*/false, visit);
 }
 
 /// Keeps one crossing where several triangles of a polygon meet at an edge: that of the first
@@ -373,14 +405,14 @@ void RowWorker::add(const LoneRay& ray, const CrossingRequest& wanted, CrossingR
     for (std::size_t first = 0, end = 0; first < most; first = end) {
         for (end = first + 1; end < crossed_.size() && crossed_[end].hit.joins;)
             ++end;
-        add_at_one_t(ray, std::span(crossed_).subspan(first, end - first), most - first,
-                     wanted.normals, rows);
+        add_at_one_t(ray, std::span(crossed_).subspan(first, end - first), most - first, wanted,
+                     rows);
     }
 }
 
 /// Adds the crossings at one t: the first `most` of them, or all if there are fewer.
 void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
-                             bool normals, CrossingRows& rows) {
+                             const CrossingRequest& wanted, CrossingRows& rows) {
     // Entering crossings come first; each side is sorted by shape.
     const auto left = std::find_if(all.begin(), all.end(),
                                    [](const Crossed& crossed) { return !crossed.hit.enters(); });
@@ -402,18 +434,20 @@ void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, s
         rows.face.push_back(hit.face);
         rows.tied.push_back(hit.joins ? 1 : 0);
         rows.touching.push_back(touches ? 1 : 0);
-        if (!normals) continue;
-        core::Vec3f normal = core::rounded_normal(scene, ray.leaving(), hit);
-        if (hit.reversed) normal = core::Vec3f(0.0F) - normal; // no -0
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            rows.normal[axis].push_back(normal[static_cast<int>(axis)]);
+        if (wanted.normals) {
+            const core::Vec3f normal = core::rounded_normal(scene, ray.leaving(), hit);
+            push_back(hit.reversed ? core::Vec3f(0.0F) - normal : normal, rows.normal); // no -0
+        }
+        if (wanted.normals_double)
+            push_back(ray.double_normal_of(scene, {hit, crossed.t, crossed.error}),
+                      rows.normal_double);
     }
 }
 
 /// Finds the lengths of one ray and returns true if the results of cross_pairs() suffice.
 template <class Real>
 bool RowWorker::add_lengths_at_once(const RayStream<Real>& lines, const LoneRay& ray,
-                                    std::size_t lane) {
+                                    std::size_t lane, core::Bodies bodies) {
     if (scene_.scene().solids().any()) return false;
     const auto counts = [&](std::size_t k) {
         return is_solid(scene_.record_of(slot_[k / 2]).kind);
@@ -426,7 +460,7 @@ bool RowWorker::add_lengths_at_once(const RayStream<Real>& lines, const LoneRay&
         const bool enters = shape.is_entered(bits_[k]);
         // A line enters a convex shape before it leaves it.
         const bool from_inside = !enters && (bits_[k ^ 1] & hit_none) != 0;
-        solid_crossings_.push_back({shape.medium,
+        solid_crossings_.push_back({bodies == core::Bodies::materials ? shape.medium : shape.id,
                                     enters,
                                     from_inside,
                                     {core::double_double::two_sum(high_[k], low_[k]), error_[k]}});
@@ -436,7 +470,8 @@ bool RowWorker::add_lengths_at_once(const RayStream<Real>& lines, const LoneRay&
 }
 
 template <class Real>
-std::size_t RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& rows) {
+std::size_t RowWorker::path_lengths(const RayStream<Real>& rays, core::Bodies bodies,
+                                    LengthRows& rows) {
     // The crossings beyond a limit tell which solids contain the ray's point at this limit.
     RayStream<Real> lines = rays;
     lines.t_min = lines.t_max = nullptr;
@@ -444,21 +479,21 @@ std::size_t RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& row
         if (intake_.is_ray(lane) || intake_.is_apart(lane)) {
             const LoneRay ray = intake_.lone(part_of(rays, first, rays.count - first), lane, lane);
             lengths_found_.clear();
-            if (intake_.is_apart(lane) || !add_lengths_at_once(lines, ray, lane))
-                find_lengths(ray, lane);
-            for (const core::MaterialLength& found : lengths_found_) {
-                rows.material.push_back(found.material);
+            if (intake_.is_apart(lane) || !add_lengths_at_once(lines, ray, lane, bodies))
+                find_lengths(ray, lane, bodies);
+            for (const core::BodyLength& found : lengths_found_) {
+                rows.body.push_back(found.body);
                 rows.length.push_back(found.length);
             }
         }
-        rows.first.push_back(rows.material.size());
+        rows.first.push_back(rows.body.size());
     };
     intake_.take_whole_lines(true);
     return for_each_ray(rays, /*with_normals=*/false, visit);
 }
 
 /// Finds the lengths of one ray by all its crossings.
-void RowWorker::find_lengths(LoneRay ray, std::size_t lane) {
+void RowWorker::find_lengths(LoneRay ray, std::size_t lane, core::Bodies bodies) {
     ray.t_limit = std::numeric_limits<double>::infinity();
     find(ray, lane, [&](const core::Hit<double>& hit) {
         return is_solid(hit.kind) || scene_.scene().solids().has(hit.shape);
@@ -467,11 +502,13 @@ void RowWorker::find_lengths(LoneRay ray, std::size_t lane) {
     for (const Crossed& crossed : crossed_)
         hits_.push_back(crossed.hit);
     lengths_.add(ray.leaving(), hits_, std::ldexp(ray.t_min, -ray.exponent),
-                 std::ldexp(ray.t_max, -ray.exponent), lengths_found_);
+                 std::ldexp(ray.t_max, -ray.exponent), bodies, lengths_found_);
 }
 
-template <class Real>
-std::size_t RowWorker::containing(const PointStream<Real>& points, SolidRows& rows) {
+/// Calls visit(i) for each point, once the solids that contain it are in containing_. Returns the
+/// number of refused points.
+template <class Real, class Visit>
+std::size_t RowWorker::for_each_point(const PointStream<Real>& points, const Visit& visit) {
     std::size_t refused = 0;
     for (std::size_t i = 0; i < points.count; ++i) {
         const core::Vec3<Real> point(points.at[0][i], points.at[1][i], points.at[2][i]);
@@ -479,20 +516,44 @@ std::size_t RowWorker::containing(const PointStream<Real>& points, SolidRows& ro
             ++refused;
         containing_.clear();
         points_.add_containing(core::convert<double>(point), containing_);
+        visit(i);
+    }
+    return refused;
+}
+
+template <class Real>
+std::size_t RowWorker::containing(const PointStream<Real>& points, SolidRows& rows) {
+    return for_each_point(points, [&](std::size_t) {
         for (const core::Containing& solid : containing_) {
             rows.shape.push_back(solid.shape);
             rows.on_surface.push_back(solid.on_surface ? 1 : 0);
         }
         rows.first.push_back(rows.shape.size());
-    }
-    return refused;
+    });
+}
+
+template <class Real>
+std::size_t RowWorker::cells(const PointStream<Real>& points, const CellStream& cells) {
+    const core::Scene& scene = scene_.scene();
+    return for_each_point(points, [&](std::size_t i) {
+        const bool any = !containing_.empty();
+        const core::Containing cell =
+            any ? containing_.back() : core::Containing{core::no_shape, false};
+        if (cells.shape != nullptr) cells.shape[i] = cell.shape;
+        if (cells.material != nullptr)
+            cells.material[i] = any ? scene.medium_index_of(cell.shape) : core::no_medium;
+        if (cells.on_surface != nullptr) cells.on_surface[i] = cell.on_surface ? 1 : 0;
+    });
 }
 
 #define RAYLANE_INSTANTIATE(Real)                                                                  \
     template std::size_t RowWorker::crossings(const RayStream<Real>&, const CrossingRequest&,      \
                                               CrossingRows&, CrossingCounters&);                   \
-    template std::size_t RowWorker::path_lengths(const RayStream<Real>&, LengthRows&);             \
-    template std::size_t RowWorker::containing(const PointStream<Real>&, SolidRows&);
+    template std::size_t RowWorker::count_crossings(const RayStream<Real>&, std::uint64_t*);       \
+    template std::size_t RowWorker::path_lengths(const RayStream<Real>&, core::Bodies,             \
+                                                 LengthRows&);                                     \
+    template std::size_t RowWorker::containing(const PointStream<Real>&, SolidRows&);              \
+    template std::size_t RowWorker::cells(const PointStream<Real>&, const CellStream&);
 RAYLANE_INSTANTIATE(float)
 RAYLANE_INSTANTIATE(double)
 #undef RAYLANE_INSTANTIATE

@@ -14,12 +14,6 @@
 
 namespace raylane::simd {
 
-/// Request for all crossings.
-struct CrossingRequest {
-    std::size_t most = 0; ///< largest number per ray, its first ones; 0: all
-    bool normals = false;
-};
-
 /// Counts of rows of crossings.
 struct CrossingCounters {
     core::OrderCounters order;
@@ -41,9 +35,15 @@ class RowWorker {
     std::size_t crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
                           CrossingRows& rows, CrossingCounters& counters);
     template <class Real>
-    std::size_t path_lengths(const RayStream<Real>& rays, LengthRows& rows);
+    std::size_t path_lengths(const RayStream<Real>& rays, core::Bodies bodies, LengthRows& rows);
+    /// Stores the number of crossings of each ray.
+    template <class Real>
+    std::size_t count_crossings(const RayStream<Real>& rays, std::uint64_t* counts);
     template <class Real>
     std::size_t containing(const PointStream<Real>& points, SolidRows& rows);
+    /// Stores the cell of each point.
+    template <class Real>
+    std::size_t cells(const PointStream<Real>& points, const CellStream& cells);
 
   private:
     /// A crossing of one ray, with t in extended precision.
@@ -55,12 +55,17 @@ class RowWorker {
 
     template <class Real, class Visit>
     std::size_t for_each_ray(const RayStream<Real>& rays, bool with_normals, const Visit& visit);
+    template <class Real, class Visit>
+    std::size_t for_each_point(const PointStream<Real>& points, const Visit& visit);
+    template <class Real, class Visit>
+    std::size_t for_each_row(const RayStream<Real>& rays, bool with_normals, const Visit& visit);
     bool list_pairs(std::size_t begin, std::size_t end);
     void cross_pairs(bool with_normals);
     template <class Real, class Counts>
     bool sort_at_once(const RayStream<Real>& rays, std::size_t lane, const Counts& counts);
     template <class Real>
-    bool add_lengths_at_once(const RayStream<Real>& lines, const LoneRay& ray, std::size_t lane);
+    bool add_lengths_at_once(const RayStream<Real>& lines, const LoneRay& ray, std::size_t lane,
+                             core::Bodies bodies);
     template <class Real>
     void add_keys(const RayStream<Real>& rays, std::size_t lane, const CrossingRequest& wanted,
                   CrossingRows& rows);
@@ -76,10 +81,10 @@ class RowWorker {
     void sort(const LoneRay& ray);
     bool are_surely_in_order() const;
     void leave_one_of_polygons();
-    void find_lengths(LoneRay ray, std::size_t lane);
+    void find_lengths(LoneRay ray, std::size_t lane, core::Bodies bodies);
     void add(const LoneRay& ray, const CrossingRequest& wanted, CrossingRows& rows);
     void add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
-                      bool normals, CrossingRows& rows);
+                      const CrossingRequest& wanted, CrossingRows& rows);
 
     static constexpr std::size_t at_a_time = 1024;      // rays
     static constexpr std::size_t max_pairs = 1U << 18U; // of several rays at a time
@@ -112,7 +117,7 @@ class RowWorker {
     std::vector<std::uint32_t> order_;
     std::vector<core::Hit<double>> hits_;
     std::vector<core::SolidCrossing> solid_crossings_;
-    std::vector<core::MaterialLength> lengths_found_;
+    std::vector<core::BodyLength> lengths_found_;
     std::vector<core::Containing> containing_;
     CrossingCounters counters_;
 };

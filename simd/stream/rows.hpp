@@ -10,11 +10,10 @@
 
 namespace raylane::simd {
 
-/// Points, structure of arrays: coordinate a of point i is at[a][i].
-template <class Real>
-struct PointStream {
-    std::size_t count = 0;
-    const Real* at[3] = {};
+/// Request for all crossings.
+struct CrossingRequest {
+    std::size_t most = 0; ///< largest number per ray, its first ones; 0: all
+    bool normals = false, normals_double = false;
 };
 
 /// Any number of answers for each ray or point: those of i are in the columns from first[i] up to
@@ -28,7 +27,8 @@ struct CrossingRows : Rows {
     std::vector<double> t;
     std::vector<core::ShapeId> shape;
     std::vector<std::uint8_t> entering, face, tied, touching;
-    std::array<std::vector<float>, 3> normal; ///< if requested
+    std::array<std::vector<float>, 3> normal;         ///< if requested
+    std::array<std::vector<double>, 3> normal_double; ///< if requested
 };
 
 /// Solids that points are in, by their ids.
@@ -37,9 +37,9 @@ struct SolidRows : Rows {
     std::vector<std::uint8_t> on_surface;
 };
 
-/// Lengths of rays inside of materials' solids, by the materials' indices.
+/// Lengths of rays inside of bodies, as in core::BodyLength.
 struct LengthRows : Rows {
-    std::vector<core::MaterialIndex> material;
+    std::vector<std::uint32_t> body;
     std::vector<double> length;
 };
 
@@ -54,6 +54,8 @@ void for_each_column(CrossingRows& a, CrossingRows& b, const Visit& visit) {
     visit(a.touching, b.touching);
     for (std::size_t axis = 0; axis < 3; ++axis)
         visit(a.normal[axis], b.normal[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        visit(a.normal_double[axis], b.normal_double[axis]);
 }
 template <class Visit>
 void for_each_column(SolidRows& a, SolidRows& b, const Visit& visit) {
@@ -62,7 +64,7 @@ void for_each_column(SolidRows& a, SolidRows& b, const Visit& visit) {
 }
 template <class Visit>
 void for_each_column(LengthRows& a, LengthRows& b, const Visit& visit) {
-    visit(a.material, b.material);
+    visit(a.body, b.body);
     visit(a.length, b.length);
 }
 

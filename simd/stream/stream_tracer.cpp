@@ -31,17 +31,18 @@ StreamTracer::Parts StreamTracer::parts_of(std::size_t count) const {
     return {size, (count + size - 1) / size};
 }
 
-/// Calls answer(worker, first, count) for ranges that together cover all rays. Returns the sum of
-/// the results.
-template <class Answer>
-std::size_t StreamTracer::answer(std::size_t count, const Answer& answer) const {
+/// Calls answer(worker, first, count) for ranges that together cover all rays. Each has a size of
+/// parts_of(count), but for the last. Returns the sum of the results.
+template <class Worker, class Answer>
+std::size_t StreamTracer::answer(Pool<Worker>& workers, std::size_t count,
+                                 const Answer& answer) const {
     if (count == 0) return 0;
     std::atomic<std::size_t> refused = 0;
     const DefaultRounding rounding;
-    const auto make = [&] { return std::make_unique<StreamWorker>(*data_, tracing_, shapes_); };
+    const auto make = [&] { return std::make_unique<Worker>(*data_, tracing_, shapes_); };
     const Parts parts = parts_of(count);
     const auto answer_part = [&](std::size_t number) {
-        const Pool<StreamWorker>::Lease worker(workers_, make);
+        const typename Pool<Worker>::Lease worker(workers, make);
         const std::size_t first = number * parts.size;
         refused += answer(*worker, first, std::min(parts.size, count - first));
     };
@@ -56,25 +57,18 @@ std::size_t StreamTracer::answer(std::size_t count, const Answer& answer) const 
 /// joins these. Returns the sum of the results.
 template <class Worker, class AnyRows, class Answer>
 std::size_t StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t count, AnyRows& rows,
-                                         const Answer& answer) const {
+                                         const Answer& answer_some) const {
     rows = {};
-    if (count == 0) return 0;
-    std::atomic<std::size_t> refused = 0;
-    const DefaultRounding rounding;
-    const auto make = [&] { return std::make_unique<Worker>(*data_, tracing_, shapes_); };
     const Parts parts = parts_of(count);
     std::vector<AnyRows> found(parts.count);
-    const auto answer_part = [&](std::size_t number) {
-        const typename Pool<Worker>::Lease worker(workers, make);
-        const std::size_t first = number * parts.size;
-        refused += answer(*worker, first, std::min(parts.size, count - first), found[number]);
-    };
+    const std::size_t refused =
+        answer(workers, count, [&](Worker& worker, std::size_t first, std::size_t some) {
+            return answer_some(worker, first, some, found[first / parts.size]);
+        });
     if (parts.count == 1) {
-        answer_part(0);
         rows = std::move(found[0]);
         return refused;
     }
-    on_threads(threads_, [&] { parallel_for(parts.count, answer_part); });
     rows.first.reserve(count + 1);
     for (AnyRows& part : found) {
         const std::uint64_t before = rows.first.back();
@@ -89,17 +83,21 @@ std::size_t StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t coun
 }
 
 template <class Real>
-std::size_t StreamTracer::nearest(const RayStream<Real>& rays, const HitStream& hits) const {
-    return answer(rays.count, [&](StreamWorker& worker, std::size_t first, std::size_t count) {
-        return worker.nearest(part_of(rays, first, count), part_of(hits, first));
-    });
+std::size_t StreamTracer::nearest(const RayStream<Real>& rays, const HitStream& hits,
+                                  const NormalStream& normals) const {
+    return answer(workers_, rays.count,
+                  [&](StreamWorker& worker, std::size_t first, std::size_t count) {
+                      return worker.nearest(part_of(rays, first, count), part_of(hits, first),
+                                            part_of(normals, first));
+                  });
 }
 
 template <class Real>
 std::size_t StreamTracer::occluded(const RayStream<Real>& rays, std::uint8_t* occluded) const {
-    return answer(rays.count, [&](StreamWorker& worker, std::size_t first, std::size_t count) {
-        return worker.occluded(part_of(rays, first, count), occluded + first);
-    });
+    return answer(workers_, rays.count,
+                  [&](StreamWorker& worker, std::size_t first, std::size_t count) {
+                      return worker.occluded(part_of(rays, first, count), occluded + first);
+                  });
 }
 
 template <class Real>
@@ -109,7 +107,7 @@ std::size_t StreamTracer::crossings(const RayStream<Real>& rays, const CrossingR
         return answer_in_rows(
             workers_, rays.count, rows,
             [&](StreamWorker& worker, std::size_t first, std::size_t count, CrossingRows& some) {
-                return worker.first_crossings(part_of(rays, first, count), wanted.normals, some);
+                return worker.first_crossings(part_of(rays, first, count), wanted, some);
             });
     std::mutex mutex;
     return answer_in_rows(
@@ -125,11 +123,21 @@ std::size_t StreamTracer::crossings(const RayStream<Real>& rays, const CrossingR
 }
 
 template <class Real>
-std::size_t StreamTracer::path_lengths(const RayStream<Real>& rays, LengthRows& rows) const {
+std::size_t StreamTracer::count_crossings(const RayStream<Real>& rays,
+                                          std::uint64_t* counts) const {
+    return answer(row_workers_, rays.count,
+                  [&](RowWorker& worker, std::size_t first, std::size_t count) {
+                      return worker.count_crossings(part_of(rays, first, count), counts + first);
+                  });
+}
+
+template <class Real>
+std::size_t StreamTracer::path_lengths(const RayStream<Real>& rays, core::Bodies bodies,
+                                       LengthRows& rows) const {
     return answer_in_rows(
         row_workers_, rays.count, rows,
         [&](RowWorker& worker, std::size_t first, std::size_t count, LengthRows& some) {
-            return worker.path_lengths(part_of(rays, first, count), some);
+            return worker.path_lengths(part_of(rays, first, count), bodies, some);
         });
 }
 
@@ -138,20 +146,30 @@ std::size_t StreamTracer::containing(const PointStream<Real>& points, SolidRows&
     return answer_in_rows(
         row_workers_, points.count, rows,
         [&](RowWorker& worker, std::size_t first, std::size_t count, SolidRows& some) {
-            return worker.containing(
-                PointStream<Real>{
-                    count, {points.at[0] + first, points.at[1] + first, points.at[2] + first}},
-                some);
+            return worker.containing(part_of(points, first, count), some);
         });
 }
 
+template <class Real>
+std::size_t StreamTracer::cells(const PointStream<Real>& points, const CellStream& cells) const {
+    return answer(row_workers_, points.count,
+                  [&](RowWorker& worker, std::size_t first, std::size_t count) {
+                      return worker.cells(part_of(points, first, count), part_of(cells, first));
+                  });
+}
+
 #define RAYLANE_INSTANTIATE(Real)                                                                  \
-    template std::size_t StreamTracer::nearest(const RayStream<Real>&, const HitStream&) const;    \
+    template std::size_t StreamTracer::nearest(const RayStream<Real>&, const HitStream&,           \
+                                               const NormalStream&) const;                         \
     template std::size_t StreamTracer::occluded(const RayStream<Real>&, std::uint8_t*) const;      \
     template std::size_t StreamTracer::crossings(const RayStream<Real>&, const CrossingRequest&,   \
                                                  CrossingRows&, CrossingCounters&) const;          \
-    template std::size_t StreamTracer::path_lengths(const RayStream<Real>&, LengthRows&) const;    \
-    template std::size_t StreamTracer::containing(const PointStream<Real>&, SolidRows&) const;
+    template std::size_t StreamTracer::count_crossings(const RayStream<Real>&, std::uint64_t*)     \
+        const;                                                                                     \
+    template std::size_t StreamTracer::path_lengths(const RayStream<Real>&, core::Bodies,          \
+                                                    LengthRows&) const;                            \
+    template std::size_t StreamTracer::containing(const PointStream<Real>&, SolidRows&) const;     \
+    template std::size_t StreamTracer::cells(const PointStream<Real>&, const CellStream&) const;
 RAYLANE_INSTANTIATE(float)
 RAYLANE_INSTANTIATE(double)
 #undef RAYLANE_INSTANTIATE

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/reference/path_lengths.hpp"
 #include "core/scene/scene.hpp"
 #include "simd/isa/isa.hpp"
 #include "simd/query/tracing.hpp"
@@ -18,7 +19,6 @@ class RowWorker;
 class SceneData;
 class StreamWorker;
 struct CrossingCounters;
-struct CrossingRequest;
 
 /// Answers streams of rays in one scene, which must outlive it. Any number of threads may call it
 /// at a time. The answer to a ray depends on the scene and that ray alone.
@@ -39,7 +39,8 @@ class StreamTracer {
     /// Finds the nearest crossing of each ray. At the same t, entering precedes leaving, then the
     /// lower id precedes.
     template <class Real>
-    std::size_t nearest(const RayStream<Real>& rays, const HitStream& hits) const;
+    std::size_t nearest(const RayStream<Real>& rays, const HitStream& hits,
+                        const NormalStream& normals = {}) const;
 
     /// Writes 1 where a ray has any crossing, otherwise 0.
     template <class Real>
@@ -53,15 +54,23 @@ class StreamTracer {
     std::size_t crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
                           CrossingRows& rows, CrossingCounters& counters) const;
 
-    /// Computes how much of each ray, between its limits, is inside of each material's solids,
-    /// taken together as one solid. Lengths are in the scene's unit, within an ulp. Sides that
-    /// cannot be seen count.
+    /// Stores the number of all crossings of each ray.
     template <class Real>
-    std::size_t path_lengths(const RayStream<Real>& rays, LengthRows& rows) const;
+    std::size_t count_crossings(const RayStream<Real>& rays, std::uint64_t* counts) const;
+
+    /// Computes how much of each ray, between its limits, is inside of each solid, or of each
+    /// material's solids, taken together as one solid. Lengths are in the scene's unit, within an
+    /// ulp. Sides that cannot be seen count.
+    template <class Real>
+    std::size_t path_lengths(const RayStream<Real>& rays, core::Bodies bodies,
+                             LengthRows& rows) const;
 
     /// Finds the solids that contain each point.
     template <class Real>
     std::size_t containing(const PointStream<Real>& points, SolidRows& rows) const;
+    /// Finds the cell of each point.
+    template <class Real>
+    std::size_t cells(const PointStream<Real>& points, const CellStream& cells) const;
 
   private:
     /// Split of a call among threads: `count` parts of `size` rays.
@@ -69,8 +78,8 @@ class StreamTracer {
         std::size_t size, count;
     };
     Parts parts_of(std::size_t count) const;
-    template <class Answer>
-    std::size_t answer(std::size_t count, const Answer& answer) const;
+    template <class Worker, class Answer>
+    std::size_t answer(Pool<Worker>& workers, std::size_t count, const Answer& answer) const;
     template <class Worker, class AnyRows, class Answer>
     std::size_t answer_in_rows(Pool<Worker>& workers, std::size_t count, AnyRows& rows,
                                const Answer& answer) const;

@@ -27,6 +27,31 @@ struct InvalidStart : core::InvalidValue {
     const std::uint32_t* ray; ///< its element of RayStream::origin_shape
 };
 
+/// Points, structure of arrays: coordinate a of point i is at[a][i].
+template <class Real>
+struct PointStream {
+    std::size_t count = 0;
+    const Real* at[3] = {};
+};
+
+/// The cell of each point: of the solids that contain it, the one with the highest id. Null: not
+/// requested.
+struct CellStream {
+    core::ShapeId* shape = nullptr;          ///< no_shape: in no solid
+    core::MaterialIndex* material = nullptr; ///< inside of the solid; no_medium: in no solid
+    std::uint8_t* on_surface = nullptr;
+};
+
+/// Normals of hits as doubles, by ray: those of HitStream, but each component is the double nearest
+/// to the true one. Null: not requested.
+struct NormalStream {
+    double* normal[3] = {};
+
+    bool any() const {
+        return normal[0] != nullptr || normal[1] != nullptr || normal[2] != nullptr;
+    }
+};
+
 /// The limits of a ray, in the caller's units.
 struct Limits {
     double t_min, t_max;
@@ -62,6 +87,21 @@ inline HitStream part_of(const HitStream& hits, std::size_t first) {
             from(hits.face, first),
             from(hits.t_double, first),
             from(hits.touching, first)};
+}
+
+/// Return `count` points from `first` on, and their cells.
+template <class Real>
+PointStream<Real> part_of(const PointStream<Real>& points, std::size_t first, std::size_t count) {
+    return {count, {points.at[0] + first, points.at[1] + first, points.at[2] + first}};
+}
+
+inline CellStream part_of(const CellStream& cells, std::size_t first) {
+    return {from(cells.shape, first), from(cells.material, first), from(cells.on_surface, first)};
+}
+
+inline NormalStream part_of(const NormalStream& normals, std::size_t first) {
+    return {{from(normals.normal[0], first), from(normals.normal[1], first),
+             from(normals.normal[2], first)}};
 }
 
 /// Store a hit in the requested columns, or that a ray has no hit.

@@ -22,7 +22,7 @@ core::Vec3f in_float(const core::Vec3d& normal) {
 
 StreamWorker::StreamWorker(const SceneData& scene, const Tracing& tracing,
                            const ShapesByName& shapes)
-    : scene_(scene), tracing_(tracing),
+    : scene_(scene), shapes_(shapes), tracing_(tracing),
       searcher_(scene.scene(), core::Search::hierarchy, tracing.precision),
       solid_surfaces_(scene.scene()), query_(scene, tracing, Asked::floats), expressions_(scene),
       intake_(scene, tracing, shapes, at_a_time()), few_(scene, tracing, shapes) {
@@ -65,10 +65,30 @@ void StreamWorker::in_good_order(const RayStream<Real>& rays, const AsTheyAre& a
 }
 
 template <class Real>
-std::size_t StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& hits) {
-    refused_ = 0;
+std::size_t StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& hits,
+                                  const NormalStream& normals) {
     intake_.answer_floats(std::is_same_v<Real, float> ||
                           (hits.t != nullptr && hits.t_double == nullptr));
+    if (!normals.any()) return find_nearest(rays, hits);
+    std::size_t refused = 0;
+    for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
+        count = std::min(rays.count - first, TileOrder::most);
+        const RayStream<Real> some = part_of(rays, first, count);
+        HitStream found = part_of(hits, first);
+        columns_.add_missing(found, count);
+        refused += find_nearest(some, found);
+        for (std::size_t i = 0; i < count; ++i) {
+            const core::Vec3d normal = double_normal_of(some, found, i);
+            for (int axis = 0; axis < 3; ++axis)
+                if (normals.normal[axis] != nullptr) normals.normal[axis][first + i] = normal[axis];
+        }
+    }
+    return refused;
+}
+
+template <class Real>
+std::size_t StreamWorker::find_nearest(const RayStream<Real>& rays, const HitStream& hits) {
+    refused_ = 0;
     if (few_.can_answer(rays) && hits.t_double == nullptr) {
         for (std::size_t i = 0; i < rays.count; ++i)
             if (!few_.nearest(rays, i, hits))
@@ -390,30 +410,66 @@ bool StreamWorker::touches(const LoneRay& ray, const core::Hit<double>& hit) {
     });
 }
 
-HitStream StreamWorker::Columns::take(std::size_t count, bool normals) {
+/// Returns the normal of the hit of ray i as doubles, or 0 if ray i hits nothing.
+template <class Real>
+core::Vec3d StreamWorker::double_normal_of(const RayStream<Real>& rays, const HitStream& hits,
+                                           std::size_t i) {
+    const core::ShapeId shape = hits.shape[i];
+    if (shape == core::no_shape) return core::Vec3d(0.0);
+    const std::uint32_t slot = shapes_.slots()[shape];
+    const SceneData::ShapeRecord record = scene_.record_of(slot);
+    const LoneRay ray = intake_.alone(rays, i);
+    core::Hit<double> hit({std::ldexp(hits.t_double[i], -ray.exponent), hits.face[i],
+                           (hits.entering[i] != 0) != record.reversed},
+                          shape, record.kind, scene_.place_of(slot), record.reversed);
+    if (is_exact()) {
+        // Twice the error of rounding; not known for numbers that were clamped or are subnormal.
+        const bool is_known = std::isnormal(hits.t_double[i]) && std::isnormal(hit.t) &&
+                              hits.t_double[i] < std::numeric_limits<double>::max();
+        hit.error = is_known ? 0x1p-52 * hit.t : std::numeric_limits<double>::infinity();
+        return ray.double_normal_of(scene_.scene(), hit);
+    }
+    const core::Vec3d normal = searcher_.surface_at(ray.ray, ray.origins, hit).normal;
+    return hit.reversed ? core::Vec3d(0.0) - normal : normal + core::Vec3d(0.0); // no -0
+}
+
+StreamWorker::Columns::Taken StreamWorker::Columns::take(std::size_t count,
+                                                         const CrossingRequest& wanted) {
     const auto room = [count](auto& column) {
         column.resize(count);
         return column.data();
     };
-    HitStream hits;
-    hits.t_double = room(t);
-    hits.shape = room(shape);
-    hits.entering = room(entering);
-    hits.face = room(face);
-    hits.touching = room(touching);
-    for (int axis = 0; normals && axis < 3; ++axis)
-        hits.normal[axis] = room(normal[axis]);
-    return hits;
+    Taken taken;
+    add_missing(taken.hits, count);
+    taken.hits.touching = room(touching);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (wanted.normals) taken.hits.normal[axis] = room(normal[axis]);
+        if (wanted.normals_double) taken.normals.normal[axis] = room(normal_double[axis]);
+    }
+    return taken;
+}
+
+/// Adds the columns that a hit's normal as doubles depends on.
+void StreamWorker::Columns::add_missing(HitStream& hits, std::size_t count) {
+    const auto add = [count](auto*& wanted, auto& column) {
+        if (wanted != nullptr) return;
+        column.resize(count);
+        wanted = column.data();
+    };
+    add(hits.t_double, t);
+    add(hits.shape, shape);
+    add(hits.entering, entering);
+    add(hits.face, face);
 }
 
 template <class Real>
-std::size_t StreamWorker::first_crossings(const RayStream<Real>& rays, bool normals,
-                                          CrossingRows& rows) {
+std::size_t StreamWorker::first_crossings(const RayStream<Real>& rays,
+                                          const CrossingRequest& wanted, CrossingRows& rows) {
     std::size_t refused = 0;
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
         count = std::min(rays.count - first, TileOrder::most);
-        const HitStream hits = columns_.take(count, normals);
-        refused += nearest(part_of(rays, first, count), hits);
+        const auto [hits, normals] = columns_.take(count, wanted);
+        refused += nearest(part_of(rays, first, count), hits, normals);
         for (std::size_t i = 0; i < count; ++i) {
             if (hits.shape[i] != core::no_shape) {
                 rows.t.push_back(hits.t_double[i]);
@@ -422,8 +478,10 @@ std::size_t StreamWorker::first_crossings(const RayStream<Real>& rays, bool norm
                 rows.face.push_back(hits.face[i]);
                 rows.tied.push_back(0);
                 rows.touching.push_back(hits.touching[i]);
-                for (std::size_t axis = 0; normals && axis < 3; ++axis)
+                for (std::size_t axis = 0; wanted.normals && axis < 3; ++axis)
                     rows.normal[axis].push_back(hits.normal[axis][i]);
+                for (std::size_t axis = 0; wanted.normals_double && axis < 3; ++axis)
+                    rows.normal_double[axis].push_back(normals.normal[axis][i]);
             }
             rows.first.push_back(rows.t.size());
         }
@@ -528,11 +586,15 @@ core::Hit<double> StreamWorker::hit_at(std::size_t lane) const {
     return hit_of(scene_, intake_.paths(), query_.hits(), lane);
 }
 
-template std::size_t StreamWorker::nearest(const RayStream<float>&, const HitStream&);
-template std::size_t StreamWorker::nearest(const RayStream<double>&, const HitStream&);
+template std::size_t StreamWorker::nearest(const RayStream<float>&, const HitStream&,
+                                           const NormalStream&);
+template std::size_t StreamWorker::nearest(const RayStream<double>&, const HitStream&,
+                                           const NormalStream&);
 template std::size_t StreamWorker::occluded(const RayStream<float>&, std::uint8_t*);
 template std::size_t StreamWorker::occluded(const RayStream<double>&, std::uint8_t*);
-template std::size_t StreamWorker::first_crossings(const RayStream<float>&, bool, CrossingRows&);
-template std::size_t StreamWorker::first_crossings(const RayStream<double>&, bool, CrossingRows&);
+template std::size_t StreamWorker::first_crossings(const RayStream<float>&, const CrossingRequest&,
+                                                   CrossingRows&);
+template std::size_t StreamWorker::first_crossings(const RayStream<double>&, const CrossingRequest&,
+                                                   CrossingRows&);
 
 } // namespace raylane::simd

@@ -6,6 +6,7 @@
 #include "simd/stream/few_rays.hpp"
 #include "simd/stream/intake.hpp"
 #include "simd/stream/rows.hpp"
+#include "simd/stream/shapes_by_name.hpp"
 #include "simd/stream/tile_order.hpp"
 
 #include <span>
@@ -20,12 +21,14 @@ class StreamWorker {
 
     /// Each of these returns the number of refused rays: see StreamIntake::refused.
     template <class Real>
-    std::size_t nearest(const RayStream<Real>& rays, const HitStream& hits);
+    std::size_t nearest(const RayStream<Real>& rays, const HitStream& hits,
+                        const NormalStream& normals = {});
     template <class Real>
     std::size_t occluded(const RayStream<Real>& rays, std::uint8_t* occluded);
     /// Appends the first crossing of each ray to the rows. Requires Precision::exact.
     template <class Real>
-    std::size_t first_crossings(const RayStream<Real>& rays, bool normals, CrossingRows& rows);
+    std::size_t first_crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
+                                CrossingRows& rows);
 
   private:
     bool is_exact() const { return tracing_.precision == core::Precision::exact; }
@@ -37,6 +40,10 @@ class StreamWorker {
                        const InTiles& in_tiles);
     template <class Real>
     bool are_better_in_tiles(const RayStream<Real>& rays, std::size_t first) const;
+    template <class Real>
+    std::size_t find_nearest(const RayStream<Real>& rays, const HitStream& hits);
+    template <class Real>
+    core::Vec3d double_normal_of(const RayStream<Real>& rays, const HitStream& hits, std::size_t i);
     template <class Real>
     void nearest_in_tiles(const RayStream<Real>& rays, const HitStream& hits);
     template <class Real>
@@ -72,6 +79,7 @@ class StreamWorker {
                           std::size_t k) const;
 
     const SceneData& scene_;
+    const ShapesByName& shapes_;
     Tracing tracing_;
     core::Searcher<double> searcher_;
     core::SolidSurfaces solid_surfaces_;
@@ -84,13 +92,19 @@ class StreamWorker {
     std::uint32_t* doubtful_ = nullptr; // lanes
     std::uint32_t* unsharp_ = nullptr;
     std::uint8_t* state_ = nullptr;
-    /// Columns of hits for first_crossings().
+    /// Columns of hits that the caller does not want.
     struct Columns {
         std::vector<double> t;
         std::vector<core::ShapeId> shape;
         std::vector<std::uint8_t> entering, face, touching;
         std::vector<float> normal[3];
-        HitStream take(std::size_t count, bool normals);
+        std::vector<double> normal_double[3];
+        struct Taken {
+            HitStream hits;
+            NormalStream normals;
+        };
+        Taken take(std::size_t count, const CrossingRequest& wanted);
+        void add_missing(HitStream& hits, std::size_t count);
     } columns_;
     std::size_t refused_ = 0;
     /// Skips frusta after some that gave up. Has no influence on answers.

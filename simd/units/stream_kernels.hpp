@@ -25,8 +25,8 @@ struct RayStream {
     const Real* t_max = nullptr; ///< null: infinity
     /// Ids of shapes that rays leave, or no_shape. Such a ray starts exactly on that surface, on
     /// the face that HitStream::face reported. It goes to the inside (the back) if origin_inward is
-    /// 1, otherwise to the outside. Null: no ray leaves a shape; the face is the body; the
-    /// direction decides.
+    /// 1, to the outside if it is 0; if it is 2, the direction decides. Null: no ray leaves a
+    /// shape; the face is the body; the direction decides.
     const std::uint32_t* origin_shape = nullptr;
     const std::uint8_t* origin_face = nullptr;
     const std::uint8_t* origin_inward = nullptr;

@@ -127,8 +127,9 @@ void find_lengths(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& ra
                   LengthRows& rows, QueryStatistics* statistics) {
     simd::LengthRows found;
     const simd::RayStream<Real> stream = stream_of(rays);
-    store(answered(stream, [&] { return tracer.path_lengths(stream, found); }), statistics);
-    rows = {std::move(found.first), std::move(found.material), std::move(found.length)};
+    store(answered(stream, [&] { return tracer.path_lengths(stream, core::Bodies::materials, found); }),
+          statistics);
+    rows = {std::move(found.first), std::move(found.body), std::move(found.length)};
 }
 
 template <class Real>

@@ -160,17 +160,22 @@ TEST_CASE("packed spheres have the crossings and lengths and insides of plain on
         const StreamTracer plain(scenes.plain, 1, isa), packed(scenes.packed, 1, isa);
         CrossingCounters counters{};
         CrossingRows plain_rows, packed_rows;
-        plain.crossings(some, {0, true}, plain_rows, counters);
-        packed.crossings(some, {0, true}, packed_rows, counters);
+        const CrossingRequest wanted{.normals = true, .normals_double = true};
+        plain.crossings(some, wanted, plain_rows, counters);
+        packed.crossings(some, wanted, packed_rows, counters);
         CHECK(plain_rows.t.size() > 1000);
         CHECK(packed_rows.t == plain_rows.t);
         CHECK(packed_rows.shape == plain_rows.shape);
         CHECK(packed_rows.entering == plain_rows.entering);
         CHECK(packed_rows.normal == plain_rows.normal);
-        LengthRows plain_lengths, packed_lengths;
-        plain.path_lengths(some, plain_lengths);
-        packed.path_lengths(some, packed_lengths);
-        CHECK(packed_lengths.length == plain_lengths.length);
+        CHECK(packed_rows.normal_double == plain_rows.normal_double);
+        for (const Bodies bodies : {Bodies::materials, Bodies::solids}) {
+            LengthRows plain_lengths, packed_lengths;
+            plain.path_lengths(some, bodies, plain_lengths);
+            packed.path_lengths(some, bodies, packed_lengths);
+            CHECK(packed_lengths.body == plain_lengths.body);
+            CHECK(packed_lengths.length == plain_lengths.length);
+        }
         SolidRows plain_solids, packed_solids;
         const PointStream<float> points = {some.count,
                                            {some.origin[0], some.origin[1], some.origin[2]}};
