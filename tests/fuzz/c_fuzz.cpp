@@ -410,9 +410,11 @@ void ask_points(const raylane_tracer* tracer, Bytes& bytes, const Contains& cont
     if (refused > count) found("more refused points than points");
 }
 
-template <class Real, class CRays, class Intersect, class Occluded, class Crossings, class Lengths>
+template <class Real, class CRays, class Intersect, class Occluded, class Count, class Crossings,
+          class Lengths>
 void ask(const raylane_tracer* tracer, Bytes& bytes, const Intersect& intersect,
-         const Occluded& occluded, const Crossings& crossings, const Lengths& lengths) {
+         const Occluded& occluded, const Count& count_crossings, const Crossings& crossings,
+         const Lengths& lengths) {
     const auto count = static_cast<std::size_t>(bytes.below(40));
     Arrays<Real> reals(count, bytes);
     Arrays<std::uint32_t> ids(count, bytes);
@@ -440,14 +442,25 @@ void ask(const raylane_tracer* tracer, Bytes& bytes, const Intersect& intersect,
     hits.shape = ids.make(true, [] { return std::uint32_t{77777}; });
     hits.entering = flags.make(true, [] { return std::uint8_t{77}; });
     hits.face = flags.make(true, [] { return std::uint8_t{77}; });
-    hits.t_double = doubles.make(true, [] { return -7777.0; });
+    for (double** array :
+         {&hits.t_double, &hits.normal_double_x, &hits.normal_double_y, &hits.normal_double_z})
+        *array = doubles.make(true, [] { return -7777.0; });
     const raylane_status status = intersect(tracer, &rays, &hits);
     check(status, has_null);
     std::uint8_t* const blocked = flags.make(false, [] { return std::uint8_t{77}; });
     const raylane_status of_blocked = occluded(tracer, &rays, blocked);
     check(of_blocked, has_null || (blocked == nullptr && count != 0));
     ask_rows(tracer, rays, has_null, bytes, crossings, lengths);
+    Arrays<std::uint64_t> numbers(count, bytes);
+    std::uint64_t* const counts = numbers.make(false, [] { return std::uint64_t{777777}; });
+    const raylane_status of_counts = count_crossings(tracer, &rays, counts);
+    check(of_counts, has_null || (counts == nullptr && count != 0));
     for (std::size_t i = 0; i < count; ++i) {
+        if (counts != nullptr && (counts[i] == 777777) == (of_counts == RAYLANE_OK))
+            found("another count");
+        if (hits.normal_double_x != nullptr &&
+            (hits.normal_double_x[i] == -7777.0) == (status == RAYLANE_OK))
+            found("another normal");
         if (hits.t != nullptr && (hits.t[i] == untouched) == (status == RAYLANE_OK))
             found("another t");
         if (hits.entering != nullptr && (hits.entering[i] == 77) == (status == RAYLANE_OK))
@@ -563,11 +576,13 @@ void call(Handles& handles, Bytes& bytes) {
     }
     case 11:
         return ask<float, raylane_rays>(slot_of(handles.tracers, bytes), bytes, raylane_intersect,
-                                        raylane_occluded, raylane_crossings, raylane_path_lengths);
+                                        raylane_occluded, raylane_count_crossings,
+                                        raylane_crossings, raylane_path_lengths);
     case 12:
         return ask<double, raylane_double_rays>(
             slot_of(handles.tracers, bytes), bytes, raylane_intersect_doubles,
-            raylane_occluded_doubles, raylane_crossings_doubles, raylane_path_lengths_doubles);
+            raylane_occluded_doubles, raylane_count_crossings_doubles, raylane_crossings_doubles,
+            raylane_path_lengths_doubles);
     case 19:
         return bytes.flag() ? ask_points<float, raylane_points>(slot_of(handles.tracers, bytes),
                                                                 bytes, raylane_contains)

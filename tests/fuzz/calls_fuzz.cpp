@@ -160,14 +160,20 @@ void ask_spans(Bytes& bytes) {
     HitSpan span = hits.span();
     span.face = face;
     span.t_double = t_double;
+    tests::DoubleNormals normals(count);
+    normals.add_to(span);
     const RaySpan all = asked.part(0, count);
     tracer.intersect(all, span);
     tracer.occluded(all, blocked);
     CrossingRows rows, first;
-    tracer.crossings(all, rows, {.normals = true});
+    tracer.crossings(all, rows, {.normals = true, .normals_double = true});
     tracer.crossings(all, first, {.most = 1});
     LengthRows lengths;
     tracer.path_lengths(all, lengths);
+    SolidLengthRows of_solids;
+    tracer.solid_lengths(all, of_solids);
+    std::vector<std::uint64_t> counts(count, 77);
+    tracer.count_crossings(all, counts);
     if (precision != Precision::exact) return;
     for (std::size_t i = 0; i < count; ++i) {
         const bool any = hits.shape[i] != no_shape;
@@ -176,7 +182,17 @@ void ask_spans(Bytes& bytes) {
         const std::uint64_t row = rows.first[i];
         hold((rows.first[i + 1] != row) == any, "crossings differ from intersect", i);
         hold(first.first[i + 1] - first.first[i] == (any ? 1 : 0), "most", i);
-        if (!any) continue;
+        hold(counts[i] == rows.first[i + 1] - row, "another number of crossings", i);
+        hold((of_solids.first[i + 1] != of_solids.first[i]) ==
+                 (lengths.first[i + 1] != lengths.first[i]),
+             "lengths inside of solids", i);
+        if (!any) {
+            hold(normals[i] == Vec3d(0.0), "a normal without a shape", i);
+            continue;
+        }
+        hold(normals[i] == Vec3d(rows.normal_double_x[row], rows.normal_double_y[row],
+                                 rows.normal_double_z[row]),
+             "the first crossing has another normal", i);
         hold(rows.shape[row] == hits.shape[i] && rows.t[row] == t_double[i] &&
                  rows.face[row] == face[i] && rows.entering[row] == hits.entering[i] &&
                  rows.normal_x[row] == hits.nx[i] && rows.normal_y[row] == hits.ny[i] &&
@@ -242,8 +258,12 @@ void ask_insides(Bytes& bytes) {
     const DoubleRaySpan span = rays.span();
     SolidRows solids;
     tracer.contains(DoublePointSpan{span.origin_x, span.origin_y, span.origin_z}, solids);
+    std::vector<ShapeId> cells(rays.size(), 77);
+    tracer.cells(DoublePointSpan{span.origin_x, span.origin_y, span.origin_z}, {.shape_id = cells});
     LengthRows lengths;
     tracer.path_lengths(span, lengths);
+    SolidLengthRows of_solids;
+    tracer.solid_lengths(span, of_solids);
     CrossingRows rows;
     tracer.crossings(span, rows);
     const std::vector<char> counts = tests::which_count(shapes);
@@ -267,6 +287,7 @@ void ask_insides(Bytes& bytes) {
             ++at;
         }
         hold(at == solids.first[i + 1], "too many solids around a point", i);
+        hold(cells[i] == (at == solids.first[i] ? no_shape : solids.shape[at - 1]), "cell", i);
         double length = 0.0;
         if (lengths.first[i] != lengths.first[i + 1]) length = lengths.length[lengths.first[i]];
         const double t = length_inside(rows, i, 0.0), unit = core::length(along);
@@ -274,6 +295,10 @@ void ask_insides(Bytes& bytes) {
         // t is rounded. Lengths that overflow are not compared.
         if (std::isfinite(far * unit) && unit > 1e-100)
             hold(std::abs(length - t * unit) <= 1e-13 * far * unit + 1e-300, "lengths", i);
+        double sum = 0.0;
+        for (std::uint64_t k = of_solids.first[i]; k < of_solids.first[i + 1]; ++k)
+            sum += of_solids.length[k];
+        hold(sum >= length * (1.0 - 1e-13), "lengths of solids", i);
     }
 }
 

@@ -126,12 +126,18 @@ class Work {
         tracer_.contains(PointSpan{some.origin_x, some.origin_y, some.origin_z}, solids);
         LengthRows lengths;
         tracer_.path_lengths(some, lengths);
+        SolidLengthRows of_solids;
+        tracer_.solid_lengths(some, of_solids);
+        std::vector<double> normal(some.origin_x.size());
+        tracer_.intersect(some, {.normal_double_x = normal});
         Hash hash;
         hash.add(rows.t);
         hash.add(rows.shape);
         hash.add(rows.normal_x);
         hash.add(solids.shape);
         hash.add(lengths.length);
+        hash.add(of_solids.length);
+        hash.add(normal);
         return hash.value();
     }
     static std::uint64_t read() {

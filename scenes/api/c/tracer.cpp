@@ -44,12 +44,14 @@ raylane_status intersect(const raylane_tracer* tracer, const CRays* rays,
         const std::size_t n = rays->count;
         QueryStatistics statistics;
         checked("tracer", tracer)
-            .tracer.intersect(asked,
-                              HitSpan{span_of(to.t, n), span_of(to.normal_x, n),
-                                      span_of(to.normal_y, n), span_of(to.normal_z, n),
-                                      span_of(to.shape, n), span_of(to.entering, n),
-                                      span_of(to.face, n), span_of(to.t_double, n)},
-                              &statistics);
+            .tracer.intersect(
+                asked,
+                HitSpan{span_of(to.t, n), span_of(to.normal_x, n), span_of(to.normal_y, n),
+                        span_of(to.normal_z, n), span_of(to.shape, n), span_of(to.entering, n),
+                        span_of(to.face, n), span_of(to.t_double, n),
+                        span_of(to.normal_double_x, n), span_of(to.normal_double_y, n),
+                        span_of(to.normal_double_z, n)},
+                &statistics);
         store(statistics, rays);
     });
 }
@@ -102,6 +104,18 @@ raylane_status path_lengths(const raylane_tracer* tracer, const CRays* rays,
         checked("tracer", tracer).tracer.path_lengths(asked, found, &statistics);
         store(statistics, rays);
         return found;
+    });
+}
+
+template <class Real, class CRays>
+raylane_status count_crossings(const raylane_tracer* tracer, const CRays* rays,
+                               std::uint64_t* counts) noexcept {
+    return guarded([&] {
+        const BasicRaySpan<Real> asked = rays_from<Real>(rays);
+        QueryStatistics statistics;
+        checked("tracer", tracer)
+            .tracer.count_crossings(asked, span_of("counts", counts, rays->count), &statistics);
+        store(statistics, rays);
     });
 }
 
@@ -172,4 +186,15 @@ raylane_status raylane_path_lengths(const raylane_tracer* tracer, const raylane_
 raylane_status raylane_path_lengths_doubles(const raylane_tracer* tracer,
                                             const raylane_double_rays* rays, raylane_rows** rows) {
     return path_lengths<double>(tracer, rays, rows);
+}
+
+raylane_status raylane_count_crossings(const raylane_tracer* tracer, const raylane_rays* rays,
+                                       std::uint64_t* counts) {
+    return count_crossings<float>(tracer, rays, counts);
+}
+
+raylane_status raylane_count_crossings_doubles(const raylane_tracer* tracer,
+                                               const raylane_double_rays* rays,
+                                               std::uint64_t* counts) {
+    return count_crossings<double>(tracer, rays, counts);
 }

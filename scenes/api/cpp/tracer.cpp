@@ -24,9 +24,10 @@ void require_length(const char* name, std::size_t length, std::size_t count,
 /// Returns the elements of an optional span, or null if it is empty. Throws InvalidValue if it has
 /// another length than `count`.
 template <class Element>
-Element* optional(const char* name, std::span<Element> span, std::size_t count) {
+Element* optional(const char* name, std::span<Element> span, std::size_t count,
+                  const char* of = "rays") {
     if (span.empty()) return nullptr;
-    require_length(name, span.size(), count);
+    require_length(name, span.size(), count, of);
     return span.data();
 }
 
@@ -58,6 +59,20 @@ simd::HitStream stream_of(const HitSpan& hits, std::size_t count) {
             optional("t_double", hits.t_double, count)};
 }
 
+simd::NormalStream normals_of(const HitSpan& hits, std::size_t count) {
+    return {{optional("normal_double_x", hits.normal_double_x, count),
+             optional("normal_double_y", hits.normal_double_y, count),
+             optional("normal_double_z", hits.normal_double_z, count)}};
+}
+
+template <class Real>
+simd::PointStream<Real> stream_of(const BasicPointSpan<Real>& points) {
+    const std::size_t count = points.x.size();
+    require_length("y", points.y.size(), count, "points");
+    require_length("z", points.z.size(), count, "points");
+    return {count, {points.x.data(), points.y.data(), points.z.data()}};
+}
+
 /// Calls query() for a stream of rays, and names the ray whose start is invalid.
 template <class Real, class Query>
 std::size_t answered(const simd::RayStream<Real>& stream, const Query& query) {
@@ -79,7 +94,8 @@ void find_nearest(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& ra
                   const HitSpan& hits, QueryStatistics* statistics) {
     const simd::RayStream<Real> stream = stream_of(rays);
     const simd::HitStream to = stream_of(hits, stream.count);
-    store(answered(stream, [&] { return tracer.nearest(stream, to); }), statistics);
+    const simd::NormalStream normals = normals_of(hits, stream.count);
+    store(answered(stream, [&] { return tracer.nearest(stream, to, normals); }), statistics);
 }
 
 template <class Real>
@@ -98,37 +114,61 @@ void find_crossings(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& 
     simd::CrossingCounters counters;
     const simd::RayStream<Real> stream = stream_of(rays);
     const std::size_t refused = answered(stream, [&] {
-        return tracer.crossings(stream, {options.most, options.normals}, found, counters);
+        return tracer.crossings(stream, {options.most, options.normals, options.normals_double},
+                                found, counters);
     });
-    rows = {std::move(found.first),    std::move(found.t),         std::move(found.shape),
-            std::move(found.entering), std::move(found.face),      std::move(found.tied),
-            std::move(found.touching), std::move(found.normal[0]), std::move(found.normal[1]),
-            std::move(found.normal[2])};
+    rows = {std::move(found.first),
+            std::move(found.t),
+            std::move(found.shape),
+            std::move(found.entering),
+            std::move(found.face),
+            std::move(found.tied),
+            std::move(found.touching),
+            std::move(found.normal[0]),
+            std::move(found.normal[1]),
+            std::move(found.normal[2]),
+            std::move(found.normal_double[0]),
+            std::move(found.normal_double[1]),
+            std::move(found.normal_double[2])};
     if (statistics != nullptr)
         *statistics = {counters.order.by_bounds, counters.order.by_digits, counters.order.exactly,
                        counters.widened, refused};
 }
 
 template <class Real>
+void find_counts(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& rays,
+                 std::span<std::uint64_t> counts, QueryStatistics* statistics) {
+    const simd::RayStream<Real> stream = stream_of(rays);
+    require_length("counts", counts.size(), stream.count);
+    store(answered(stream, [&] { return tracer.count_crossings(stream, counts.data()); }),
+          statistics);
+}
+
+template <class Real>
 void find_solids(const simd::StreamTracer& tracer, const BasicPointSpan<Real>& points,
                  SolidRows& rows, QueryStatistics* statistics) {
-    const std::size_t count = points.x.size();
-    require_length("y", points.y.size(), count, "points");
-    require_length("z", points.z.size(), count, "points");
     simd::SolidRows found;
-    const simd::PointStream<Real> stream{count,
-                                         {points.x.data(), points.y.data(), points.z.data()}};
-    store(tracer.containing(stream, found), statistics);
+    store(tracer.containing(stream_of(points), found), statistics);
     rows = {std::move(found.first), std::move(found.shape), std::move(found.on_surface)};
 }
 
 template <class Real>
+void find_cells(const simd::StreamTracer& tracer, const BasicPointSpan<Real>& points,
+                const CellSpan& cells, QueryStatistics* statistics) {
+    static_assert(no_material == core::no_medium);
+    const simd::PointStream<Real> stream = stream_of(points);
+    const simd::CellStream to{optional("shape_id", cells.shape_id, stream.count, "points"),
+                              optional("material", cells.material, stream.count, "points"),
+                              optional("on_surface", cells.on_surface, stream.count, "points")};
+    store(tracer.cells(stream, to), statistics);
+}
+
+template <class Real, class AnyRows>
 void find_lengths(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& rays,
-                  LengthRows& rows, QueryStatistics* statistics) {
+                  core::Bodies bodies, AnyRows& rows, QueryStatistics* statistics) {
     simd::LengthRows found;
     const simd::RayStream<Real> stream = stream_of(rays);
-    store(answered(stream, [&] { return tracer.path_lengths(stream, core::Bodies::materials, found); }),
-          statistics);
+    store(answered(stream, [&] { return tracer.path_lengths(stream, bodies, found); }), statistics);
     rows = {std::move(found.first), std::move(found.body), std::move(found.length)};
 }
 
@@ -250,6 +290,16 @@ void Tracer::crossings(const DoubleRaySpan& rays, CrossingRows& rows,
     find_crossings(*tracer_, rays, rows, options, statistics);
 }
 
+void Tracer::count_crossings(const RaySpan& rays, std::span<std::uint64_t> counts,
+                             QueryStatistics* statistics) const {
+    find_counts(*tracer_, rays, counts, statistics);
+}
+
+void Tracer::count_crossings(const DoubleRaySpan& rays, std::span<std::uint64_t> counts,
+                             QueryStatistics* statistics) const {
+    find_counts(*tracer_, rays, counts, statistics);
+}
+
 void Tracer::contains(const PointSpan& points, SolidRows& rows, QueryStatistics* statistics) const {
     find_solids(*tracer_, points, rows, statistics);
 }
@@ -259,14 +309,34 @@ void Tracer::contains(const DoublePointSpan& points, SolidRows& rows,
     find_solids(*tracer_, points, rows, statistics);
 }
 
+void Tracer::cells(const PointSpan& points, const CellSpan& cells,
+                   QueryStatistics* statistics) const {
+    find_cells(*tracer_, points, cells, statistics);
+}
+
+void Tracer::cells(const DoublePointSpan& points, const CellSpan& cells,
+                   QueryStatistics* statistics) const {
+    find_cells(*tracer_, points, cells, statistics);
+}
+
 void Tracer::path_lengths(const RaySpan& rays, LengthRows& rows,
                           QueryStatistics* statistics) const {
-    find_lengths(*tracer_, rays, rows, statistics);
+    find_lengths(*tracer_, rays, core::Bodies::materials, rows, statistics);
 }
 
 void Tracer::path_lengths(const DoubleRaySpan& rays, LengthRows& rows,
                           QueryStatistics* statistics) const {
-    find_lengths(*tracer_, rays, rows, statistics);
+    find_lengths(*tracer_, rays, core::Bodies::materials, rows, statistics);
+}
+
+void Tracer::solid_lengths(const RaySpan& rays, SolidLengthRows& rows,
+                           QueryStatistics* statistics) const {
+    find_lengths(*tracer_, rays, core::Bodies::solids, rows, statistics);
+}
+
+void Tracer::solid_lengths(const DoubleRaySpan& rays, SolidLengthRows& rows,
+                           QueryStatistics* statistics) const {
+    find_lengths(*tracer_, rays, core::Bodies::solids, rows, statistics);
 }
 
 } // namespace raylane

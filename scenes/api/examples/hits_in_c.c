@@ -33,7 +33,7 @@ int main(void) {
     const float x[] = {0, 2}, zero[] = {0, 0}, z[] = {5, 5}, dz[] = {-1, -1};
     float t[2]; /* will be 4 and infinity */
     raylane_rays rays = {2, x, zero, z, zero, zero, dz, NULL, NULL, NULL, NULL, NULL, NULL};
-    raylane_hits hits = {t, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
+    raylane_hits hits = {.t = t};
     check(raylane_intersect(tracer, &rays, &hits));
     raylane_tracer_release(tracer);
 

@@ -80,17 +80,27 @@ TEST_CASE("scenes and queries and images of the C interface equal those of C++")
     Hits hits(rays.size());
     std::vector<std::uint8_t> face(rays.size()), found(rays.size(), 77);
     std::vector<double> t_double(rays.size());
+    DoubleNormals normals(rays.size()), true_normals(rays.size());
+    HitSpan in_double;
+    true_normals.add_to(in_double);
+    tracer.intersect(rays.span(), in_double);
     const raylane_rays to_c = {
         rays.size(),    rays.x.data(),  rays.y.data(), rays.z.data(),     rays.dx.data(),
         rays.dy.data(), rays.dz.data(), nullptr,       rays.t_max.data(), nullptr,
         nullptr,        nullptr,        nullptr};
-    const raylane_hits from_c = {hits.t.data(),  hits.nx.data(),    hits.ny.data(),
-                                 hits.nz.data(), hits.shape.data(), hits.entering.data(),
-                                 face.data(),    t_double.data()};
+    const raylane_hits from_c = {hits.t.data(),    hits.nx.data(),    hits.ny.data(),
+                                 hits.nz.data(),   hits.shape.data(), hits.entering.data(),
+                                 face.data(),      t_double.data(),   normals.x.data(),
+                                 normals.y.data(), normals.z.data()};
     CHECK(raylane_intersect(asked.get(), &to_c, &from_c) == RAYLANE_OK);
     CHECK(hits == truth);
+    CHECK(normals == true_normals);
     CHECK(raylane_occluded(asked.get(), &to_c, found.data()) == RAYLANE_OK);
     CHECK(found == blocked);
+    std::vector<std::uint64_t> counts(rays.size(), 77), true_counts(rays.size());
+    CHECK(raylane_count_crossings(asked.get(), &to_c, counts.data()) == RAYLANE_OK);
+    tracer.count_crossings(rays.span(), true_counts);
+    CHECK(counts == true_counts);
 
     const auto wide = [](const std::vector<float>& values) {
         return std::vector<double>(values.begin(), values.end());
@@ -107,8 +117,11 @@ TEST_CASE("scenes and queries and images of the C interface equal those of C++")
     CHECK(raylane_intersect_doubles(asked.get(), &doubles, &only_t) == RAYLANE_OK);
     CHECK(refused == 0);
     CHECK(raylane_occluded_doubles(asked.get(), &doubles, found.data()) == RAYLANE_OK);
+    CHECK(raylane_count_crossings_doubles(asked.get(), &doubles, counts.data()) == RAYLANE_OK);
+    CHECK(raylane_count_crossings_doubles(asked.get(), &doubles, nullptr) == RAYLANE_INVALID_VALUE);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         CHECK((found[i] == 1) == (t[i] < 1e300));
+        CHECK((found[i] == 1) == (counts[i] != 0));
         if (truth.shape[i] != no_shape) CHECK(t[i] == t_double[i]);
     }
 
@@ -260,9 +273,17 @@ TEST_CASE("spheres move in C as in C++") {
                                    rays.dx.data(), rays.dy.data(), rays.dz.data(), nullptr,
                                    nullptr,        nullptr,        nullptr,        nullptr,
                                    nullptr};
-        const raylane_hits from_c = {
-            hits.t.data(),     hits.nx.data(),       hits.ny.data(), hits.nz.data(),
-            hits.shape.data(), hits.entering.data(), nullptr,        nullptr};
+        const raylane_hits from_c = {hits.t.data(),
+                                     hits.nx.data(),
+                                     hits.ny.data(),
+                                     hits.nz.data(),
+                                     hits.shape.data(),
+                                     hits.entering.data(),
+                                     nullptr,
+                                     nullptr,
+                                     nullptr,
+                                     nullptr,
+                                     nullptr};
         CHECK(raylane_intersect(asked.get(), &to_c, &from_c) == RAYLANE_OK);
         CHECK(hits == truth);
     };

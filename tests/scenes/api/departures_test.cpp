@@ -30,13 +30,17 @@ std::string refusal(const Tracer& tracer, const BasicRaySpan<Real>& rays) {
     std::vector<std::uint8_t> blocked(hits.t.size());
     CrossingRows rows;
     LengthRows lengths;
+    SolidLengthRows solids;
+    std::vector<std::uint64_t> counts(hits.t.size());
     add([&] { tracer.intersect(rays, hits.span()); });
     const std::string first = text;
     for (const auto& query :
          {std::function<void()>([&] { tracer.occluded(rays, blocked); }),
           std::function<void()>([&] { tracer.crossings(rays, rows); }),
           std::function<void()>([&] { tracer.crossings(rays, rows, {.most = 1}); }),
-          std::function<void()>([&] { tracer.path_lengths(rays, lengths); })}) {
+          std::function<void()>([&] { tracer.count_crossings(rays, counts); }),
+          std::function<void()>([&] { tracer.path_lengths(rays, lengths); }),
+          std::function<void()>([&] { tracer.solid_lengths(rays, solids); })}) {
         text.clear();
         add(query);
         CHECK(text == first);
@@ -206,6 +210,7 @@ Rays to_tips(Random& random, bool to_ball) {
 }
 
 } // namespace
+
 
 TEST_CASE("onward rays are not refused next to a tip or on a tiny shape") {
     Random random(6);

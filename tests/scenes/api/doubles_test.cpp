@@ -59,7 +59,7 @@ TEST_CASE("answers for rays in double are exact for these doubles", "[meetings]"
                 ask(meeting.shapes, rays, faults);
             }
     CAPTURE(faults.rays, faults.hits, faults.shape, faults.t, faults.t_double, faults.side,
-            faults.normal, faults.occlusion, faults.crossings, faults.first);
+            faults.normal, faults.occlusion, faults.crossings, faults.double_normal, faults.first);
     CHECK(faults.all() == 0);
     CHECK(faults.hits > faults.rays / 4);
 }
@@ -234,7 +234,7 @@ TEST_CASE("answers for shapes in double are exact for these doubles", "[meetings
                     ask(kind.make(kind.least, random, 20), change, faults);
         CAPTURE(static_cast<int>(change), faults.rays, faults.hits, faults.shape, faults.t,
                 faults.t_double, faults.side, faults.normal, faults.occlusion, faults.crossings,
-                faults.first);
+                faults.double_normal, faults.first);
         CHECK(faults.all() == 0);
         CHECK(faults.hits > faults.rays / 4);
     }

@@ -146,7 +146,11 @@ bool is_first(const CrossingRows& firsts, const CrossingRows& rows, std::size_t 
            firsts.t[a] == rows.t[b] && firsts.entering[a] == rows.entering[b] &&
            firsts.face[a] == rows.face[b] && firsts.tied[a] == rows.tied[b] &&
            firsts.touching[a] == rows.touching[b] && firsts.normal_x[a] == rows.normal_x[b] &&
-           firsts.normal_y[a] == rows.normal_y[b] && firsts.normal_z[a] == rows.normal_z[b];
+           firsts.normal_y[a] == rows.normal_y[b] && firsts.normal_z[a] == rows.normal_z[b] &&
+           (firsts.normal_double_x.empty() ||
+            (firsts.normal_double_x[a] == rows.normal_double_x[b] &&
+             firsts.normal_double_y[a] == rows.normal_double_y[b] &&
+             firsts.normal_double_z[a] == rows.normal_double_z[b]));
 }
 
 std::string Tally::report() const {

@@ -38,6 +38,23 @@ std::string described(const Question& question, const DoubleRays& rays, std::siz
     return out.str();
 }
 
+/// Returns the number of crossings in a row whose normals in double are wrong.
+template <oracle::Variant Any, class Counts>
+long wrong_normals(const CrossingRows& rows, std::size_t row, oracle::Sight& sight,
+                   const std::vector<Any>& shapes, const Counts& counts) {
+    long wrong = 0;
+    std::uint64_t at = rows.first[row];
+    for (const oracle::Found& found : sight.all()) {
+        if (!counts(found)) continue;
+        if (at == rows.first[row + 1]) return wrong + 1;
+        const core::Vec3d normal(rows.normal_double_x[at], rows.normal_double_y[at],
+                                 rows.normal_double_z[at]);
+        wrong += normal != sight.double_normal_of(found, shapes[found.shape]) ? 1 : 0;
+        ++at;
+    }
+    return wrong;
+}
+
 } // namespace
 
 template <oracle::Variant Any>
@@ -89,10 +106,15 @@ void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays
         };
         faults.crossings += is_right(answers.rows, i, sight, is_between) ? 0 : 1;
         faults.crossings += is_first(answers.firsts, answers.rows, i) ? 0 : 1;
+        const std::uint64_t count = answers.rows.first[i + 1] - answers.rows.first[i];
+        faults.crossings += answers.counts[i] == count ? 0 : 1;
+        if (question.t_max == endless)
+            faults.double_normal += wrong_normals(answers.rows, i, sight, shapes, is_between);
         const Hits& hits = answers.hits;
         faults.occlusion += answers.blocked[i] != (truth != nullptr ? 1 : 0) ? 1 : 0;
         if (truth == nullptr) {
             faults.shape += hits.is_none(i) && answers.t_double[i] == endless ? 0 : 1;
+            faults.double_normal += answers.normals[i] == core::Vec3d(0.0) ? 0 : 1;
             continue;
         }
         ++faults.hits;
@@ -107,6 +129,8 @@ void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays
                                  sight.normal_of(*truth, shapes[truth->shape])
                              ? 1
                              : 0;
+        const core::Vec3d& normal = sight.double_normal_of(*truth, shapes[truth->shape]);
+        faults.double_normal += answers.normals[i] != normal ? 1 : 0;
     }
 }
 

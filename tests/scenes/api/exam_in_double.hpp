@@ -32,25 +32,32 @@ struct DoubleRays {
 
 struct DoubleAnswers {
     explicit DoubleAnswers(const Tracer& tracer, const DoubleRays& rays)
-        : hits(rays.size()), t_double(rays.size(), -1.0), blocked(rays.size(), 77) {
+        : hits(rays.size()), t_double(rays.size(), -1.0), normals(rays.size()),
+          blocked(rays.size(), 77), counts(rays.size(), 77) {
         HitSpan span = hits.span();
         span.t_double = t_double;
+        normals.add_to(span);
         tracer.intersect(rays.span(), span);
         tracer.occluded(rays.span(), blocked);
-        tracer.crossings(rays.span(), rows, {.normals = true});
-        tracer.crossings(rays.span(), firsts, {.most = 1, .normals = true});
+        tracer.crossings(rays.span(), rows, {.normals = true, .normals_double = true});
+        tracer.crossings(rays.span(), firsts, {.most = 1, .normals = true, .normals_double = true});
+        tracer.count_crossings(rays.span(), counts);
     }
     Hits hits;
     std::vector<double> t_double;
+    DoubleNormals normals;
     std::vector<std::uint8_t> blocked;
+    std::vector<std::uint64_t> counts;
     CrossingRows rows, firsts; ///< all crossings, and at most one a ray
 };
 
 struct DoubleFaults {
     long rays = 0, hits = 0, shape = 0, t = 0, t_double = 0, normal = 0, side = 0, occlusion = 0,
-         crossings = 0;
+         crossings = 0, double_normal = 0;
     std::string first; ///< the numbers of the first faulty query and of the expected answer
-    long all() const { return shape + t + t_double + normal + side + occlusion + crossings; }
+    long all() const {
+        return shape + t + t_double + normal + side + occlusion + crossings + double_normal;
+    }
 };
 
 /// Checks rays without limits, and with limits at the first three crossings and next to them.

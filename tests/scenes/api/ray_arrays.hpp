@@ -65,6 +65,21 @@ struct Hits {
     }
 };
 
+/// Owns the arrays of normals in double.
+struct DoubleNormals {
+    explicit DoubleNormals(std::size_t count) : x(count, 9.0), y(count, 9.0), z(count, 9.0) {}
+
+    std::vector<double> x, y, z;
+
+    void add_to(HitSpan& hits) {
+        hits.normal_double_x = x;
+        hits.normal_double_y = y;
+        hits.normal_double_z = z;
+    }
+    core::Vec3d operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+    bool operator==(const DoubleNormals&) const = default;
+};
+
 inline Hits intersect(const Tracer& tracer, const Rays& rays) {
     Hits hits(rays.size());
     tracer.intersect(rays.span(), hits.span());

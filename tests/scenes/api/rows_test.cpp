@@ -146,6 +146,14 @@ TEST_CASE("invalid rays have empty rows and an empty array of rays has none") {
     Tracer(scene).path_lengths(rays.span(), lengths);
     CHECK(lengths.first == std::vector<std::uint64_t>{0, 0, 1, 1});
     CHECK(lengths.length == std::vector<double>{2.0});
+    std::vector<std::uint64_t> counts(3, 77);
+    QueryStatistics statistics;
+    Tracer(scene).count_crossings(rays.span(), counts, &statistics);
+    CHECK(counts == std::vector<std::uint64_t>{0, 2, 0});
+    CHECK(statistics.refused == 2);
+    Tracer(scene).count_crossings(Rays().span(), {});
+    counts.pop_back();
+    CHECK_THROWS_AS(Tracer(scene).count_crossings(rays.span(), counts), InvalidValue);
     const std::vector<float> x{0, not_a_number, 1, infinity}, zero(4, 0.0F);
     SolidRows solids;
     Tracer(scene).contains(PointSpan{x, zero, zero}, solids);
@@ -176,6 +184,12 @@ TEST_CASE("rows do not depend on the number of threads and statistics count the 
     Tracer(many.scene, {.threads = 3}).path_lengths(many.rays.span(), of_three);
     CHECK(of_one.length == of_three.length);
     CHECK(of_one.first == of_three.first);
+    SolidLengthRows solids_of_one, solids_of_three;
+    Tracer(many.scene, {.threads = 1}).solid_lengths(many.rays.span(), solids_of_one);
+    Tracer(many.scene, {.threads = 3}).solid_lengths(many.rays.span(), solids_of_three);
+    CHECK(solids_of_one.length == solids_of_three.length);
+    CHECK(solids_of_one.shape_id == solids_of_three.shape_id);
+    CHECK(solids_of_one.first == solids_of_three.first);
 }
 
 TEST_CASE("rays with more crossings than one pass finds have all of them") {
@@ -194,6 +208,33 @@ TEST_CASE("rays with more crossings than one pass finds have all of them") {
         const int met = shells - std::max(height, 1) + 1;
         CHECK(rows.first[i + 1] - rows.first[i] == 2U * static_cast<unsigned>(met));
     }
+}
+
+TEST_CASE("crossings are counted without rows, within limits and by any number of threads") {
+    for (const bool lattice : {false, true}) {
+        Heap many = heap(lattice, sanitized ? 4 : 12, 11);
+        Rays& rays = many.rays;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            rays.t_min.push_back(i % 3 == 0 ? 0.5F : 0.0F);
+            rays.t_max.push_back(i % 5 == 0 ? 1.0F : infinity);
+        }
+        const CrossingRows rows = crossings(many.scene, rays);
+        for (const int threads : {1, 3}) {
+            std::vector<std::uint64_t> counts(rays.size(), 77);
+            Tracer(many.scene, {.threads = threads}).count_crossings(rays.span(), counts);
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                CHECK(counts[i] == rows.first[i + 1] - rows.first[i]);
+        }
+    }
+    // Triangles of a polygon count as one at their common edge.
+    SceneBuilder builder;
+    const Triangle square[] = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
+                               {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+    builder.add_polygon(std::span(square), builder.add_material({}));
+    std::uint64_t count = 0;
+    Tracer(builder.build())
+        .count_crossings(one_ray({0.5F, 0.5F, 1}, {0, 0, -1}).span(), {&count, 1});
+    CHECK(count == 1);
 }
 
 TEST_CASE("the first crossing of a ray is its nearest hit with the same normal") {
@@ -259,6 +300,51 @@ TEST_CASE("path lengths are the lengths inside of each material") {
     CHECK(lengths({0, 0, 0}, {1, 0, 0}, 2, 2).empty());
     CHECK(lengths({-4, -5, 0}, {0, 1, 0}, 0, infinity) == Lengths{{glass, 4.0}});
     CHECK(lengths({-6, -5, 0}, {0, 1, 0}, 0, infinity).empty()); // touches
+}
+
+TEST_CASE("solid lengths are the lengths inside of each solid") {
+    SceneBuilder builder;
+    const MaterialIndex glass = builder.add_material({}), lead = builder.add_material({});
+    builder.add(Sphere{{0, 0, 0}, 2}, glass);
+    builder.add(Sphere{{1, 0, 0}, 2}, glass);                  // overlaps the first
+    builder.add(Sphere{{0, 0, 0}, 2}, glass);                  // counts as the first
+    builder.add(OpenCylinder{{9, 0, -1}, {0, 0, 2}, 1}, lead); // not a solid
+    const raylane::Solid ball(Sphere{{8, 0, 0}, 2}), hole(Sphere{{8, 0, 0}, 1});
+    const ShapeId shell = builder.add(difference_of(ball, {hole}), lead);
+    const raylane::Solid below(Plane{{0, 0, -50}, {0, 0, 1}});
+    const ShapeId ground = builder.add(below, lead);
+    const Tracer tracer(builder.build());
+    const auto lengths = [&](const Vec3& origin, const Vec3& direction, float t_min, float t_max) {
+        Rays rays = one_ray(origin, direction);
+        rays.t_min = {t_min};
+        rays.t_max = {t_max};
+        SolidLengthRows rows;
+        tracer.solid_lengths(rays.span(), rows);
+        CHECK(rows.first == std::vector<std::uint64_t>{0, rows.length.size()});
+        Lengths all;
+        for (std::size_t k = 0; k < rows.length.size(); ++k)
+            all.emplace_back(rows.shape_id[k], rows.length[k]);
+        return all;
+    };
+    CHECK(lengths({-10, 0, 0}, {3, 0, 0}, 0, infinity) ==
+          Lengths{{0, 4.0}, {1, 4.0}, {shell, 2.0}});
+    CHECK(lengths({0, 0, 0}, {0.5F, 0, 0}, 0, infinity) ==
+          Lengths{{0, 2.0}, {1, 3.0}, {shell, 2.0}});
+    CHECK(lengths({0, 0, 0}, {0.5F, 0, 0}, 1, 5) == Lengths{{0, 1.5}, {1, 2.0}});
+    CHECK(lengths({8, 0, 0}, {0, 0, -2}, 0, 50) == Lengths{{shell, 1.0}, {ground, 50.0}});
+    CHECK(lengths({8, 0, -60}, {1, 0, 0}, 0, infinity) == Lengths{{ground, infinity}});
+    // From a given origin surface, which the rounded origin is outside of.
+    Rays rays = one_ray({2.00001F, 0, 0}, {-1, 0, 0});
+    RaySpan from = rays.span();
+    const ShapeId left[] = {0};
+    const std::uint8_t inward[] = {1};
+    from.origin_shape = left;
+    from.origin_inward = inward;
+    SolidLengthRows rows;
+    tracer.solid_lengths(from, rows);
+    REQUIRE(rows.shape_id == std::vector<ShapeId>{0, 1});
+    CHECK(rows.length[0] == Approx(4.00001));
+    CHECK(rows.length[1] == Approx(3.00001));
 }
 
 TEST_CASE("a clipped solid is open and has no inside for lengths and points") {
@@ -386,70 +472,104 @@ TEST_CASE("lengths and crossings and points agree for unbounded solids") {
     CHECK(around > 100);
 }
 
+namespace {
+
+using Intervals = std::vector<std::pair<oracle::Number, oracle::Number>>;
+
+/// Returns the intervals of t of a ray inside of solids, by shape.
+std::map<ShapeId, Intervals> intervals_of(const oracle::Sight& sight) {
+    std::map<ShapeId, oracle::Number> begins;
+    std::map<ShapeId, Intervals> all;
+    for (const oracle::Found& found : sight.all()) {
+        if (found.hit.entering) {
+            begins[found.shape] = found.hit.t;
+            continue;
+        }
+        const auto begin = begins.find(found.shape);
+        all[found.shape].emplace_back(begin == begins.end() ? oracle::Number(0) : begin->second,
+                                      found.hit.t);
+    }
+    return all;
+}
+
+/// Returns the length of the union of intervals.
+oracle::Number length_of(Intervals parts) {
+    std::sort(parts.begin(), parts.end());
+    oracle::Number length = 0, end = 0;
+    for (const auto& [from, to] : parts) {
+        if (to > end) length += to - std::max(from, end);
+        end = std::max(to, end);
+    }
+    return length;
+}
+
+/// Checks a row of lengths in the order of their bodies. Returns the number of lengths.
+long check_lengths(const std::map<std::uint32_t, Intervals>& truth, const oracle::Number& speed,
+                   std::span<const std::uint32_t> bodies, std::span<const double> lengths) {
+    std::size_t k = 0;
+    for (const auto& [body, parts] : truth) {
+        const oracle::Number length = length_of(parts) * speed;
+        if (length < 1e-60) continue; // zero but for the oracle's rounding
+        REQUIRE(k < bodies.size());
+        CHECK(bodies[k] == body);
+        const double answer = lengths[k++];
+        const double ulp = std::nextafter(answer, std::numeric_limits<double>::max()) - answer;
+        CHECK(abs(oracle::Number(answer) - length) < ulp);
+    }
+    CHECK(k == bodies.size());
+    return static_cast<long>(k);
+}
+
+} // namespace
+
 TEST_CASE("lengths inside of solids are within an ulp for grazing rays") {
     ray_sets::Random random(seed(20261124));
-    long measured = 0;
+    long of_materials = 0, of_solids = 0;
     for (int round = 0; round < rounds(3, 1); ++round)
         for (const meetings::Kind& kind : meetings::gatherings) {
             if (kind.least > 30) continue;
             const meetings::Meeting meeting =
                 kind.make(random.integer(kind.least, kind.most), random, 30);
             const std::vector<tests::AnyShape> shapes = valid(meeting.shapes);
-            const Scene scene = scene_of(shapes, Sides::some); // three materials
+            const std::vector<char> counts = which_count(shapes, Sides::some);
+            const Tracer tracer(scene_of(shapes, Sides::some)); // three materials
             const oracle::Neighbours neighbours(shapes);
             Rays rays;
             for (const core::Ray<float>& ray : meeting.rays)
                 rays.add({ray.origin.x, ray.origin.y, ray.origin.z},
                          {ray.direction.x, ray.direction.y, ray.direction.z});
             LengthRows rows;
-            Tracer(scene).path_lengths(rays.span(), rows);
+            tracer.path_lengths(rays.span(), rows);
+            SolidLengthRows solids;
+            tracer.solid_lengths(rays.span(), solids);
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const core::Ray<double> ray = rays.ray(i);
                 const oracle::Sight sight(shapes, neighbours, ray, [&](ShapeId id, bool) {
-                    return std::visit(
-                        []<class Shape>(const Shape&) { return core::is_solid<Shape>; },
-                        shapes[id]);
+                    return counts[id] != 0 &&
+                           std::visit(
+                               []<class Shape>(const Shape&) { return core::is_solid<Shape>; },
+                               shapes[id]);
                 });
-                // For each material, the intervals of t inside of its shapes.
-                std::map<MaterialIndex, std::map<ShapeId, oracle::Number>> begins;
-                std::map<MaterialIndex, std::vector<std::pair<oracle::Number, oracle::Number>>> all;
-                for (const oracle::Found& found : sight.all()) {
-                    const MaterialIndex material = found.shape % 3;
-                    if (found.hit.entering) {
-                        begins[material][found.shape] = found.hit.t;
-                        continue;
-                    }
-                    const auto begin = begins[material].find(found.shape);
-                    all[material].emplace_back(begin == begins[material].end() ? oracle::Number(0)
-                                                                               : begin->second,
-                                               found.hit.t);
-                }
+                const std::map<ShapeId, Intervals> by_solid = intervals_of(sight);
+                std::map<MaterialIndex, Intervals> by_material;
+                for (const auto& [id, parts] : by_solid)
+                    by_material[id % 3].insert(by_material[id % 3].end(), parts.begin(),
+                                               parts.end());
                 const oracle::Number speed =
                     sqrt(oracle::Number(ray.direction.x) * ray.direction.x +
                          oracle::Number(ray.direction.y) * ray.direction.y +
                          oracle::Number(ray.direction.z) * ray.direction.z);
-                std::uint64_t k = rows.first[i];
-                for (auto& [material, parts] : all) {
-                    std::sort(parts.begin(), parts.end());
-                    oracle::Number length = 0, end = 0;
-                    for (const auto& [from, to] : parts) {
-                        if (to > end) length += to - std::max(from, end);
-                        end = std::max(to, end);
-                    }
-                    length *= speed;
-                    if (length < 1e-60) continue; // zero but for the oracle's rounding
-                    ++measured;
-                    REQUIRE(k < rows.first[i + 1]);
-                    CHECK(rows.material[k] == material);
-                    const double answer = rows.length[k++];
-                    const double ulp =
-                        std::nextafter(answer, std::numeric_limits<double>::max()) - answer;
-                    CHECK(abs(oracle::Number(answer) - length) < ulp);
-                }
-                CHECK(k == rows.first[i + 1]);
+                const auto row = [i](const auto& column, const std::vector<std::uint64_t>& first) {
+                    return std::span(column).subspan(first[i], first[i + 1] - first[i]);
+                };
+                of_materials += check_lengths(by_material, speed, row(rows.material, rows.first),
+                                              row(rows.length, rows.first));
+                of_solids += check_lengths(by_solid, speed, row(solids.shape_id, solids.first),
+                                           row(solids.length, solids.first));
             }
         }
-    CHECK(measured > 60);
+    CHECK(of_materials > 60);
+    CHECK(of_solids > of_materials);
 }
 
 TEST_CASE("contains decides exactly whether points are in solids or on them") {
@@ -476,6 +596,10 @@ TEST_CASE("contains decides exactly whether points are in solids or on them") {
             }
             SolidRows rows;
             Tracer(scene).contains(DoublePointSpan{x, y, z}, rows);
+            std::vector<ShapeId> cell(x.size(), 77);
+            std::vector<MaterialIndex> material(x.size(), 77);
+            std::vector<std::uint8_t> on_cell(x.size(), 77);
+            Tracer(scene).cells(DoublePointSpan{x, y, z}, {cell, material, on_cell});
             for (std::size_t i = 0; i < x.size(); ++i) {
                 // A point is inside of a convex solid if a line through it crosses the solid on
                 // both sides.
@@ -504,6 +628,10 @@ TEST_CASE("contains decides exactly whether points are in solids or on them") {
                 for (std::uint64_t k = rows.first[i]; k < rows.first[i + 1]; ++k)
                     answer.emplace_back(rows.shape[k], rows.on_surface[k]);
                 CHECK(answer == truth);
+                const auto [last, on] = truth.empty() ? std::pair(no_shape, 0) : truth.back();
+                CHECK(cell[i] == last);
+                CHECK(material[i] == (truth.empty() ? no_material : last % 3));
+                CHECK(on_cell[i] == on);
             }
         }
     CHECK(inside > 300);

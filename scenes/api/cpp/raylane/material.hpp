@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace RAYLANE_API raylane {
 
@@ -81,5 +82,7 @@ struct Material {
 
 /// The index of a material in its scene: 0, 1, 2, ... in the order in which they were added.
 using MaterialIndex = std::uint32_t;
+/// The index of no material.
+inline constexpr MaterialIndex no_material = std::numeric_limits<MaterialIndex>::max();
 
 } // namespace raylane

@@ -460,6 +460,7 @@ typedef struct raylane_hits {
     uint32_t* shape;
     uint8_t *entering, *face;
     double* t_double;
+    double *normal_double_x, *normal_double_y, *normal_double_z;
 } raylane_hits;
 
 RAYLANE_API raylane_status raylane_tracer_create(const raylane_scene* scene, int threads,
@@ -476,6 +477,13 @@ RAYLANE_API raylane_status raylane_occluded(const raylane_tracer* tracer, const 
 RAYLANE_API raylane_status raylane_occluded_doubles(const raylane_tracer* tracer,
                                                     const raylane_double_rays* rays,
                                                     uint8_t* occluded);
+/** Store the number of crossings of each ray, same as Tracer::count_crossings in tracer.hpp.
+ * `counts` has one element for each ray. */
+RAYLANE_API raylane_status raylane_count_crossings(const raylane_tracer* tracer,
+                                                   const raylane_rays* rays, uint64_t* counts);
+RAYLANE_API raylane_status raylane_count_crossings_doubles(const raylane_tracer* tracer,
+                                                           const raylane_double_rays* rays,
+                                                           uint64_t* counts);
 
 /** Points, structure of arrays of `count` values each, same as PointSpan in tracer.hpp. `refused`:
  * as for rays. */
