@@ -216,6 +216,10 @@ def test_what_cannot_be_asked_says_why(ball):
         (lambda: tracer.crossings([0, 0, 5], [0, 0, -1], most=2**64), "most"),
         (lambda: tracer.crossings([0, 0, 5], [0, 0, -1], most="2"), "most"),
         (lambda: tracer.crossings([0, 0, 5], [0, 0, -1], normals="yes"), "normals"),
+        (lambda: tracer.crossings([0, 0, 5], [0, 0, -1], normals_double="yes"), "normals_double"),
+        (lambda: tracer.cells(np.zeros(4)), "points"),
+        (lambda: tracer.count_crossings(o, d[:3]), "directions"),
+        (lambda: tracer.solid_lengths(o, d, t_max=[1, 2]), "t_max"),
     ):
         with pytest.raises(InvalidValue) as error:
             call()
@@ -346,15 +350,22 @@ def test_refused_rays_are_counted(ball):
     tracer = Tracer(ball)
     o = np.array([[0, 0, 5], [0, np.nan, 5], [0, 0, 5], [0, 0, 5]], float)
     d = np.array([[0, 0, -1], [0, 0, -1], [0, 0, 0], [0, 0, np.inf]], float)
-    for call in (tracer.intersect, tracer.occluded, tracer.crossings, tracer.path_lengths):
+    calls = (tracer.intersect, tracer.occluded, tracer.crossings, tracer.path_lengths, tracer.solid_lengths)
+    for call in (*calls, tracer.count_crossings):
         for dtype in (np.float32, np.float64):
             with pytest.warns(RuntimeWarning, match="^3 rays are refused") as warned:
                 call(o.astype(dtype), d.astype(dtype))
             assert len(warned) == 1 and warned[0].filename == __file__
         with pytest.warns(RuntimeWarning, match="^4 rays"):
             call(o, d, t_min=np.nan)
-    with pytest.warns(RuntimeWarning, match="^1 points are refused"):
-        tracer.contains(o)
+        with pytest.warns(RuntimeWarning, match="^1 ray is refused, and hits nothing: a component"):
+            call(o[:2], d[:2])
+    for ask in (tracer.contains, tracer.cells):
+        with pytest.warns(RuntimeWarning, match="^1 point is refused, and is in no solid: a coordinate") as warned:
+            ask(o)
+        assert len(warned) == 1 and warned[0].filename == __file__
+        with pytest.warns(RuntimeWarning, match="^2 points are refused, and are in no solid: a coordinate"):
+            ask(o[[1, 1]])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         tracer.intersect(o[:1], d[:1], t_min=2.0, t_max=1.0)  # an interval without t is no fault
@@ -411,11 +422,94 @@ def test_rays_go_on_from_hits(crowd, dtype):
         Hits(3).onward([0, 0, 1])
 
 
+
+def test_normals_in_double(crowd):
+    tracer = Tracer(crowd)
+    for dtype in (np.float32, np.float64):
+        o, d = rays(3000, dtype, 11)
+        hits = tracer.intersect(o, d, normals_double=True)
+        assert hits.normal_double.dtype == np.float64 and hits.normal_double.shape == (3000, 3)
+        assert np.abs(hits.normal_double - hits.normal).max() <= 2.0**-25
+        assert np.abs(np.linalg.norm(hits.normal_double[hits.hit], axis=1) - 1).max() < 4e-16
+        assert not hits.normal_double[~hits.hit].any()
+        assert tracer.intersect(o, d).normal_double is None
+        some = hits[hits.hit]
+        assert np.array_equal(some.normal_double, hits.normal_double[hits.hit])
+        rows = tracer.crossings(o, d, normals_double=True)
+        assert rows.normal is None and rows.normal_double.shape == (len(rows.t), 3)
+        first = rows.first[:-1][hits.hit].astype(int)
+        assert np.array_equal(rows.normal_double[first], some.normal_double)
+        assert np.array_equal(tracer.crossings(o, d, most=1, normals_double=True).normal_double, some.normal_double)
+        # Arrays that are filled again get the normals in double, and keep them.
+        out = Hits(3000)
+        for asked in (True, False):
+            tracer.intersect(o, d, normals_double=asked, out=out)
+            assert np.array_equal(out.normal_double, hits.normal_double)
+    ball = raylane.SceneBuilder()
+    ball.add_spheres([0, 0, 0], 1, material=ball.add_material())
+    hit = Tracer(ball.build()).intersect(np.array([0.1, 0, 5]), np.array([0, 0, -1.0]), normals_double=True)
+    assert hit.normal_double.tolist() == [0.1, 0, np.sqrt(0.99)]
+
+
+def test_crossings_are_counted(crowd):
+    tracer = Tracer(crowd)
+    for order in (np.ascontiguousarray, np.asfortranarray):
+        o, d = (order(a) for a in rays(20_000))
+        rows = tracer.crossings(o, d, t_min=0.25, t_max=6.0)
+        counts = tracer.count_crossings(o, d, t_min=0.25, t_max=6.0)
+        assert counts.dtype == np.int64 and np.array_equal(counts, rows.counts()) and counts.max() > 4
+    assert tracer.count_crossings(o[:6].reshape(2, 3, 3), d[0]).shape == (2, 3)
+    assert tracer.count_crossings(o[0], d[0]).shape == ()
+    hits = tracer.intersect(o, d)
+    points, leaving = hits.onward(d)
+    there = hits.hit
+    onward = Leaving(leaving.shape_id[there], leaving.face[there])
+    assert np.array_equal(
+        tracer.count_crossings(points[there], d[there], leaving=onward),
+        tracer.crossings(points[there], d[there], leaving=onward).counts(),
+    )
+
+
+def test_lengths_of_solids_and_from_surfaces(ball):
+    tracer = Tracer(ball)
+    rows = tracer.solid_lengths([[0, 0, 5], [0, 0.75, 5], [0, 5, 5]], [0, 0, -1], t_max=[np.inf, 5, 9])
+    assert rows.shape_id.tolist() == [0, 1, 0] and rows.counts().tolist() == [2, 1, 0]
+    assert rows.length.tolist() == [2, 1, np.sqrt(1 - 0.75**2)]
+    assert rows.total().tolist() == [3, rows.length[2], 0] and rows.total(1).tolist() == [1, 0, 0]
+    # A ray that leaves the outer surface inwards, from a point that is rounded to the outside.
+    origin, direction = [[0, 0, 1.00001]], [0, 0, -1.0]
+    assert tracer.path_lengths(origin, direction).total(0)[0] == pytest.approx(2, abs=1e-12)
+    leaving = Leaving(0, 0, 1)
+    for lengths in (tracer.path_lengths, tracer.solid_lengths):
+        assert lengths(origin, direction, leaving=leaving).total(0)[0] == pytest.approx(2.00002, abs=1e-12)  # from the exact surface
+        assert lengths(origin, [0, 0, 1.0], leaving=Leaving(0, 0, 0)).total().tolist() == [0]
+        with pytest.raises(InvalidValue, match="leaving.shape_id/0"):
+            lengths([[0, 0, 9.0]], direction, leaving=leaving)
+        with pytest.warns(RuntimeWarning, match="^1 ray is refused"):
+            assert lengths([[0, 0, 9.0]], direction, t_max=np.nan, leaving=leaving).counts().tolist() == [0]
+
+
+def test_cells(ball):
+    tracer = Tracer(ball)
+    points = np.array([[[0, 0, 0.75], [0, 0, 0.25], [0, 0, 3]], [[0, 0, 1], [0, 0, 0.5], [0, 0, -0.5]]])
+    cells = tracer.cells(points)
+    assert cells.shape_id.tolist() == [[0, 1, NO_SHAPE], [0, 1, 1]]
+    assert cells.material.tolist() == [[0, 1, -1], [0, 1, 1]]
+    assert cells.on_surface.tolist() == [[False, False, False], [True, True, True]]
+    assert tracer.cells([0, 0, 0.75]).shape_id.shape == () and len(tracer.cells(np.empty((0, 3))).material) == 0
+    many = np.random.default_rng(1).uniform(-1.2, 1.2, (1 << 18, 3))
+    rows, cells = tracer.contains(many), tracer.cells(many)
+    inside = rows.counts() > 0
+    assert np.array_equal(cells.shape_id[inside], rows.shape_id[rows.first[1:][inside].astype(int) - 1])
+    assert (cells.shape_id[~inside] == NO_SHAPE).all()
+
+
 def test_a_ray_must_start_on_the_shape_that_it_leaves(ball):
     tracer = Tracer(ball)
     on, into = np.array([[0, 0, 9.0], [0, 0, 1.0]]), [0, 0, -1]
     shapes = [NO_SHAPE, 0]
-    for call in (tracer.intersect, tracer.occluded, tracer.crossings):
+    calls = (tracer.intersect, tracer.occluded, tracer.crossings, tracer.path_lengths, tracer.solid_lengths)
+    for call in (*calls, tracer.count_crossings):
         for leaving, field in (
             (Leaving(shapes, 0, 0), "leaving.inward/1: must be 1"),
             (Leaving(shapes, 77, 1), "leaving.face/1: must be less than"),

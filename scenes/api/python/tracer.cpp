@@ -314,7 +314,10 @@ std::uint64_t intersect(SharedTracer& tracer, const py::object& origins,
                           .shape = out<ShapeId>(to[4], n, "out.shape_id"),
                           .entering = out<std::uint8_t>(to[5], n, "out.entering"),
                           .face = out<std::uint8_t>(to[6], n, "out.face"),
-                          .t_double = t_double};
+                          .t_double = t_double,
+                          .normal_double_x = out<double>(to[8], n, "out.normal_double"),
+                          .normal_double_y = out<double>(to[9], n, "out.normal_double"),
+                          .normal_double_z = out<double>(to[10], n, "out.normal_double")};
         rays.share_out(
             tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
                 const auto of = [&](auto span) {
@@ -329,7 +332,10 @@ std::uint64_t intersect(SharedTracer& tracer, const py::object& origins,
                                  .shape = of(all.shape),
                                  .entering = of(all.entering),
                                  .face = of(all.face),
-                                 .t_double = of(all.t_double)},
+                                 .t_double = of(all.t_double),
+                                 .normal_double_x = of(all.normal_double_x),
+                                 .normal_double_y = of(all.normal_double_y),
+                                 .normal_double_z = of(all.normal_double_z)},
                                 &statistics);
                 refused += statistics.refused;
             });
@@ -359,6 +365,22 @@ std::uint64_t occluded(SharedTracer& tracer, const py::object& origins,
     return refused;
 }
 
+std::uint64_t count_crossings(SharedTracer& tracer, const py::object& origins,
+                              const py::object& directions, const py::tuple& rest,
+                              const py::object& to) {
+    std::atomic<std::uint64_t> refused = 0;
+    with_rays(origins, directions, rest, [&](const auto& rays) {
+        const auto all = out<std::uint64_t>(to, rays.axes(), "out");
+        rays.share_out(
+            tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
+                QueryStatistics statistics;
+                asked.count_crossings(part, all.subspan(from, end - from), &statistics);
+                refused += statistics.refused;
+            });
+    });
+    return refused;
+}
+
 /// Appends the values of a part's rows.
 template <class Value>
 void append(std::vector<Value>& to, std::vector<Value>& part) {
@@ -374,11 +396,27 @@ void append_rows(std::vector<std::uint64_t>& first, const std::vector<std::uint6
         first.push_back(before + part[i]);
 }
 
+/// Returns an array (n, 3) of vectors.
+template <class Real>
+py::array_t<Real> vectors_from(const std::vector<Real>& x, const std::vector<Real>& y,
+                               const std::vector<Real>& z) {
+    py::array_t<Real> vectors(std::vector<py::ssize_t>{static_cast<py::ssize_t>(x.size()), 3});
+    Real* const to = vectors.mutable_data();
+    const py::gil_scoped_release free;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        to[3 * i] = x[i];
+        to[3 * i + 1] = y[i];
+        to[3 * i + 2] = z[i];
+    }
+    return vectors;
+}
+
 py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::object& directions,
-                   const py::tuple& rest, const py::object& at_most,
-                   const py::object& with_normals) {
+                   const py::tuple& rest, const py::object& at_most, const py::object& with_normals,
+                   const py::object& with_normals_double) {
     const std::size_t most = count_from(at_most, "most");
     const bool normals = bool_from(with_normals, "normals");
+    const bool normals_double = bool_from(with_normals_double, "normals_double");
     CrossingRows all;
     CrossingStatistics statistics;
     std::uint64_t refused = 0;
@@ -386,7 +424,9 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
     with_rays(origins, directions, rest, [&](const auto& rays) {
         rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
             CrossingRows rows;
-            asked.crossings(part, rows, {.most = most, .normals = normals}, &statistics);
+            asked.crossings(part, rows,
+                            {.most = most, .normals = normals, .normals_double = normals_double},
+                            &statistics);
             refused += statistics.refused;
             append_rows(all.first, rows.first);
             append(all.t, rows.t);
@@ -398,6 +438,9 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
             append(all.normal_x, rows.normal_x);
             append(all.normal_y, rows.normal_y);
             append(all.normal_z, rows.normal_z);
+            append(all.normal_double_x, rows.normal_double_x);
+            append(all.normal_double_y, rows.normal_double_y);
+            append(all.normal_double_z, rows.normal_double_z);
         });
     });
     py::dict result;
@@ -409,44 +452,73 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
     result["tied"] = bools_from(std::move(all.tied));
     result["touching"] = bools_from(std::move(all.touching));
     result["refused"] = refused;
-    if (!normals) return result;
-    const auto count = static_cast<py::ssize_t>(all.normal_x.size());
-    py::array_t<float> normal(std::vector<py::ssize_t>{count, 3});
-    float* const to = normal.mutable_data();
-    {
-        const py::gil_scoped_release free;
-        for (std::size_t i = 0; i < all.normal_x.size(); ++i) {
-            to[3 * i] = all.normal_x[i];
-            to[3 * i + 1] = all.normal_y[i];
-            to[3 * i + 2] = all.normal_z[i];
-        }
-    }
-    result["normal"] = normal;
+    if (normals) result["normal"] = vectors_from(all.normal_x, all.normal_y, all.normal_z);
+    if (normals_double)
+        result["normal_double"] =
+            vectors_from(all.normal_double_x, all.normal_double_y, all.normal_double_z);
     return result;
 }
 
-py::dict path_lengths(SharedTracer& tracer, const py::object& origins, const py::object& directions,
-                      const py::tuple& rest) {
-    LengthRows all;
+/// Returns lengths by a column of the rows, under its name. `query`: of the tracer.
+template <class AnyRows, class Query>
+py::dict lengths(SharedTracer& tracer, const py::object& origins, const py::object& directions,
+                 const py::tuple& rest, const char* name,
+                 std::vector<std::uint32_t> AnyRows::*column, const Query& query) {
+    AnyRows all;
     QueryStatistics statistics;
     std::uint64_t refused = 0;
     all.first = {0};
     with_rays(origins, directions, rest, [&](const auto& rays) {
         rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
-            LengthRows rows;
-            asked.path_lengths(part, rows, &statistics);
+            AnyRows rows;
+            query(asked, part, rows, &statistics);
             refused += statistics.refused;
             append_rows(all.first, rows.first);
-            append(all.material, rows.material);
+            append(all.*column, rows.*column);
             append(all.length, rows.length);
         });
     });
     py::dict result;
     result["first"] = array_from(std::move(all.first));
-    result["material"] = array_from(std::move(all.material));
+    result[name] = array_from(std::move(all.*column));
     result["length"] = array_from(std::move(all.length));
     result["refused"] = refused;
     return result;
+}
+
+py::dict path_lengths(SharedTracer& tracer, const py::object& origins, const py::object& directions,
+                      const py::tuple& rest) {
+    return lengths(tracer, origins, directions, rest, "material", &LengthRows::material,
+                   [](const Tracer& asked, const auto& part, auto& rows, auto* statistics) {
+                       asked.path_lengths(part, rows, statistics);
+                   });
+}
+
+py::dict solid_lengths(SharedTracer& tracer, const py::object& origins,
+                       const py::object& directions, const py::tuple& rest) {
+    return lengths(tracer, origins, directions, rest, "shape_id", &SolidLengthRows::shape_id,
+                   [](const Tracer& asked, const auto& part, auto& rows, auto* statistics) {
+                       asked.solid_lengths(part, rows, statistics);
+                   });
+}
+
+/// Calls begin(axes of the results), then query(tracer, points, from, to) for parts of the points,
+/// without Python's lock.
+template <class Begin, class Query>
+void ask_points(const SharedTracer& tracer, const py::object& points, const Begin& begin,
+                const Query& query) {
+    const py::array array = any_array(points, "points");
+    Axes axes;
+    broadcast(axes, array, {3}, "points");
+    begin(axes);
+    by_type(points, py::none(), py::none(), py::none(), [&]<class Real>(std::type_identity<Real>) {
+        const Rows<Real> rows(flattened(array, {3}, axes), {3}, "points");
+        Room<Real> room[3];
+        in_turn(rows.count(), max_rows, [&](std::size_t from, std::size_t to) {
+            const auto [x, y, z] = rows.parts(from, to, room);
+            query(tracer.all(), BasicPointSpan<Real>{x, y, z}, from, to);
+        });
+    });
 }
 
 py::dict contains(const SharedTracer& tracer, const py::object& points) {
@@ -454,26 +526,58 @@ py::dict contains(const SharedTracer& tracer, const py::object& points) {
     QueryStatistics statistics;
     std::uint64_t refused = 0;
     all.first = {0};
-    const py::array array = any_array(points, "points");
-    Axes axes;
-    broadcast(axes, array, {3}, "points");
-    by_type(points, py::none(), py::none(), py::none(), [&]<class Real>(std::type_identity<Real>) {
-        const Rows<Real> rows(flattened(array, {3}, axes), {3}, "points");
-        Room<Real> room[3];
-        in_turn(rows.count(), max_rows, [&](std::size_t from, std::size_t to) {
-            const auto [x, y, z] = rows.parts(from, to, room);
+    ask_points(
+        tracer, points, [](const Axes&) {},
+        [&](const Tracer& asked, const auto& some, std::size_t, std::size_t) {
             SolidRows part;
-            tracer.all().contains(BasicPointSpan<Real>{x, y, z}, part, &statistics);
+            asked.contains(some, part, &statistics);
             refused += statistics.refused;
             append_rows(all.first, part.first);
             append(all.shape, part.shape);
             append(all.on_surface, part.on_surface);
         });
-    });
     py::dict result;
     result["first"] = array_from(std::move(all.first));
     result["shape_id"] = array_from(std::move(all.shape));
     result["on_surface"] = bools_from(std::move(all.on_surface));
+    result["refused"] = refused;
+    return result;
+}
+
+py::dict cells(const SharedTracer& tracer, const py::object& points) {
+    py::array_t<ShapeId> shape_id;
+    py::array_t<std::int64_t> material;
+    py::array_t<bool> on_surface;
+    std::uint64_t refused = 0;
+    ShapeId* shapes = nullptr;
+    std::int64_t* materials = nullptr;
+    bool* on = nullptr;
+    ask_points(
+        tracer, points,
+        [&](const Axes& axes) {
+            shape_id = py::array_t<ShapeId>(axes);
+            material = py::array_t<std::int64_t>(axes);
+            on_surface = py::array_t<bool>(axes);
+            shapes = shape_id.mutable_data();
+            materials = material.mutable_data();
+            on = on_surface.mutable_data();
+        },
+        [&](const Tracer& asked, const auto& some, std::size_t from, std::size_t to) {
+            const std::size_t count = to - from;
+            std::vector<MaterialIndex> of(count);
+            std::vector<std::uint8_t> flags(count);
+            QueryStatistics statistics;
+            asked.cells(some, {std::span(shapes + from, count), of, flags}, &statistics);
+            refused += statistics.refused;
+            for (std::size_t i = 0; i < count; ++i) {
+                materials[from + i] = of[i] == no_material ? -1 : std::int64_t{of[i]};
+                on[from + i] = flags[i] != 0;
+            }
+        });
+    py::dict result;
+    result["shape_id"] = shape_id;
+    result["material"] = material;
+    result["on_surface"] = on_surface;
     result["refused"] = refused;
     return result;
 }
@@ -495,8 +599,11 @@ void bind_tracer(py::module_& module) {
         .def("intersect", &intersect)
         .def("occluded", &occluded)
         .def("crossings", &crossings)
+        .def("count_crossings", &count_crossings)
         .def("path_lengths", &path_lengths)
-        .def("contains", &contains);
+        .def("solid_lengths", &solid_lengths)
+        .def("contains", &contains)
+        .def("cells", &cells);
 }
 
 } // namespace raylane::python

@@ -16,7 +16,7 @@ from ._orbit import orbit
 from ._raylane import version as __version__
 from ._scene import Scene, SceneBuilder, Solid, load, parse
 from ._shapes import Shapes
-from ._tracer import NO_SHAPE, Crossings, Hits, Leaving, Lengths, Solids, Tracer
+from ._tracer import NO_SHAPE, Cells, Crossings, Hits, Leaving, Lengths, SolidLengths, Solids, Tracer
 from ._values import Camera, Fog, Light, Material, Outline, Pattern, Sellmeier, Settings
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "BadInput",
     "Camera",
     "Cancelled",
+    "Cells",
     "Crossings",
     "Fog",
     "Hits",
@@ -43,6 +44,7 @@ __all__ = [
     "Settings",
     "Shapes",
     "Solid",
+    "SolidLengths",
     "Solids",
     "SystemRefused",
     "Tracer",
