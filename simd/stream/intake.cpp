@@ -269,12 +269,16 @@ void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,
     const std::uint32_t slot = shape < slots.size() ? slots[shape] : no_slot;
     if (slot == no_slot) return paths.start_nowhere(lane, lane + 1);
     const SceneData::NamedShape named = scene.shape_named(shape, slot);
-    const GivenStart start{
-        ray_in_double(rays, i), rays.origin_face != nullptr ? rays.origin_face[i] : core::body,
-        from(rays.origin_inward, i), scene.scene().solids().is_reversed(shape), rounding_in<Real>};
+    const std::uint8_t* const inward = from(rays.origin_inward, i);
+    constexpr std::uint8_t by_direction = 2;
+    const GivenStart start{ray_in_double(rays, i),
+                           rays.origin_face != nullptr ? rays.origin_face[i] : core::body,
+                           inward != nullptr && *inward != by_direction ? inward : nullptr,
+                           scene.scene().solids().is_reversed(shape), rounding_in<Real>};
     try {
-        const bool inward = goes_inside(scene.scene(), named.kind, scene.place_of(slot), start);
-        paths.start_on(lane, slot, named, std::uint32_t{start.face} | (inward ? hit_entering : 0),
+        const bool is_inward = goes_inside(scene.scene(), named.kind, scene.place_of(slot), start);
+        paths.start_on(lane, slot, named,
+                       std::uint32_t{start.face} | (is_inward ? hit_entering : 0),
                        /*through=*/true);
     } catch (const core::InvalidValue& invalid) {
         throw InvalidStart(invalid, &rays.origin_shape[i]);

@@ -6,6 +6,7 @@
 #include "simd/stream/stream_tracer.hpp"
 #include "simd/threads/threads.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -208,11 +209,15 @@ OnwardRays<Real> rays_onward(const BasicRaySpan<Real>& rays, const HitSpan& hits
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
-        double along = 0.0;
-        for (int axis = 0; axis < 3; ++axis)
-            along +=
-                static_cast<double>(normal[axis][i]) * static_cast<double>(directions[axis][i]);
-        onward.inward[i] = along < 0.0 ? 1 : 0;
+        double along = 0.0, size = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto component = static_cast<double>(directions[axis][i]);
+            along += static_cast<double>(normal[axis][i]) * component;
+            size += std::abs(component);
+        }
+        // Components of normals are off by at most 2^-25. The rest covers the sums' roundings.
+        const double off = 0x1.1p-25 * size;
+        onward.inward[i] = along < -off ? 1 : along > off ? 0 : 2;
     }
     onward.direction_x = directions[0];
     onward.direction_y = directions[1];

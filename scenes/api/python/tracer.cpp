@@ -179,7 +179,7 @@ class RayColumns {
         };
         take_whole(4, shapes_, raylane::no_shape);
         take_whole(5, faces_, std::uint8_t{255});
-        take_whole(6, inward_, std::uint8_t{1});
+        take_whole(6, inward_, std::uint8_t{2});
     }
 
     std::size_t count() const { return directions_.count(); }

@@ -1,6 +1,7 @@
 #include "tests/scenes/api/exam_in_double.hpp"
 #include "tests/support/catch.hpp"
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -132,6 +133,7 @@ void check_departures() {
             CHECK(refusal(tracer, p.at, p.out, p.shape, p.face, side) == none);
         for (const int side : {-1, 1})
             CHECK(refusal(tracer, p.at, minus(p.out), p.shape, p.face, side) == none);
+        CHECK(refusal(tracer, p.at, p.out, p.shape, p.face, 2) == none);
         CHECK(refusal(tracer, p.at, p.out, p.shape, p.face, 1) ==
               "origin_inward/1: must be 0 for a direction to the outside, got 1");
         CHECK(refusal(tracer, p.at, minus(p.out), p.shape, p.face, 0) ==
@@ -183,7 +185,7 @@ TEST_CASE("onward rays leave the surfaces of hits") {
         const double along = static_cast<double>(found.nx[i]) * away[0][i] +
                              static_cast<double>(found.ny[i]) * away[1][i] +
                              static_cast<double>(found.nz[i]) * away[2][i];
-        CHECK(next.inward[i] == (along < 0 ? 1 : 0));
+        if (std::abs(along) > 1e-6) CHECK(next.inward[i] == (along < 0 ? 1 : 0));
     }
     CHECK(statistics.refused == misses);
     CHECK(with_face > rays.size() / 4);
@@ -211,6 +213,45 @@ Rays to_tips(Random& random, bool to_ball) {
 
 } // namespace
 
+TEST_CASE("onward rays in tangents go to the side that exact arithmetic finds") {
+    // The true normal of the hit is (1, 2, 3) / sqrt(14). Its floats are on one side or the other
+    // of the tangents (2, -1, 0), (3, 0, -1) and (0, 3, -2).
+    SceneBuilder builder;
+    builder.add(Plane{{0, 0, 0}, {1, 2, 3}}, builder.add_material({}));
+    builder.add(Sphere{{0, 0, 0}, 50}, 0);
+    const Tracer tracer(builder.build());
+    const Vec3Of<double> tangents[] = {{2, -1, 0}, {3, 0, -1}, {0, 3, -2}, {1, 1, -1}};
+    DoubleRays rays;
+    std::vector<double> away[3];
+    for (const Vec3Of<double>& tangent : tangents)
+        for (const double sign : {-1.0, 1.0})
+            for (const double off : {-0x1p-40, 0.0, 0x1p-40}) {
+                rays.add({{0, 0, 5}, {0, 0, -1}}, 0.0, endless);
+                away[0].push_back(sign * tangent.x + off);
+                away[1].push_back(sign * tangent.y);
+                away[2].push_back(sign * tangent.z);
+            }
+    Hits found(rays.size());
+    std::vector<std::uint8_t> face(rays.size());
+    HitSpan hits = found.span();
+    hits.face = face;
+    tracer.intersect(rays.span(), hits);
+    const OnwardRays<double> next = onward(rays.span(), hits, away[0], away[1], away[2]);
+    CHECK(next.inward == std::vector<std::uint8_t>(rays.size(), 2));
+    // On the inside of the plane, its half-space is around the rays.
+    const Tracer half = [] {
+        SceneBuilder of_solids;
+        const raylane::Solid below(Plane{{0, 0, 0}, {1, 2, 3}}), all(Sphere{{0, 0, 0}, 50});
+        of_solids.add(intersection_of({below, all}), of_solids.add_material({}));
+        return Tracer(of_solids.build());
+    }();
+    LengthRows lengths;
+    half.path_lengths(next.span(), lengths);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        CAPTURE(i);
+        CHECK((lengths.first[i + 1] != lengths.first[i]) == (i % 3 == 0));
+    }
+}
 
 TEST_CASE("onward rays are not refused next to a tip or on a tiny shape") {
     Random random(6);

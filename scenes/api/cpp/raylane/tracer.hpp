@@ -55,7 +55,7 @@ struct BasicRaySpan {
     std::span<const ShapeId> origin_shape{};
     std::span<const std::uint8_t> origin_face{}; ///< HitSpan::face of that hit; empty: 0
     /// 1 if the ray goes to the inside (back) of that surface: it is transmitted after a hit with
-    /// `entering` 1, or reflected after one with `entering` 0. 0: to the outside. Empty: the
+    /// `entering` 1, or reflected after one with `entering` 0. 0: to the outside. 2, or empty: the
     /// direction decides, by the exact normal at the origin; a tangent goes to the outside.
     std::span<const std::uint8_t> origin_inward{};
 };
@@ -106,9 +106,11 @@ struct OnwardRays {
 };
 
 /// Returns rays from the points of hits, in new directions of any length except zero. Each leaves
-/// the surface of its hit, to the side of the normal to which its direction goes. `hits` must have
-/// t or t_double (for DoubleRaySpan the better choice), the normals, shape and face. If a ray hit
-/// nothing, the new ray is refused. Throws InvalidValue if a span has a wrong length.
+/// the surface of its hit, to the side of the normal to which its direction goes. If the direction
+/// is so close to a tangent that the rounded normal does not decide this, `inward` is 2. `hits`
+/// must have t or t_double (for DoubleRaySpan the better choice), normal_x, normal_y, normal_z,
+/// shape and face. If a ray hit nothing, the new ray is refused. Throws InvalidValue if a span has
+/// a wrong length.
 RAYLANE_API OnwardRays<float> onward(const RaySpan& rays, const HitSpan& hits,
                                      std::span<const float> direction_x,
                                      std::span<const float> direction_y,

@@ -36,8 +36,8 @@ class Leaving(Fields):
     Such a ray starts exactly on the surface, regardless of the rounding of its origin. ``shape_id`` and ``face``: those
     of the hit, arrays that broadcast with the rays; ``NO_SHAPE`` for a ray that starts on no surface. ``inward``: true
     if the ray goes to the inside of that surface, that is, it is transmitted after an entering hit, or reflected after
-    one that is not entering. None: the direction decides, by the exact normal at the origin; a tangent goes to the
-    outside.
+    one that is not entering. None, or the number 2 for a ray: the direction decides, by the exact normal at the origin;
+    a tangent goes to the outside.
 
     Queries raise :class:`InvalidValue`, with the field ``leaving.shape_id/7`` for the ray with the flat index 7, if an
     origin is farther from the shape than rounding explains: 2^-6 of the shape's size for float32, 2^-10 for float64,
@@ -118,7 +118,8 @@ class Hits(Fields):
         ``tracer.intersect(points, directions, leaving=leaving)``.
 
         ``directions``: (..., 3), which broadcasts to that shape. Each ray goes to the side of the normal to which its
-        direction goes. Points have the type of ``t``. A ray that hit nothing gets the point NaN, and a query refuses
+        direction goes. If the direction is so close to a tangent that the rounded normal does not decide this,
+        ``inward`` is 2. Points have the type of ``t``. A ray that hit nothing gets the point NaN, and a query refuses
         such rays: leave them out by ``hits.hit``. Reads the arrays of rays that were passed to
         :meth:`Tracer.intersect`.
         """
@@ -128,7 +129,10 @@ class Hits(Fields):
         with np.errstate(invalid="ignore"):
             points = np.where(self.hit[..., None], origins + self.t[..., None] * along, np.nan)
         towards = np.broadcast_to(_array(directions).astype(np.float64, copy=False), points.shape)
-        inward = np.einsum("...i,...i->...", self.normal, towards) < 0
+        along = np.einsum("...i,...i->...", self.normal.astype(np.float64), towards)
+        # Components of normals are off by at most 2^-25. The factor covers the roundings of the sums.
+        off = np.abs(towards).sum(axis=-1) * (2.0**-25 * 17 / 16)
+        inward = np.where(along < -off, 1, np.where(along > off, 0, 2)).astype(np.uint8)
         return points.astype(self.t.dtype), Leaving(self.shape_id, self.face, inward)
 
     def __getitem__(self, index: Any) -> Hits:
