@@ -247,7 +247,9 @@ struct TracerOptions {
 /// solid: along such a line, a sphere, box, cylinder, cone or ellipsoid counts as inside, also if
 /// it is subtracted, and a half-space or quadric as outside. So a line in a face that a subtraction
 /// has cut does not hit the solid, and a line in the common face of two united boxes does.
-/// `crossings` and `path_lengths` agree; `contains` reports points of such faces as on the surface.
+/// All queries for rays agree. `contains` and `cells` report the points of all these faces as on
+/// the surface, whether the lines there are inside or outside, also if a cut left nothing of a
+/// face.
 ///
 /// - The parts of a constructed Solid are hit only on the surface of the solid. Hits give the id of
 ///   the part; the normal and `entering` are those of the solid.
@@ -311,8 +313,9 @@ class Tracer {
     /// constructed solids, under the id of their first part. Clipped solids are open and do not
     /// count. A point on surfaces of a constructed solid's parts is inside (or outside) of the
     /// solid if it is so for either side of each of these surfaces; otherwise it is on the solid's
-    /// surface. Results are exact at any precision. Replaces the contents of `rows`. Throws the
-    /// same exceptions as intersect.
+    /// surface. So the points of a face that two united boxes have in common are on the surface, as
+    /// are those of a face that a flush cut has removed. Results are exact at any precision.
+    /// Replaces the contents of `rows`. Throws the same exceptions as intersect.
     void contains(const PointSpan& points, SolidRows& rows,
                   QueryStatistics* statistics = nullptr) const;
     void contains(const DoublePointSpan& points, SolidRows& rows,

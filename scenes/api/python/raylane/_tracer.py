@@ -313,7 +313,8 @@ class Tracer:
     A line that lies in a flat or open surface, or in a quadric, does not hit it there. A line that lies in a face of a
     solid or along its side hits it where the line reaches it. The same holds for the parts of a constructed solid: along
     such a line, a sphere, box, cylinder, cone or ellipsoid counts as inside, also if it is subtracted, and a half-space
-    as outside. ``crossings`` and ``path_lengths`` agree; ``contains`` reports points of such faces as on the surface.
+    as outside. All queries for rays agree. ``contains`` and ``cells`` report the points of all these faces as on the
+    surface, whether the lines there are inside or outside, also if a cut left nothing of a face.
 
     With ``precision="exact"`` every result is the one that real arithmetic gives for exactly the given numbers. Calls
     release the interpreter's lock, and any number of threads may use one tracer concurrently. Ctrl-C interrupts a call
