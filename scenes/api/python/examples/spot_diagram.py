@@ -1,7 +1,8 @@
 """Traces rays through a lens: compares their foci with the paraxial focus, and makes the spot diagram there.
 
 The lens is a solid with exact surfaces. Each ray finds its next crossing, is refracted by Snell's law, and continues
-on the surface that it has hit (`Leaving`). So no ray is lost, and no epsilon is needed.
+on the surface that it has hit (`Leaving`). So no ray is lost, and no epsilon is needed. Normals are in float64: those
+in float32 would hide the aberration of the ray next to the axis.
 """
 
 import sys
@@ -21,11 +22,11 @@ def trace(tracer, origins, directions, index):
     """Traces rays through the lens. Returns their points on the last surface and their directions behind it."""
     leaving = None
     for surface in range(2):
-        crossings = tracer.crossings(origins, directions, leaving=leaving, most=1, normals=True)
+        crossings = tracer.crossings(origins, directions, leaving=leaving, most=1, normals_double=True)
         assert (crossings.counts() == 1).all()
         origins = origins + crossings.t[:, None] * directions
         entering = crossings.entering[:, None]
-        normals = np.where(entering, 1, -1) * crossings.normal.astype(np.float64)
+        normals = np.where(entering, 1, -1) * crossings.normal_double
         directions = refract(directions, normals, 1 / index if surface == 0 else index)
         leaving = raylane.Leaving(crossings.shape_id, crossings.face, crossings.entering)
     return origins, directions
@@ -51,10 +52,8 @@ def main(picture=None):
         points, directions = trace(tracer, np.array([[0.0, height, -10.0]]), np.array([[0.0, 0.0, 1.0]]), index)
         focus = points[0, 2] - points[0, 1] * directions[0, 2] / directions[0, 1] - thickness
         print(f"ray at {height:5.2f}: meets the axis {focus:.4f} behind the lens")
-        if height == 0.01:
-            assert abs(focus - back) < 1e-4 * back
-        else:
-            assert focus < back  # spherical aberration
+        # Spherical aberration is in proportion to the square of the height.
+        assert 3e-4 < (1 - focus / back) / height**2 < 4e-4
 
     rings = [(r, a) for r in np.linspace(0.5, 9, 12) for a in np.linspace(0, 2 * np.pi, int(8 * r) + 8, endpoint=False)]
     radius, angle = np.array(rings).T
