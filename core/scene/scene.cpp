@@ -4,6 +4,7 @@
 #include "core/scene/surface.hpp"
 #include "core/scene/validate.hpp"
 #include "core/shapes/shapes.hpp"
+#include "core/solids/group.hpp"
 #include "core/solids/solid.hpp"
 
 #include <algorithm>
@@ -184,15 +185,7 @@ void SceneBuilder::check_solid(const Solid& solid, bool has_material,
         return;
     }
     try {
-        std::visit(
-            []<class Shape>(Shape shape) {
-                if constexpr (kind_of<Shape> == Kind::quadric) {
-                    shape.lower = Vec3d(-1.0);
-                    shape.upper = Vec3d(1.0);
-                }
-                validate(shape);
-            },
-            solid.shape);
+        validate_part(solid.shape);
     } catch (const InvalidValue& invalid) {
         throw InvalidValue(in(invalid.field), invalid.expectation);
     }
@@ -221,6 +214,35 @@ ShapeId SceneBuilder::add_solid(const Solid& solid, MaterialIndex material) {
         scene_.material_of_.truncate(first);
         throw;
     }
+    return first;
+}
+
+ShapeId SceneBuilder::add_member(const Solid& member) {
+    if (member.made != Made::of_shape) return add_solid(member, no_material);
+    return std::visit([&](const auto& shape) { return add(shape, member.material); }, member.shape);
+}
+
+/// Throws if add_member() would.
+void SceneBuilder::check_member(const Solid& member) const {
+    if (member.made == Made::of_shape) {
+        std::visit([](const auto& shape) { validate(shape); }, member.shape);
+        return require_material(member.material);
+    }
+    check_solid(member, false, "");
+    SolidCollector trial; // refuses unbounded solids
+    trial.add(member, no_material, [](MaterialIndex) { return ShapeId{0}; });
+}
+
+ShapeId SceneBuilder::add_group(std::span<const Solid> members) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        check_object(i, [&] { check_member(members[i]); });
+        count += count_parts(members[i]);
+    }
+    require_room(count);
+    const auto first = static_cast<ShapeId>(shape_count());
+    for (const Solid& member : members)
+        add_member(member);
     return first;
 }
 

@@ -157,6 +157,10 @@ class SceneBuilder {
 
     /// Adds a material and returns the index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);
+    /// Throws InvalidValue, field "material", unless add_material returned this index.
+    void require_material(MaterialIndex material) const;
+    /// Removes the last material, which no shape has.
+    void remove_last_material() { scene_.materials_.pop_back(); }
     /// Names a material, unless it has a name.
     void name_material(MaterialIndex material, std::string_view name);
     void add_light(const Light& light);
@@ -184,6 +188,12 @@ class SceneBuilder {
     /// "objects/0/objects/2/", ...
     ShapeId add_solid(const Solid& solid, MaterialIndex material);
 
+    /// Adds a member of a group: a shape, or a compound solid. All materials must be given.
+    ShapeId add_member(const Solid& member);
+    /// Adds all members of a group, or none. Returns the first id. The field of an error begins
+    /// with "objects/2".
+    ShapeId add_group(std::span<const Solid> members);
+
     /// Reserves memory for `count` more shapes, so that adding them copies nothing.
     void reserve(std::size_t count);
 
@@ -203,7 +213,6 @@ class SceneBuilder {
     void build_shapes();
     /// Completes the scene once it has shapes.
     void finish(const NameOfShape& name_of_shape);
-    void require_material(MaterialIndex material) const;
     void require_room(std::size_t count) const;
     /// Adds a valid shape.
     template <class Shape>
@@ -211,6 +220,7 @@ class SceneBuilder {
 
     void check_wavelengths() const;
     void check_solid(const Solid& solid, bool has_material, const std::string& place) const;
+    void check_member(const Solid& member) const;
 
     Scene scene_;
     ShapeLists lists_;

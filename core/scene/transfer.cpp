@@ -3,6 +3,7 @@
 #include "core/numbers/elementary.hpp"
 #include "core/numbers/more_functions.hpp"
 
+#include <charconv>
 #include <limits>
 
 namespace raylane::core {
@@ -37,6 +38,18 @@ double linear_of_srgb(double component) {
 
 float decode_srgb(std::uint8_t code) {
     return static_cast<float>(linear_of_srgb(code / 255.0));
+}
+
+std::optional<Color> color_from_srgb(std::string_view text) {
+    std::uint32_t code = 0;
+    const char* const end = text.data() + text.size();
+    if (text.size() != 7 || text[0] != '#' ||
+        std::from_chars(text.data() + 1, end, code, 16).ptr != end)
+        return std::nullopt;
+    const auto channel = [&](int shift) {
+        return decode_srgb(static_cast<std::uint8_t>(code >> shift & 0xFF));
+    };
+    return Color(channel(16), channel(8), channel(0));
 }
 
 Encoder::Encoder(Transfer transfer) {

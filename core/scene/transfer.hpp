@@ -5,6 +5,8 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 namespace raylane::core {
 
@@ -24,6 +26,10 @@ double linear_of_srgb(double component);
 
 /// Same, for an 8-bit code.
 float decode_srgb(std::uint8_t code);
+
+/// Returns the linear colour of "#rrggbb", six hexadecimal digits of the sRGB curve; none for
+/// another text.
+std::optional<Color> color_from_srgb(std::string_view text);
 
 /// encode() for many components, with a lookup table: the codes are the same.
 class Encoder {

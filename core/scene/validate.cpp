@@ -130,6 +130,20 @@ void validate(const Camera& camera) {
         throw InvalidValue("up", "must not be along the line of sight, got " + text_of(camera.up));
 }
 
+void validate(const AutoCamera& auto_camera) {
+    check("depth_cue", fields::between(0.0, 0.99, ""), auto_camera.depth_cue);
+    if (!auto_camera.fit_camera) return;
+    const FitCamera& fit_camera = *auto_camera.fit_camera;
+    require_enumerator("projection", fit_camera.projection, Projection::orthographic);
+    check("direction", fields::direction, fit_camera.direction);
+    check("up", fields::coordinate, fit_camera.up);
+    if (cross(convert<double>(fit_camera.up), convert<double>(fit_camera.direction)) == Vec3d(0.0))
+        throw InvalidValue("up", "must not be 0 or parallel to the direction of view");
+    check("zoom", fields::between(0.01, 1000.0, ""), fit_camera.zoom);
+    if (fit_camera.projection == Projection::perspective)
+        check("field_of_view", fields::between(0.01, 179.0, ""), fit_camera.field_of_view);
+}
+
 void validate(const Outline& outline) {
     check_fields(outline, fields::every);
 }

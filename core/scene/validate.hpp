@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/scene/auto_camera.hpp"
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/invalid_value.hpp"
 
@@ -13,6 +14,8 @@ void validate(const Material& material);
 void validate(const Light& light);
 void validate(const Fog& fog);
 void validate(const Camera& camera);
+/// Checks a camera that finds its position, and the depth cue that comes with it.
+void validate(const AutoCamera& auto_camera);
 void validate(const Outline& outline);
 void validate(const Settings& settings);
 

@@ -1,6 +1,7 @@
 #include "scenes/export/auto_camera_in_json.hpp"
 
 #include "core/scene/fields.hpp"
+#include "core/scene/validate.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -44,13 +45,12 @@ bool is_same_in_files(const Of& a, const Of& b) {
 
 /// Returns true if scenes/formats/json/surroundings.cpp accepts the fit.
 bool is_read(const core::FitCamera& fit_camera) {
-    const bool perspective = fit_camera.projection == core::Projection::perspective;
-    const auto across = core::cross(core::convert<double>(fit_camera.up),
-                                    core::convert<double>(fit_camera.direction));
-    return fit_camera.direction != core::Vec3f(0.0F) && across != core::Vec3d(0.0) &&
-           fit_camera.zoom >= 0.01F && fit_camera.zoom <= 1000.0F &&
-           (!perspective ||
-            (fit_camera.field_of_view >= 0.01F && fit_camera.field_of_view <= 179.0F));
+    try {
+        core::validate(core::AutoCamera{.fit_camera = fit_camera});
+        return true;
+    } catch (const core::InvalidValue&) {
+        return false;
+    }
 }
 
 /// Returns nothing if the camera is to find its place by the shapes, and no shape has bounds.

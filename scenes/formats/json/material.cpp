@@ -1,43 +1,21 @@
 #include "scenes/formats/json/material.hpp"
 
+#include "core/scene/presets.hpp"
 #include "scenes/formats/json/fields.hpp"
 
-#include <algorithm>
+#include <span>
 
 namespace raylane::scenes {
 
 namespace {
 
-/// Returns a clear material with this index of refraction.
-core::Material clear(float index) {
-    return {.pattern = {.colors = {core::Color(0.0F), core::Color(0.0F)}},
-            .reflection = core::Reflection::dielectric,
-            .transmission = 1.0F,
-            .index = index};
-}
-
-/// Returns the material of a preset. Other keys beside the preset override it.
-core::Material read_preset(const JsonValue& value) {
-    using core::Material;
-    const auto of_color = [](float gray) {
-        return core::Pattern{.colors = {core::Color(gray), core::Color(gray)}};
-    };
-    return value.choice<Material>({
-        {"matte", Material{}},
-        {"plastic", Material{.pattern = {},
-                             .specular = 0.3F,
-                             .exponent = 60.0F,
-                             .reflection = core::Reflection::dielectric}},
-        {"metal", Material{.pattern = of_color(0.7F),
-                           .diffuse = 0.4F,
-                           .specular = 0.6F,
-                           .exponent = 80.0F,
-                           .reflectivity = 0.35F}},
-        {"mirror", Material{.pattern = of_color(0.0F), .reflectivity = 0.95F}},
-        {"glass", clear(1.5F)},
-        {"water", clear(1.33F)},
-        {"diamond", clear(2.42F)},
-    });
+/// Returns the value with the name that `value` has.
+template <class Value, class Named>
+Value named(const JsonValue& value, std::span<const Named> all, Value Named::*member) {
+    std::vector<std::pair<std::string_view, Value>> choices;
+    for (const Named& each : all)
+        choices.emplace_back(each.name, each.*member);
+    return value.choice(JsonValue::Choices<Value>(choices));
 }
 
 } // namespace
@@ -55,10 +33,7 @@ void read_field(const JsonValue& value, const core::fields::Field&, core::Sellme
         if (!to.any()) value.at("B").fail("must not all be 0");
         return;
     }
-    std::vector<std::pair<std::string_view, core::Sellmeier>> glasses;
-    for (const core::NamedGlass& named : core::glass_catalogue())
-        glasses.emplace_back(named.name, named.glass);
-    to = value.choice(JsonValue::Choices<core::Sellmeier>(glasses));
+    to = named(value, core::glass_catalogue(), &core::NamedGlass::glass);
 }
 
 core::Material read_material(const JsonValue& value) {
@@ -68,7 +43,9 @@ core::Material read_material(const JsonValue& value) {
     value.exclude("reflectivity", "reflection");
     value.exclude("index", "glass");
 
-    if (const auto preset = value.find("preset")) material = read_preset(*preset);
+    // Other keys beside the preset override it.
+    if (const auto preset = value.find("preset"))
+        material = named(*preset, core::material_presets(), &core::NamedMaterial::material);
     if (const auto color = value.find("color")) material.pattern.colors[0] = color->color();
     read_fields(value, material);
     if (value.find("reflectivity")) material.reflection = core::Reflection::constant;

@@ -1,9 +1,9 @@
 #include "scenes/formats/json/object.hpp"
 
+#include "core/scene/generators.hpp"
 #include "core/shapes/shapes.hpp"
+#include "core/solids/group.hpp"
 #include "core/solids/lens.hpp"
-#include "core/solids/solid.hpp"
-#include "scenes/formats/generators.hpp"
 #include "scenes/formats/json/transform.hpp"
 
 #include <algorithm>
@@ -131,14 +131,14 @@ class ObjectReader {
     void sphereflake() {
         refuse_unless_added();
         object_.allow_only({"type", "material", "center", "radius", "depth", "up"});
-        Sphereflake flake{.center = object_.at("center").vector(),
-                          .radius = object_.at("radius").number(),
-                          .depth = integer("depth")};
+        core::Sphereflake flake{.center = object_.at("center").vector(),
+                                .radius = object_.at("radius").number(),
+                                .depth = integer("depth")};
         if (const auto up = object_.find("up")) flake.up = up->vector();
         const core::MaterialIndex own = material();
         checked(object_, [&] {
             context_.definitions.count(count_of(flake), object_);
-            scenes::add(*builder_, flake, own);
+            core::add(*builder_, flake, own);
         });
     }
 
@@ -229,9 +229,7 @@ void ObjectReader::read(std::type_identity<core::Box>) {
         if (!(lower[axis] < upper[axis]))
             object_.at("max").array(3, "numbers")[axis].fail_expecting(
                 "more than min's " + object_.at("min").array(3, "numbers")[axis].quoted());
-    const core::Vec3d size = upper - lower;
-    const core::BoxOf<double> box{
-        lower, {size.x, 0.0, 0.0}, {0.0, size.y, 0.0}, {0.0, 0.0, size.z}};
+    const core::BoxOf<double> box = core::aligned_box(lower, upper - lower);
     if (described_ != nullptr) return add(box);
     const core::MaterialIndex own = material();
     checked(object_, [&] {
@@ -288,14 +286,8 @@ void ObjectReader::made(Made by) {
     SolidReader own(context_);
     SolidReader& describer = describer_ != nullptr ? *describer_ : own;
     for (const JsonValue& object : object_.at("objects").array("objects")) {
-        std::vector<Solid> parts = describer.described(object, Use::part);
-        if (parts.size() == 1) {
-            solid.parts.push_back(std::move(parts[0]));
-        } else { // a group is the union of its objects
-            Solid all{Made::by_union};
-            all.parts = std::move(parts);
-            solid.parts.push_back(std::move(all));
-        }
+        // A group is the union of its objects.
+        solid.parts.push_back(core::union_of(describer.described(object, Use::part)));
     }
     if (described_ != nullptr)
         *described_ = std::move(solid);
@@ -332,13 +324,7 @@ void ObjectReader::several() {
     for (const Solid& solid : SolidReader(context_).described(object_, Use::member)) {
         if (solid.material == core::no_material && solid.made == Made::of_shape)
             static_cast<void>(object_.at("material")); // throws, as it is missing
-        checked(object_, [&] {
-            if (solid.made != Made::of_shape)
-                builder_->add_solid(solid, core::no_material);
-            else
-                std::visit([&](const auto& shape) { builder_->add(shape, solid.material); },
-                           solid.shape);
-        });
+        checked(object_, [&] { builder_->add_member(solid); });
     }
 }
 
@@ -347,15 +333,14 @@ void ObjectReader::lattice() {
     object_.allow_only({"type", "material", "strut_material", "corner", "center", "n", "spacing",
                         "sphere_radius", "strut_radius"});
     object_.exclude("corner", "center");
-    Lattice lattice{.corner = core::Vec3d(0.0),
-                    .n = integer("n"),
-                    .spacing = object_.at("spacing").number(),
-                    .sphere_radius = object_.at("sphere_radius").number(),
-                    .strut_radius = object_.at("strut_radius").number()};
+    core::Lattice lattice{.corner = core::Vec3d(0.0),
+                          .n = integer("n"),
+                          .spacing = object_.at("spacing").number(),
+                          .sphere_radius = object_.at("sphere_radius").number(),
+                          .strut_radius = object_.at("strut_radius").number()};
     if (const auto center = object_.find("center"))
-        lattice.corner =
-            core::convert<double>(center->vector()) -
-            core::Vec3d(0.5 * (lattice.n - 1.0) * static_cast<double>(lattice.spacing));
+        lattice.corner = core::corner_around(core::convert<double>(center->vector()), lattice.n,
+                                             lattice.spacing);
     else
         lattice.corner = core::convert<double>(object_.at("corner").vector());
     const auto struts = object_.find("strut_material");
@@ -363,7 +348,7 @@ void ObjectReader::lattice() {
     const core::MaterialIndex strut_material = struts ? context_.material_of(*struts) : own;
     checked(object_, [&] {
         context_.definitions.count(count_of(lattice), object_);
-        scenes::add(*builder_, lattice, own, strut_material);
+        core::add(*builder_, lattice, own, strut_material);
     });
 }
 
@@ -399,23 +384,6 @@ void ObjectReader::read(const JsonValue& object, ObjectReader& reader) {
     object.at("type").choice(JsonValue::Choices<Read>(readers()))(reader);
 }
 
-/// Returns a quadric combined with its box as a solid, so that it can be transformed or be a part.
-Solid in_box(const Solid& solid, Made by) {
-    const auto& quadric = std::get<core::QuadricOf<double>>(solid.shape);
-    const core::Vec3d size = quadric.upper - quadric.lower;
-    Solid box, result{by};
-    box.shape = core::BoxOf<double>{
-        quadric.center + quadric.lower, {size.x, 0.0, 0.0}, {0.0, size.y, 0.0}, {0.0, 0.0, size.z}};
-    result.parts = {solid, box};
-    result.material = solid.material;
-    return result;
-}
-
-bool is_quadric(const Solid& solid) {
-    return solid.made == Made::of_shape &&
-           std::holds_alternative<core::QuadricOf<double>>(solid.shape);
-}
-
 std::vector<Solid> SolidReader::instance_of(const JsonValue& object, Use use) {
     const JsonValue name = object.at("of");
     const Definition& definition = context.definitions.named_by(name);
@@ -426,7 +394,7 @@ std::vector<Solid> SolidReader::instance_of(const JsonValue& object, Use use) {
     context.definitions.count(definition.parts, name);
     std::vector<Solid> solids = definition.solids;
     for (Solid& solid : solids)
-        if (use == Use::part && is_quadric(solid)) solid = in_box(solid, Made::by_intersection);
+        if (use == Use::part) solid = core::member_as_part(std::move(solid));
     return solids;
 }
 
@@ -453,8 +421,10 @@ std::vector<Solid> SolidReader::described(const JsonValue& object, Use use) {
     if (has_transform(object)) {
         const core::Transform transform = transform_of(object);
         for (Solid& solid : all) {
-            if (use != Use::part && is_quadric(solid)) solid = in_box(solid, Made::by_clip);
-            solid = checked(object, [&] { return transform(solid); });
+            solid = checked(object, [&] {
+                return use == Use::part ? transform(solid)
+                                        : core::transformed_member(std::move(solid), transform);
+            });
         }
     }
     if (const auto material = object.find("material");

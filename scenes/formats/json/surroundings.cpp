@@ -1,5 +1,6 @@
 #include "scenes/formats/json/surroundings.hpp"
 
+#include "core/scene/validate.hpp"
 #include "scenes/formats/json/fields.hpp"
 
 #include <cmath>
@@ -14,8 +15,6 @@ namespace {
 void read_view(const JsonValue& value, core::FitCamera& fit_camera) {
     if (value.type() == JsonType::array) {
         fit_camera.direction = value.vector();
-        if (fit_camera.direction == core::Vec3f(0.0F))
-            value.fail("must be a direction other than [0, 0, 0]");
         fit_camera.up = core::upright(fit_camera.direction);
         return;
     }
@@ -27,32 +26,27 @@ void read_view(const JsonValue& value, core::FitCamera& fit_camera) {
     fit_camera.up = view->up;
 }
 
-float number_between(const JsonValue& value, float least, float most, const char* expected) {
-    const float number = value.number();
-    if (!(number >= least && number <= most)) value.fail_expecting(expected);
-    return number;
-}
-
-core::FitCamera read_fit_camera(const JsonValue& value) {
+core::AutoCamera read_auto_camera(const JsonValue& value) {
     value.allow_only({"type", "view", "up", "zoom", "orthographic", "field_of_view", "depth_cue"});
     value.exclude("orthographic", "field_of_view");
     core::FitCamera fit_camera;
     if (const auto view = value.find("view")) read_view(*view, fit_camera);
-    if (const auto up = value.find("up")) {
-        fit_camera.up = up->vector();
-        const auto across = core::cross(core::convert<double>(fit_camera.up),
-                                        core::convert<double>(fit_camera.direction));
-        if (across == core::Vec3d(0.0))
-            up->fail("must not be 0 or parallel to the direction of view");
-    }
-    if (const auto zoom = value.find("zoom"))
-        fit_camera.zoom = number_between(*zoom, 0.01F, 1000.0F, "from 0.01 to 1000");
+    if (const auto up = value.find("up")) fit_camera.up = up->vector();
+    if (const auto zoom = value.find("zoom")) fit_camera.zoom = zoom->number();
     if (const auto orthographic = value.find("orthographic"))
         fit_camera.projection =
             orthographic->boolean() ? Projection::orthographic : Projection::perspective;
-    if (const auto angle = value.find("field_of_view"))
-        fit_camera.field_of_view = number_between(*angle, 0.01F, 179.0F, "from 0.01 to 179");
-    return fit_camera;
+    if (const auto angle = value.find("field_of_view")) fit_camera.field_of_view = angle->number();
+    core::AutoCamera auto_camera{.fit_camera = fit_camera};
+    if (const auto cue = value.find("depth_cue")) auto_camera.depth_cue = cue->number();
+    try {
+        core::validate(auto_camera);
+    } catch (const core::InvalidValue& invalid) {
+        constexpr std::string_view view = "direction";
+        if (!invalid.field.starts_with(view)) value.fail(invalid);
+        value.fail({"view" + invalid.field.substr(view.size()), invalid.expectation});
+    }
+    return auto_camera;
 }
 
 } // namespace
@@ -89,9 +83,9 @@ core::Camera read_camera(const JsonValue& value, core::AutoCamera& auto_camera) 
     if (const auto type = value.find("type")) {
         const std::size_t kind = read_word(*type, core::fields::projection, "auto");
         if (kind == std::size(core::fields::projection_words)) {
-            auto_camera.fit_camera = read_fit_camera(value);
-            if (const auto cue = value.find("depth_cue"))
-                auto_camera.depth_cue = number_between(*cue, 0.0F, 0.99F, "from 0 to 0.99");
+            const bool lights = auto_camera.lights;
+            auto_camera = read_auto_camera(value);
+            auto_camera.lights = lights;
             return camera;
         }
         camera.projection = static_cast<Projection>(kind);

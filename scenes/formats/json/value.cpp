@@ -331,15 +331,9 @@ core::Vec3d JsonValue::real_vector() const {
 core::Color JsonValue::color() const {
     if (type() == JsonType::array) return vector();
     const std::string_view text = type() == JsonType::string ? string() : "";
-    std::uint32_t code = 0;
-    const char* const end = text.data() + text.size();
-    if (text.size() != 7 || text[0] != '#' ||
-        std::from_chars(text.data() + 1, end, code, 16).ptr != end)
-        fail_expecting("[red, green, blue] or \"#rrggbb\"");
-    const auto channel = [&](int shift) {
-        return core::decode_srgb(static_cast<std::uint8_t>(code >> shift & 0xFF));
-    };
-    return {channel(16), channel(8), channel(0)};
+    const auto color = core::color_from_srgb(text);
+    if (!color) fail_expecting("[red, green, blue] or \"#rrggbb\"");
+    return *color;
 }
 
 } // namespace raylane::scenes

@@ -1,5 +1,5 @@
+#include "core/scene/generators.hpp"
 #include "scenes/files/errors.hpp"
-#include "scenes/formats/generators.hpp"
 #include "scenes/formats/json/reader.hpp"
 #include "scenes/formats/scene_file.hpp"
 #include "simd/query/scene_data.hpp"
@@ -184,7 +184,7 @@ TEST_CASE("a sphere takes at most 40 bytes and 100 while the scene is built") {
         check_memory([&](core::SceneBuilder& builder) { add_uniform(builder, count); });
     for (const int depth : {5, 6})
         check_memory([&](core::SceneBuilder& builder) {
-            scenes::add(builder, scenes::Sphereflake{{0, 0, 0}, 1.0F, depth}, 0);
+            core::add(builder, core::Sphereflake{{0, 0, 0}, 1.0F, depth}, 0);
         });
 }
 

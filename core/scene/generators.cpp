@@ -1,4 +1,4 @@
-#include "scenes/formats/generators.hpp"
+#include "core/scene/generators.hpp"
 
 #include "core/numbers/elementary.hpp"
 
@@ -8,14 +8,11 @@
 #include <numbers>
 #include <string>
 
-namespace raylane::scenes {
+namespace raylane::core {
 
 namespace {
 
-using core::InvalidValue;
-using core::Vec3d;
-using core::Vec3f;
-using Vec3i = core::Vec3<int>;
+using Vec3i = Vec3<int>;
 
 void require_count(const char* field, int value, int least, int most) {
     if (value < least || value > most)
@@ -31,9 +28,14 @@ void require_positive(const char* field, float value) {
                            std::string(text, std::to_chars(text, text + sizeof text, value).ptr));
 }
 
+void require_limit(const char* field, double extent) {
+    if (!(extent <= static_cast<double>(coordinate_limit)))
+        throw InvalidValue(field, "must keep all shapes between -1e30 and 1e30");
+}
+
 /// Reserves exactly `count` more shapes, but only if they are many compared to the existing ones.
 /// Otherwise a long series of small generators would copy all shapes each time.
-void reserve(core::SceneBuilder& builder, std::size_t count) {
+void reserve(SceneBuilder& builder, std::size_t count) {
     if (count >= builder.shape_count() / 2) builder.reserve(count);
 }
 
@@ -47,18 +49,18 @@ std::array<Vec3d, 9> nine_directions() {
     std::array<Vec3d, 9> directions;
     for (int i = 0; i < 3; ++i) {
         const double azimuth = (45.0 + 120.0 * i) * degree;
-        directions[i] = {core::cos(azimuth) / std::sqrt(3.0), core::sin(azimuth) / std::sqrt(3.0),
+        directions[i] = {cos(azimuth) / std::sqrt(3.0), sin(azimuth) / std::sqrt(3.0),
                          std::sqrt(2.0 / 3.0)};
     }
     for (int i = 0; i < 6; ++i) {
         const double azimuth = (15.0 + 60.0 * i) * degree;
-        directions[3 + i] = {core::cos(azimuth), core::sin(azimuth), 0.0};
+        directions[3 + i] = {cos(azimuth), sin(azimuth), 0.0};
     }
     return directions;
 }
 
 /// The columns of a rotation matrix.
-struct Frame {
+struct Rotation {
     Vec3d x, y, z;
 
     Vec3d operator*(const Vec3d& v) const { return v.x * x + v.y * y + v.z * z; }
@@ -66,7 +68,7 @@ struct Frame {
 
 /// Returns the smallest rotation that takes the z axis to the unit vector `z`. For -z, every half
 /// turn is the smallest, and this returns the one about the y axis.
-Frame frame_along(const Vec3d& z) {
+Rotation rotation_along(const Vec3d& z) {
     const double sin_squared = z.x * z.x + z.y * z.y;
     // A direction straight down has rounding errors in x and y, which define no axis.
     if (z.z < 0.0 && sin_squared < 1e-20)
@@ -79,18 +81,16 @@ Frame frame_along(const Vec3d& z) {
 
 class FlakeBuilder {
   public:
-    FlakeBuilder(core::SceneBuilder& builder, const Sphereflake& flake,
-                 core::MaterialIndex material)
+    FlakeBuilder(SceneBuilder& builder, const Sphereflake& flake, MaterialIndex material)
         : builder_(builder), material_(material),
-          world_(frame_along(core::normalized(core::convert<double>(flake.up)))) {}
+          world_(rotation_along(normalized(convert<double>(flake.up)))) {}
 
     /// Adds a sphere and those that it bears. `tip` is a unit vector in the flake's own frame,
     /// whose z axis is its "up".
     void grow(const Vec3d& center, double radius, const Vec3d& tip, int depth) {
-        builder_.add(core::Sphere{core::convert<float>(center), static_cast<float>(radius)},
-                     material_);
+        builder_.add(Sphere{convert<float>(center), static_cast<float>(radius)}, material_);
         if (depth == 0) return;
-        const Frame frame = frame_along(tip);
+        const Rotation frame = rotation_along(tip);
         const double child_radius = radius / 3.0;
         for (const Vec3d& direction : directions_) {
             const Vec3d child_tip = frame * direction;
@@ -100,9 +100,9 @@ class FlakeBuilder {
     }
 
   private:
-    core::SceneBuilder& builder_;
-    core::MaterialIndex material_;
-    Frame world_;
+    SceneBuilder& builder_;
+    MaterialIndex material_;
+    Rotation world_;
     std::array<Vec3d, 9> directions_ = nine_directions();
 };
 
@@ -116,37 +116,53 @@ std::size_t count_of(const Sphereflake& flake) {
     return count;
 }
 
+Vec3d corner_around(const Vec3d& center, int n, float spacing) {
+    return center - Vec3d(0.5 * (n - 1.0) * static_cast<double>(spacing));
+}
+
 std::size_t count_of(const Lattice& lattice) {
     require_count("n", lattice.n, 1, Lattice::max_nodes);
     const auto n = static_cast<std::size_t>(lattice.n);
     return n * n * n + 3 * n * n * (n - 1);
 }
 
-void add(core::SceneBuilder& builder, const Sphereflake& flake, core::MaterialIndex material) {
+void add(SceneBuilder& builder, const Sphereflake& flake, MaterialIndex material) {
     const std::size_t count = count_of(flake);
     if (flake.up == Vec3f(0.0F))
         throw InvalidValue("up", "must not be the zero vector, got [0, 0, 0]");
+    require_positive("radius", flake.radius);
+    double least = static_cast<double>(flake.radius);
+    for (int level = 0; level < flake.depth; ++level)
+        least /= 3.0;
+    if (static_cast<float>(least) == 0.0F)
+        throw InvalidValue("radius", "must be so large that no sphere's radius is 0");
+    // All spheres are within two radii around the centre.
+    for (int axis = 0; axis < 3; ++axis)
+        require_limit("center", std::abs(static_cast<double>(flake.center[axis])) +
+                                    2.0 * static_cast<double>(flake.radius));
     reserve(builder, count);
     FlakeBuilder(builder, flake, material)
-        .grow(core::convert<double>(flake.center), static_cast<double>(flake.radius),
-              {0.0, 0.0, 1.0}, flake.depth);
+        .grow(convert<double>(flake.center), static_cast<double>(flake.radius), {0.0, 0.0, 1.0},
+              flake.depth);
 }
 
-void add(core::SceneBuilder& builder, const Lattice& lattice, core::MaterialIndex material,
-         core::MaterialIndex strut_material) {
+void add(SceneBuilder& builder, const Lattice& lattice, MaterialIndex material,
+         MaterialIndex strut_material) {
     const int n = lattice.n;
     const std::size_t count = count_of(lattice);
     require_positive("spacing", lattice.spacing);
     require_positive("sphere_radius", lattice.sphere_radius);
     require_positive("strut_radius", lattice.strut_radius);
     const auto node = [&](int x, int y, int z) {
-        return core::convert<float>(lattice.corner +
-                                    static_cast<double>(lattice.spacing) * Vec3d(x, y, z));
+        return convert<float>(lattice.corner +
+                              static_cast<double>(lattice.spacing) * Vec3d(x, y, z));
     };
     for (const Vec3f& corner : {node(0, 0, 0), node(n - 1, n - 1, n - 1)})
         for (int axis = 0; axis < 3; ++axis)
-            if (!(std::abs(corner[axis]) <= core::coordinate_limit))
+            if (!(std::abs(corner[axis]) <= coordinate_limit))
                 throw InvalidValue("", "must have all nodes between -1e30 and 1e30");
+    require_limit("sphere_radius", static_cast<double>(lattice.sphere_radius));
+    require_limit("strut_radius", static_cast<double>(lattice.strut_radius));
 
     const auto for_each_node = [&](const Vec3i& end, const auto& visit) {
         for (int z = 0; z < end.z; ++z)
@@ -156,7 +172,7 @@ void add(core::SceneBuilder& builder, const Lattice& lattice, core::MaterialInde
     };
     reserve(builder, count);
     for_each_node(Vec3i(n), [&](const Vec3f& center) {
-        builder.add(core::Sphere{center, lattice.sphere_radius}, material);
+        builder.add(Sphere{center, lattice.sphere_radius}, material);
     });
     for (int axis = 0; axis < 3; ++axis) {
         Vec3i end(n);
@@ -164,9 +180,9 @@ void add(core::SceneBuilder& builder, const Lattice& lattice, core::MaterialInde
         Vec3f strut(0.0F);
         strut[axis] = lattice.spacing;
         for_each_node(end, [&](const Vec3f& base) {
-            builder.add(core::OpenCylinder{base, strut, lattice.strut_radius}, strut_material);
+            builder.add(OpenCylinder{base, strut, lattice.strut_radius}, strut_material);
         });
     }
 }
 
-} // namespace raylane::scenes
+} // namespace raylane::core

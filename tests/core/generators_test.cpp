@@ -1,4 +1,4 @@
-#include "scenes/formats/generators.hpp"
+#include "core/scene/generators.hpp"
 #include "tests/scenes/shared_scene.hpp"
 #include "tests/support/catch.hpp"
 
@@ -40,9 +40,9 @@ std::vector<Shape> shapes_in(const core::Scene& scene) {
     return only;
 }
 
-std::vector<core::Sphere> spheres_of(const scenes::Sphereflake& flake) {
+std::vector<core::Sphere> spheres_of(const core::Sphereflake& flake) {
     core::SceneBuilder builder = builder_with_light();
-    scenes::add(builder, flake, 0);
+    core::add(builder, flake, 0);
     return shapes_in<core::Sphere>(std::move(builder).build());
 }
 
@@ -54,10 +54,10 @@ template <class Generator>
 std::string refusal_of(const Generator& generator) {
     core::SceneBuilder builder = builder_with_light();
     try {
-        if constexpr (std::is_same_v<Generator, scenes::Lattice>)
-            scenes::add(builder, generator, 0, 0);
+        if constexpr (std::is_same_v<Generator, core::Lattice>)
+            core::add(builder, generator, 0, 0);
         else
-            scenes::add(builder, generator, 0);
+            core::add(builder, generator, 0);
     } catch (const core::InvalidValue& invalid) {
         return invalid.what();
     }
@@ -133,13 +133,13 @@ TEST_CASE("a sphereflake of depth 0 is one sphere") {
 TEST_CASE("a lattice has spheres at its nodes and struts between neighbours") {
     core::SceneBuilder builder = builder_with_light();
     const core::MaterialIndex struts = builder.add_material({});
-    scenes::add(builder,
-                scenes::Lattice{.corner = Vec3d(-1, 0, 2),
-                                .n = 3,
-                                .spacing = 0.5F,
-                                .sphere_radius = 0.125F,
-                                .strut_radius = 0.0625F},
-                0, struts);
+    core::add(builder,
+              core::Lattice{.corner = Vec3d(-1, 0, 2),
+                            .n = 3,
+                            .spacing = 0.5F,
+                            .sphere_radius = 0.125F,
+                            .strut_radius = 0.0625F},
+              0, struts);
     const core::Scene scene = std::move(builder).build();
     const auto spheres = shapes_in<core::Sphere>(scene);
     const auto cylinders = shapes_in<core::OpenCylinder>(scene);
@@ -171,9 +171,9 @@ TEST_CASE("a lattice has spheres at its nodes and struts between neighbours") {
 
 TEST_CASE("a lattice of one node has no struts") {
     core::SceneBuilder builder = builder_with_light();
-    scenes::add(
+    core::add(
         builder,
-        scenes::Lattice{
+        core::Lattice{
             .corner = Vec3d(0.0), .n = 1, .spacing = 1, .sphere_radius = 1, .strut_radius = 1},
         0, 0);
     CHECK(builder.shape_count() == 1);
@@ -181,20 +181,19 @@ TEST_CASE("a lattice of one node has no struts") {
 
 TEST_CASE("generators refuse parameters out of range") {
     const Vec3f origin(0.0F);
-    CHECK(refusal_of(scenes::Sphereflake{origin, 1, -1}) == "depth: must be from 0 to 8, got -1");
-    CHECK(refusal_of(scenes::Sphereflake{origin, 1, 9}) == "depth: must be from 0 to 8, got 9");
-    CHECK(refusal_of(scenes::Sphereflake{origin, -2, 1}) == "radius: must be positive, got -2");
-    CHECK(refusal_of(scenes::Sphereflake{origin, 1, 1, origin}) ==
+    CHECK(refusal_of(core::Sphereflake{origin, 1, -1}) == "depth: must be from 0 to 8, got -1");
+    CHECK(refusal_of(core::Sphereflake{origin, 1, 9}) == "depth: must be from 0 to 8, got 9");
+    CHECK(refusal_of(core::Sphereflake{origin, -2, 1}) == "radius: must be positive, got -2");
+    CHECK(refusal_of(core::Sphereflake{origin, 1, 1, origin}) ==
           "up: must not be the zero vector, got [0, 0, 0]");
-    CHECK(refusal_of(scenes::Lattice{Vec3d(0.0), 0, 1, 1, 1}) == "n: must be from 1 to 256, got 0");
-    CHECK(refusal_of(scenes::Lattice{Vec3d(0.0), 257, 1, 1, 1}) ==
+    CHECK(refusal_of(core::Lattice{Vec3d(0.0), 0, 1, 1, 1}) == "n: must be from 1 to 256, got 0");
+    CHECK(refusal_of(core::Lattice{Vec3d(0.0), 257, 1, 1, 1}) ==
           "n: must be from 1 to 256, got 257");
-    CHECK(refusal_of(scenes::Lattice{Vec3d(0.0), 2, 0, 1, 1}) ==
-          "spacing: must be positive, got 0");
-    CHECK(refusal_of(scenes::Lattice{Vec3d(0.0), 2, 1, -0.5F, 1}) ==
+    CHECK(refusal_of(core::Lattice{Vec3d(0.0), 2, 0, 1, 1}) == "spacing: must be positive, got 0");
+    CHECK(refusal_of(core::Lattice{Vec3d(0.0), 2, 1, -0.5F, 1}) ==
           "sphere_radius: must be positive, got -0.5");
-    CHECK(refusal_of(scenes::Lattice{Vec3d(0.0), 2, 1, 1, 0}) ==
+    CHECK(refusal_of(core::Lattice{Vec3d(0.0), 2, 1, 1, 0}) ==
           "strut_radius: must be positive, got 0");
-    CHECK(refusal_of(scenes::Lattice{Vec3d(0.0), 3, 9e29F, 1, 1}) ==
+    CHECK(refusal_of(core::Lattice{Vec3d(0.0), 3, 9e29F, 1, 1}) ==
           "must have all nodes between -1e30 and 1e30");
 }
