@@ -57,6 +57,12 @@ void check(const Field& place, const Valid& valid, const Vec3f& vector) {
         check(place.at(i), valid, vector[i]);
 }
 
+/// Compares floats, so that the float nearest to a decimal limit is valid.
+void require_between(const Field& place, float value, float least, float most) {
+    if (!(value >= least && value <= most))
+        refuse(place, "must be from " + text_of(least) + " to " + text_of(most), value);
+}
+
 template <class Of>
 void check_fields(const Of& of, Kinds kinds) {
     fields::for_each_field(
@@ -131,7 +137,7 @@ void validate(const Camera& camera) {
 }
 
 void validate(const AutoCamera& auto_camera) {
-    check("depth_cue", fields::between(0.0, 0.99, ""), auto_camera.depth_cue);
+    require_between("depth_cue", auto_camera.depth_cue, 0.0F, 0.99F);
     if (!auto_camera.fit_camera) return;
     const FitCamera& fit_camera = *auto_camera.fit_camera;
     require_enumerator("projection", fit_camera.projection, Projection::orthographic);
@@ -139,9 +145,9 @@ void validate(const AutoCamera& auto_camera) {
     check("up", fields::coordinate, fit_camera.up);
     if (cross(convert<double>(fit_camera.up), convert<double>(fit_camera.direction)) == Vec3d(0.0))
         throw InvalidValue("up", "must not be 0 or parallel to the direction of view");
-    check("zoom", fields::between(0.01, 1000.0, ""), fit_camera.zoom);
+    require_between("zoom", fit_camera.zoom, 0.01F, 1000.0F);
     if (fit_camera.projection == Projection::perspective)
-        check("field_of_view", fields::between(0.01, 179.0, ""), fit_camera.field_of_view);
+        require_between("field_of_view", fit_camera.field_of_view, 0.01F, 179.0F);
 }
 
 void validate(const Outline& outline) {

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace raylane::library {
 
@@ -17,6 +18,8 @@ struct Internals {
         return Solid(std::make_shared<const core::Solid>(std::move(solid)));
     }
     static const core::Solid& of(const Solid& solid) { return *solid.solid_; }
+    static const std::vector<Solid>& members_of(const Group& group) { return group.members_; }
+    static const core::Transform& of(const Transform& transform) { return *transform.transform_; }
 };
 
 /// Returns the public scene that shares the ownership of a core scene.

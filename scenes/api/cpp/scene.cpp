@@ -1,9 +1,11 @@
 #include "core/scene/scene.hpp"
 
 #include "core/scene/auto_camera.hpp"
+#include "core/scene/generators.hpp"
 #include "core/scene/given_shapes.hpp"
 #include "core/scene/validate.hpp"
 #include "core/shapes/checks.hpp"
+#include "core/solids/group.hpp"
 #include "raylane/scene.hpp"
 #include "scenes/api/cpp/convert.hpp"
 #include "scenes/api/cpp/internals.hpp"
@@ -52,6 +54,19 @@ ShapesOf<Shape> shapes_of(const core::Scene& scene) {
     for (const core::InDouble<CoreShape>& shape : given.shapes)
         shapes.shape.push_back(std::bit_cast<Shape>(shape));
     return shapes;
+}
+
+/// Throws InvalidValue, field "auto_camera/...".
+core::AutoCamera core_auto_camera(const AutoCamera& camera) {
+    core::FitCamera fit_camera{.projection = static_cast<core::Projection>(camera.projection),
+                               .direction = converted<core::Vec3f>(camera.direction),
+                               .up = converted<core::Vec3f>(camera.up),
+                               .field_of_view = camera.field_of_view,
+                               .zoom = camera.zoom};
+    if (camera.up == Vec3()) fit_camera.up = core::upright(fit_camera.direction);
+    const core::AutoCamera result{.fit_camera = fit_camera, .depth_cue = camera.depth_cue};
+    core::validate_in("auto_camera", result);
+    return result;
 }
 
 } // namespace
@@ -103,6 +118,11 @@ RAYLANE_SHAPES(RAYLANE_GIVEN)
 Material Scene::material(MaterialIndex index) const {
     require_index(index, material_count(), "materials");
     return converted<Material>(scene_->materials()[index]);
+}
+
+std::string Scene::material_name(MaterialIndex index) const {
+    require_index(index, material_count(), "materials");
+    return std::string(scene_->material_name(index));
 }
 
 std::vector<Light> Scene::lights() const {
@@ -179,6 +199,9 @@ SceneBuilder& SceneBuilder::operator=(SceneBuilder&& other) noexcept {
     settings = std::exchange(other.settings, {});
     wavelengths = std::exchange(other.wavelengths, {});
     merge_duplicates = std::exchange(other.merge_duplicates, true);
+    auto_camera = std::exchange(other.auto_camera, std::nullopt);
+    camera_lights = std::exchange(other.camera_lights, false);
+    default_material_ = std::exchange(other.default_material_, no_material);
     builder_ = std::move(other.builder_);
     return *this;
 }
@@ -188,8 +211,30 @@ core::SceneBuilder& SceneBuilder::builder() {
     return *builder_;
 }
 
-MaterialIndex SceneBuilder::add_material(const Material& material) {
-    return translated([&] { return builder().add_material(converted<core::Material>(material)); });
+MaterialIndex SceneBuilder::add_material(const Material& material, std::string_view name) {
+    return translated([&] {
+        const MaterialIndex index = builder().add_material(converted<core::Material>(material));
+        if (!name.empty()) builder().name_material(index, name);
+        return index;
+    });
+}
+
+template <class Add>
+ShapeId SceneBuilder::add_with(MaterialIndex material, const Add& add) {
+    return translated([&] {
+        if (material != no_material) return add(material);
+        const bool is_new = default_material_ == no_material;
+        if (is_new) default_material_ = builder().add_material({});
+        try {
+            return add(default_material_);
+        } catch (...) { // leaves the builder unchanged
+            if (is_new) {
+                builder().remove_last_material();
+                default_material_ = no_material;
+            }
+            throw;
+        }
+    });
 }
 
 void SceneBuilder::add_light(const Light& light) {
@@ -199,21 +244,73 @@ void SceneBuilder::add_light(const Light& light) {
 #define RAYLANE_ADD(Shape, name, text)                                                             \
     template <>                                                                                    \
     ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {                        \
-        return translated(                                                                         \
-            [&] { return builder().add(library::core_shape<core::Shape>(shape), material); });     \
+        return add_with(material, [&](MaterialIndex of) {                                          \
+            return builder().add(library::core_shape<core::Shape>(shape), of);                     \
+        });                                                                                        \
     }                                                                                              \
     template <>                                                                                    \
     ShapeId SceneBuilder::add(const Shape##Of<double>& shape, MaterialIndex material) {            \
-        return translated([&] {                                                                    \
-            return builder().add(library::core_shape<core::InDouble<core::Shape>>(shape),          \
-                                 material);                                                        \
+        return add_with(material, [&](MaterialIndex of) {                                          \
+            return builder().add(library::core_shape<core::InDouble<core::Shape>>(shape), of);     \
         });                                                                                        \
     }
 RAYLANE_SHAPES(RAYLANE_ADD)
 #undef RAYLANE_ADD
 
 ShapeId SceneBuilder::add(const Solid& solid, MaterialIndex material) {
-    return translated([&] { return builder().add_solid(library::Internals::of(solid), material); });
+    const core::Solid& given = library::Internals::of(solid);
+    if (material == no_material && core::has_materials(given))
+        return translated([&] { return builder().add_solid(given, core::no_material); });
+    return add_with(material, [&](MaterialIndex of) { return builder().add_solid(given, of); });
+}
+
+ShapeId SceneBuilder::add(const Group& group, MaterialIndex material) {
+    std::vector<core::Solid> members;
+    bool all_have_materials = true;
+    for (const Solid& member : library::Internals::members_of(group)) {
+        members.push_back(library::Internals::of(member));
+        all_have_materials = all_have_materials && core::has_materials(members.back());
+    }
+    const auto add = [&](MaterialIndex of) {
+        for (core::Solid& member : members)
+            if (member.material == core::no_material &&
+                (material != no_material || !core::has_materials(member)))
+                member.material = of;
+        return builder().add_group(members);
+    };
+    if (material == no_material && all_have_materials)
+        return translated([&] { return builder().add_group(members); });
+    return add_with(material, add);
+}
+
+ShapeId SceneBuilder::add(const Sphereflake& flake, MaterialIndex material) {
+    return add_with(material, [&](MaterialIndex of) {
+        const auto first = static_cast<ShapeId>(builder().shape_count());
+        builder().require_material(of);
+        core::add(builder(),
+                  {converted<core::Vec3f>(flake.center), flake.radius, flake.depth,
+                   converted<core::Vec3f>(flake.up)},
+                  of);
+        return first;
+    });
+}
+
+ShapeId SceneBuilder::add(const Lattice& lattice, MaterialIndex material,
+                          MaterialIndex strut_material) {
+    return add_with(material, [&](MaterialIndex of) {
+        const auto first = static_cast<ShapeId>(builder().shape_count());
+        const MaterialIndex of_struts = strut_material == no_material ? of : strut_material;
+        builder().require_material(of);
+        builder().require_material(of_struts);
+        core::add(builder(),
+                  {{lattice.corner.x, lattice.corner.y, lattice.corner.z},
+                   lattice.n,
+                   lattice.spacing,
+                   lattice.sphere_radius,
+                   lattice.strut_radius},
+                  of, of_struts);
+        return first;
+    });
 }
 
 template <class CoreShape, class Shape>
@@ -252,7 +349,11 @@ Scene SceneBuilder::build() {
         simd::ParallelWorkers workers; // may throw, so before the builder is emptied
         SceneBuilder taken = std::move(*this);
         core::SceneBuilder& builder = taken.builder();
-        library::copy(taken.camera, builder.camera);
+        if (taken.auto_camera)
+            builder.auto_camera = core_auto_camera(*taken.auto_camera);
+        else
+            library::copy(taken.camera, builder.camera);
+        builder.auto_camera.lights = taken.camera_lights;
         library::copy(taken.background, builder.background);
         library::copy(taken.fog, builder.fog);
         library::copy(taken.settings, builder.settings);

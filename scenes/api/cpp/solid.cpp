@@ -1,7 +1,7 @@
 #include "raylane/solid.hpp"
 
+#include "core/solids/group.hpp"
 #include "core/solids/lens.hpp"
-#include "core/solids/solid.hpp"
 #include "scenes/api/cpp/convert.hpp"
 #include "scenes/api/cpp/internals.hpp"
 #include "scenes/api/cpp/translate.hpp"
@@ -16,15 +16,23 @@ namespace {
 /// Maximum nesting of solids. Deeper recursion would overflow a thread's stack.
 constexpr int max_depth = 1024;
 
+Solid checked(core::Solid solid) {
+    if (core::depth_of(solid) > max_depth)
+        throw InvalidValue("", "must not be nested more than " + std::to_string(max_depth) +
+                                   " deep: a union has any number of parts");
+    return library::Internals::solid(std::move(solid));
+}
+
 Solid made(core::Made by, const std::vector<Solid>& parts) {
     core::Solid solid{by};
     solid.parts.reserve(parts.size());
     for (const Solid& part : parts)
         solid.parts.push_back(library::Internals::of(part));
-    if (core::depth_of(solid) > max_depth)
-        throw InvalidValue("", "must not be nested more than " + std::to_string(max_depth) +
-                                   " deep: a union has any number of parts");
-    return library::Internals::solid(std::move(solid));
+    return checked(std::move(solid));
+}
+
+Solid joined(core::Made by, const Solid& a, const Solid& b) {
+    return checked(core::joined(by, library::Internals::of(a), library::Internals::of(b)));
 }
 
 std::vector<Solid> with_first(const Solid& first, const std::vector<Solid>& others) {
@@ -47,6 +55,13 @@ Solid Solid::of(MaterialIndex material) const {
     core::Solid same = *solid_;
     same.material = material;
     return library::Internals::solid(std::move(same));
+}
+
+Solid Solid::transformed(const Transform& transform) const {
+    return library::translated([&] {
+        core::validate_parts(*solid_);
+        return library::Internals::solid(library::Internals::of(transform)(*solid_));
+    });
 }
 
 #define RAYLANE_SOLID_OF(Shape, CoreShape)                                                         \
@@ -88,6 +103,18 @@ Solid difference_of(const Solid& whole, const std::vector<Solid>& taken_away) {
 
 Solid clipped(const Solid& whole, const std::vector<Solid>& by) {
     return made(core::Made::by_clip, with_first(whole, by));
+}
+
+Solid operator|(const Solid& a, const Solid& b) {
+    return joined(core::Made::by_union, a, b);
+}
+
+Solid operator&(const Solid& a, const Solid& b) {
+    return joined(core::Made::by_intersection, a, b);
+}
+
+Solid operator-(const Solid& a, const Solid& b) {
+    return joined(core::Made::by_difference, a, b);
 }
 
 } // namespace raylane

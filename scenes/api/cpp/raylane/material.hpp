@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 namespace RAYLANE_API raylane {
 
@@ -82,7 +83,19 @@ struct Material {
 
 /// The index of a material in its scene: 0, 1, 2, ... in the order in which they were added.
 using MaterialIndex = std::uint32_t;
-/// The index of no material.
+
+/// The index of no material. A part of a solid takes that of the solid, a member of a group that of
+/// the group, and an object of a scene the default one, Material{}.
 inline constexpr MaterialIndex no_material = std::numeric_limits<MaterialIndex>::max();
+
+/// Returns the material that files know as a preset: "matte" (the same as Material{}), "plastic",
+/// "metal", "mirror", "glass", "water" or "diamond". Throws InvalidValue, field "preset", for
+/// another name.
+RAYLANE_API Material material_preset(std::string_view name);
+
+/// Returns a glass of the catalogue, for Material::glass: "N-BK7", "N-K5", "N-BAK4", "F2", "N-F2",
+/// "SF5", "N-SF5", "N-SF10", "N-SF11", "SF11" (Schott), "fused silica", "calcium fluoride" or
+/// "diamond". Throws InvalidValue, field "glass", for another name.
+RAYLANE_API Sellmeier catalogue_glass(std::string_view name);
 
 } // namespace raylane

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "raylane/api.hpp"
+#include "raylane/generators.hpp"
+#include "raylane/group.hpp"
 #include "raylane/material.hpp"
 #include "raylane/shapes.hpp"
 #include "raylane/solid.hpp"
@@ -10,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -69,6 +72,9 @@ class Scene {
     ShapesOf<ShapeOf<double>> shapes() const;
     /// Throws InvalidValue if no material has this index.
     Material material(MaterialIndex index) const;
+    /// Returns the name that a material has in its file, or that its builder was given. Empty if it
+    /// has none. Throws InvalidValue if no material has this index.
+    std::string material_name(MaterialIndex index) const;
     std::vector<Light> lights() const;
     Fog fog() const;
     Camera camera() const;
@@ -122,6 +128,14 @@ class Scene {
 class SceneBuilder {
   public:
     Camera camera; ///< checked by build(), field "camera/..."
+    /// If set, build() places the camera by the shapes and ignores `camera`. Checked by build(),
+    /// field "auto_camera/...". build() throws InvalidValue, field "camera", if the scene has no
+    /// bounded shapes, or if the camera would have to be beyond 1e30.
+    std::optional<AutoCamera> auto_camera;
+    /// If true, build() adds two lights after the others, which Scene::seen_by moves with the
+    /// camera: a sky whose zenith is upward in the image, and a lamp over the camera's left
+    /// shoulder. A file with an automatic camera and without a list of lights has them.
+    bool camera_lights = false;
     Color
         background; ///< colour of rays that hit nothing; checked by build(), field "background/..."
     Fog fog;        ///< checked by build(), field "fog/..."
@@ -142,20 +156,35 @@ class SceneBuilder {
     SceneBuilder(SceneBuilder&& other) noexcept;
     SceneBuilder& operator=(SceneBuilder&& other) noexcept;
 
-    /// Returns the index by which shapes refer to the material.
-    MaterialIndex add_material(const Material& material);
+    /// Returns the index by which shapes refer to the material. save() writes its name; several
+    /// materials may have one name.
+    MaterialIndex add_material(const Material& material, std::string_view name = {});
     void add_light(const Light& light);
 
     /// Returns the id of the new shape: 0, 1, 2, ... `material` is an index from add_material.
+    /// Without one, objects have the default material, Material{}, which gets an index when it is
+    /// first used.
     template <AnyShape Shape>
-    ShapeId add(const Shape& shape, MaterialIndex material);
+    ShapeId add(const Shape& shape, MaterialIndex material = no_material);
 
     /// Adds a constructed solid. Returns the id of its first part; the ids of the other parts
     /// follow in the order in which they were given. Solids that only clip have no surface and no
     /// id. `material` applies to parts without a material, and to the inside of the solid if that
-    /// has none. Fields in errors are those of the shapes, with the prefix "objects/0/objects/2/",
-    /// ... Throws InvalidValue if quadrics leave the solid unbounded.
-    ShapeId add(const Solid& solid, MaterialIndex material);
+    /// has none. If it is not given and all parts have materials, the inside has that of the first
+    /// part. Fields in errors are those of the shapes, with the prefix "objects/0/objects/2/", ...
+    /// Throws InvalidValue if quadrics leave the solid unbounded.
+    ShapeId add(const Solid& solid, MaterialIndex material = no_material);
+
+    /// Adds all members of a group as objects of the scene. Members without a material take
+    /// `material`. Returns the id of the first shape; the ids of the others follow in the order of
+    /// the members. Fields in errors have the prefix "objects/0/", the number of the member.
+    ShapeId add(const Group& group, MaterialIndex material = no_material);
+
+    /// Adds the shapes of a generator. Returns the first id. The struts of a lattice have the
+    /// material of its spheres unless they are given their own.
+    ShapeId add(const Sphereflake& flake, MaterialIndex material = no_material);
+    ShapeId add(const Lattice& lattice, MaterialIndex material = no_material,
+                MaterialIndex strut_material = no_material);
 
     /// Adds one or more triangles that tile one flat polygon. No reflection or shadow of one of
     /// them falls on another. Returns the first id; the ids of the other triangles follow. Fields
@@ -182,8 +211,12 @@ class SceneBuilder {
     ShapeId add_polygon_as(std::span<const Shape> triangles, MaterialIndex material);
 
     core::SceneBuilder& builder();
+    /// Calls add(material), with the default material if none is given.
+    template <class Add>
+    ShapeId add_with(MaterialIndex material, const Add& add);
 
     std::unique_ptr<core::SceneBuilder> builder_; // null until the first value is added
+    MaterialIndex default_material_ = no_material;
 };
 
 /// Callback for warnings, one line each: contents of a file that raylane ignores, or a scene

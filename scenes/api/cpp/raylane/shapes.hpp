@@ -17,9 +17,10 @@
 ///
 /// Solids (sphere, ellipsoid, box, capped cylinder, capped cone) are closed sets, which include
 /// their surface. A line that only touches a solid hits it, and so does a line within a face. The
-/// other shapes are surfaces. A surface includes its rim. A line that touches a surface hits it. A
-/// line that lies in a surface (in a flat surface's plane, along the side of an open cylinder or
-/// cone, or in a quadric) does not hit it.
+/// other shapes are surfaces. The front (outside) of a plane, disc and triangle is described below;
+/// that of an open cylinder or cone faces away from the axis. A surface includes its rim. A line
+/// that touches a surface hits it. A line that lies in a surface (in a flat surface's plane, along
+/// the side of an open cylinder or cone, or in a quadric) does not hit it.
 namespace RAYLANE_API raylane {
 
 template <class Number>
@@ -101,7 +102,8 @@ struct CappedConeOf {
     Number top_radius = 0;  ///< >= 0, not both 0
 };
 
-/// The surface Q(p) = 0 for p = x - center, inside the axis-aligned box lower <= p <= upper:
+/// The surface Q(p) = 0 for p = x - center, inside the axis-aligned box lower <= p <= upper, whose
+/// corners are therefore relative to `center`:
 ///   Q(p) = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz)
 ///        + 2 (x px + y py + z pz) + one,
 /// that is (p, 1) M (p, 1)^T for the symmetric 4x4 matrix M. The outside is where Q > 0.
@@ -133,6 +135,10 @@ using OpenCone = OpenConeOf<float>;
 using CappedCone = CappedConeOf<float>;
 using Quadric = QuadricOf<float>;
 using Ellipsoid = EllipsoidOf<float>;
+
+/// Returns the box with faces across the axes and these opposite corners. Throws InvalidValue,
+/// field "upper/0", ..., unless lower < upper on each axis.
+RAYLANE_API BoxOf<double> aligned_box(const Vec3Of<double>& lower, const Vec3Of<double>& upper);
 
 namespace detail {
 

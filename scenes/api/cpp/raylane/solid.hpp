@@ -3,6 +3,7 @@
 #include "raylane/api.hpp"
 #include "raylane/material.hpp"
 #include "raylane/shapes.hpp"
+#include "raylane/transform.hpp"
 
 #include <memory>
 #include <utility>
@@ -20,7 +21,9 @@ namespace RAYLANE_API raylane {
 /// A constructed solid (constructive solid geometry). The functions below build it from solid
 /// shapes (spheres, ellipsoids, boxes, capped cylinders and cones) and from half-spaces. A Plane
 /// stands for the half-space behind it. A Quadric stands for all points where its form is less than
-/// 0; its `lower` and `upper` are ignored. Solids nest up to 1024 levels deep. Cheap to copy.
+/// 0; its `lower` and `upper` are ignored. An open cylinder stands for the inside of the infinite
+/// cylinder, an open cone for that of both nappes. Solids nest up to 1024 levels deep. Cheap to
+/// copy.
 ///
 /// A ray hits a solid where it changes between the inside and the outside of the whole solid. The
 /// hit names the part whose surface is crossed. If a ray crosses several parts at one point, they
@@ -38,6 +41,12 @@ class Solid {
 
     /// Returns this solid with the given material. Parts that have their own material keep it.
     Solid of(MaterialIndex material) const;
+
+    /// Returns the solid with each number of its shapes transformed and rounded once, to the
+    /// nearest double. If `transform` does not scale all lengths equally, spheres become
+    /// ellipsoids, and cylinders and cones become solids of a quadric and planes, which have more
+    /// ids. Throws InvalidValue for an invalid shape, or if a number exceeds doubles.
+    Solid transformed(const Transform& transform) const;
 
   private:
     friend struct library::Internals;
@@ -73,5 +82,12 @@ RAYLANE_API Solid difference_of(const Solid& whole, const std::vector<Solid>& ta
 /// Returns the part of the surface of `whole` that lies inside of all solids in `by`. The cuts stay
 /// open: they get no cap faces.
 RAYLANE_API Solid clipped(const Solid& whole, const std::vector<Solid>& by);
+
+/// Returns the union, intersection or difference of two solids. Chains do not nest: a | b | c is
+/// one union of three, a - b - c one difference. Each operator copies the description of `a`; for
+/// hundreds of parts use the functions above.
+RAYLANE_API Solid operator|(const Solid& a, const Solid& b);
+RAYLANE_API Solid operator&(const Solid& a, const Solid& b);
+RAYLANE_API Solid operator-(const Solid& a, const Solid& b);
 
 } // namespace raylane

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 /// Contents of a scene besides its shapes: lights, fog, the camera and the image settings.
 namespace RAYLANE_API raylane {
@@ -68,6 +69,28 @@ struct Camera {
     /// through `at`.
     float focus_distance = 0.0F;
 };
+
+/// A camera that SceneBuilder::build places so that it shows all bounded shapes as large as
+/// possible.
+struct AutoCamera {
+    Projection projection = Projection::perspective;
+    Vec3 direction{0.0F, 0.0F, -1.0F}; ///< line of sight, of any length except zero
+    /// Upward direction in the image, not along the line of sight. Zero: y, or -z if the line of
+    /// sight is almost along y.
+    Vec3 up{};
+    /// perspective: degrees from the image's lower to its upper edge, 0.01 to 179
+    float field_of_view = 30.0F;
+    float zoom = 1.0F; ///< magnification, 0.01 to 1000; 1: all bounded shapes are visible
+    /// Fraction of the background's colour at the farthest shapes, 0 to 0.99, by a fog that
+    /// replaces that of the scene. 0: none.
+    float depth_cue = 0.0F;
+};
+
+/// Returns an automatic camera that sees a scene from the side of this name, as in files: "front"
+/// (from +z, the default), "back", "right" (from +x), "left", "top" (from +y), "bottom", "x", "y"
+/// (from +x and +y, with z upward), "z" or "corner". Throws InvalidValue, field "view", for another
+/// name.
+RAYLANE_API AutoCamera named_view(std::string_view name);
 
 /// Transfer from linear RGB to 8 bits: the sRGB curve of IEC 61966-2-1, or none.
 enum class Transfer : std::uint8_t { srgb, linear };

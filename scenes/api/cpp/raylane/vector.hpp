@@ -2,6 +2,8 @@
 
 #include "raylane/api.hpp"
 
+#include <string_view>
+
 namespace RAYLANE_API raylane {
 
 /// A point, a direction or a colour (red, green, blue), in float or double.
@@ -17,5 +19,9 @@ using Vec3 = Vec3Of<float>;
 
 /// Linear RGB; 1 is the image's white.
 using Color = Vec3;
+
+/// Returns the linear colour of "#rrggbb", six hexadecimal digits of the sRGB curve. Throws
+/// InvalidValue, field "color", for another text.
+RAYLANE_API Color color_from_srgb(std::string_view text);
 
 } // namespace raylane
