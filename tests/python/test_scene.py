@@ -220,6 +220,7 @@ def test_what_is_not_valid_says_where():
         (lambda: builder.add_material(color=raylane.Pattern(kind=None)), "color/kind"),
         (lambda: Solid.sphere((0, 0, 0), 1).of(2**32 - 1), "material"),  # which means no material
         (lambda: Solid.sphere((0, 0, 0), 1, material=2**32 - 1), "material"),
+        (lambda: builder.add_spheres([0, 0, 0], 1, material=np.uint32(2**32 - 1)), "material"),
     ):
         with pytest.raises(ValueError) as error:
             call()
@@ -230,7 +231,7 @@ def test_what_is_not_valid_says_where():
     for call in (
         lambda: builder.add_material(colour=(1, 0, 0)),
         lambda: builder.add_material(raylane.Material(), color=(1, 0, 0)),
-        lambda: builder.add_spheres([0, 0, 0], 1),
+        lambda: builder.add_spheres([0, 0, 0], material=0),
     ):
         with pytest.raises(TypeError):
             call()

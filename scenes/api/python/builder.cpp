@@ -1,29 +1,61 @@
 #include "values.hpp"
 
 #include <initializer_list>
-#include <limits>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <pybind11/stl.h>
+#include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace raylane::python {
 
 namespace {
 
-/// A SceneBuilder with a mutex, for use by several Python threads.
-struct SharedBuilder {
-    SceneBuilder builder;
-    std::mutex mutex;
+std::size_t count_in(const SceneBuilder& builder) {
+    return builder.shape_count();
+}
+std::size_t count_in(const Group& group) {
+    return group.size();
+}
 
-    /// Calls call(builder) under the mutex and without Python's lock.
+/// Numbers of added objects: the first one, and one past the last. Those of shapes in a scene are
+/// ids.
+using Range = std::pair<std::size_t, std::size_t>;
+
+/// A SceneBuilder or a Group with a mutex, for use by several Python threads.
+template <class To>
+struct Shared {
+    To to{};
+    std::mutex mutex{};
+
+    /// Calls call(to) under the mutex and without Python's lock.
     template <class Call>
     auto change(const Call& call) {
         const py::gil_scoped_release free;
         const std::lock_guard lock(mutex);
-        return call(builder);
+        return call(to);
+    }
+    /// Calls add(to) as change() does. Returns the numbers of the added objects.
+    template <class Add>
+    py::tuple numbers(const Add& add) {
+        const Range range = change([&](To& all) {
+            const std::size_t first = count_in(all);
+            add(all);
+            return Range(first, count_in(all));
+        });
+        return py::make_tuple(range.first, range.second);
     }
 };
+using SharedBuilder = Shared<SceneBuilder>;
+using SharedGroup = Shared<Group>;
+
+/// Returns the index of a material; None: no material.
+MaterialIndex material_or_none(const py::object& material) {
+    return material.is_none() ? no_material : one_material(material);
+}
 
 /// An argument of a function that adds shapes. `axes`: number of axes that a single shape's value
 /// has.
@@ -41,38 +73,31 @@ std::size_t count_of(std::initializer_list<Rowed> all) {
     return 1;
 }
 
-/// Ids of added shapes: the first one, and one past the last.
-using Ids = std::pair<ShapeId, std::size_t>;
-py::tuple told(const Ids& ids) {
-    return py::make_tuple(ids.first, ids.second);
-}
-
-/// Adds the shapes make(0), ..., make(count - 1) and returns their Ids as a tuple. In an
+/// Adds the shapes make(0), ..., make(count - 1) and returns their range as a tuple. In an
 /// InvalidValue the field begins with the number of the shape.
-template <class Make>
-py::tuple add_all(SharedBuilder& shared, std::size_t count, const py::object& material,
+template <class To, class Make>
+py::tuple add_all(Shared<To>& shared, std::size_t count, const py::object& material,
                   const Make& make) {
-    constexpr auto most = std::numeric_limits<MaterialIndex>::max();
-    const Values<MaterialIndex> materials(whole_numbers(material, "material", most), count,
-                                          "material");
-    return told(shared.change([&](SceneBuilder& builder) {
-        const auto first = static_cast<ShapeId>(builder.shape_count());
+    const py::object given = material.is_none()
+                                 ? py::int_(no_material)
+                                 : whole_numbers(material, "material", no_material - 1);
+    const Values<MaterialIndex> materials(given, count, "material");
+    return shared.numbers([&](To& to) {
         for (std::size_t i = 0; i < count; ++i) {
             try {
-                builder.add(make(i), materials[i]);
+                to.add(make(i), materials[i]);
             } catch (const InvalidValue& error) {
                 throw InvalidValue(std::to_string(i) + (error.field.empty() ? "" : "/") +
                                        error.field,
                                    error.expectation);
             }
         }
-        return Ids(first, builder.shape_count());
-    }));
+    });
 }
 
-MaterialIndex added(SceneBuilder& builder, const Material& material) {
+MaterialIndex added(SceneBuilder& builder, const Material& material, const std::string& name) {
     try {
-        return builder.add_material(material);
+        return builder.add_material(material, name);
     } catch (const InvalidValue& error) {
         constexpr std::string_view only =
             "pattern/colors/0"; // a single colour instead of a pattern
@@ -88,7 +113,8 @@ py::tuple by_type(const Call& call, const Arrays&... arrays) {
                                      : call(std::type_identity<double>());
 }
 
-py::tuple add_spheres(SharedBuilder& builder, const py::object& centers, const py::object& radii,
+template <class To>
+py::tuple add_spheres(Shared<To>& builder, const py::object& centers, const py::object& radii,
                       const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
@@ -102,7 +128,8 @@ py::tuple add_spheres(SharedBuilder& builder, const py::object& centers, const p
         },
         centers, radii);
 }
-py::tuple add_ellipsoids(SharedBuilder& builder, const py::object& centers, const py::object& axes,
+template <class To>
+py::tuple add_ellipsoids(Shared<To>& builder, const py::object& centers, const py::object& axes,
                          const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
@@ -116,7 +143,8 @@ py::tuple add_ellipsoids(SharedBuilder& builder, const py::object& centers, cons
         },
         centers, axes);
 }
-py::tuple add_planes(SharedBuilder& builder, const py::object& points, const py::object& normals,
+template <class To>
+py::tuple add_planes(Shared<To>& builder, const py::object& points, const py::object& normals,
                      const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
@@ -129,7 +157,8 @@ py::tuple add_planes(SharedBuilder& builder, const py::object& points, const py:
         },
         points, normals);
 }
-py::tuple add_discs(SharedBuilder& builder, const py::object& centers, const py::object& normals,
+template <class To>
+py::tuple add_discs(Shared<To>& builder, const py::object& centers, const py::object& normals,
                     const py::object& radii, const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
@@ -144,8 +173,9 @@ py::tuple add_discs(SharedBuilder& builder, const py::object& centers, const py:
         },
         centers, normals, radii);
 }
-py::tuple add_triangles(SharedBuilder& builder, const py::object& corners,
-                        const py::object& normals, const py::object& material, bool polygon) {
+template <class To>
+py::tuple add_triangles(Shared<To>& builder, const py::object& corners, const py::object& normals,
+                        const py::object& material, bool polygon) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
             const std::size_t count = count_of({{corners, 2, "corners"}});
@@ -154,15 +184,17 @@ py::tuple add_triangles(SharedBuilder& builder, const py::object& corners,
                 return TriangleOf<T>{corner.vector(i, 0), corner.vector(i, 3), corner.vector(i, 6)};
             };
             const auto add = [&](const auto& make) {
-                if (!polygon) return add_all(builder, count, material, make);
-                const MaterialIndex of = one_material(material);
-                return told(builder.change([&](SceneBuilder& to) {
-                    std::vector<decltype(make(0))> all;
-                    for (std::size_t i = 0; i < count; ++i)
-                        all.push_back(make(i));
-                    const ShapeId first = to.add_polygon(all, of);
-                    return Ids(first, to.shape_count());
-                }));
+                if constexpr (std::is_same_v<To, SceneBuilder>)
+                    if (polygon) {
+                        const MaterialIndex of = material_or_none(material);
+                        return builder.numbers([&](SceneBuilder& to) {
+                            std::vector<decltype(make(0))> all;
+                            for (std::size_t i = 0; i < count; ++i)
+                                all.push_back(make(i));
+                            to.add_polygon(all, of);
+                        });
+                    }
+                return add_all(builder, count, material, make);
             };
             if (normals.is_none()) return add(flat);
             const Rows<T> normal(normals, {3, 3}, "normals", count);
@@ -178,7 +210,8 @@ py::tuple add_triangles(SharedBuilder& builder, const py::object& corners,
         },
         corners, normals);
 }
-py::tuple add_boxes(SharedBuilder& builder, const py::object& corners, const py::object& edges,
+template <class To>
+py::tuple add_boxes(Shared<To>& builder, const py::object& corners, const py::object& edges,
                     const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
@@ -192,7 +225,8 @@ py::tuple add_boxes(SharedBuilder& builder, const py::object& corners, const py:
         },
         corners, edges);
 }
-py::tuple add_cylinders(SharedBuilder& builder, const py::object& bases, const py::object& axes,
+template <class To>
+py::tuple add_cylinders(Shared<To>& builder, const py::object& bases, const py::object& axes,
                         const py::object& radii, const py::object& material,
                         const py::object& with_caps) {
     const bool caps = bool_from(with_caps, "caps");
@@ -213,7 +247,8 @@ py::tuple add_cylinders(SharedBuilder& builder, const py::object& bases, const p
         },
         bases, axes, radii);
 }
-py::tuple add_cones(SharedBuilder& builder, const py::object& bases, const py::object& axes,
+template <class To>
+py::tuple add_cones(Shared<To>& builder, const py::object& bases, const py::object& axes,
                     const py::object& base_radii, const py::object& top_radii,
                     const py::object& material, const py::object& with_caps) {
     const bool caps = bool_from(with_caps, "caps");
@@ -237,7 +272,8 @@ py::tuple add_cones(SharedBuilder& builder, const py::object& bases, const py::o
         },
         bases, axes, base_radii, top_radii);
 }
-py::tuple add_quadrics(SharedBuilder& builder, const py::object& centers,
+template <class To>
+py::tuple add_quadrics(Shared<To>& builder, const py::object& centers,
                        const py::object& coefficients, const py::object& lower,
                        const py::object& upper, const py::object& material) {
     return by_type(
@@ -275,12 +311,19 @@ class Surroundings {
   public:
     Surroundings(const py::object& camera, const py::object& background, const py::object& fog,
                  const py::object& settings, const py::object& wavelengths)
-        : camera_(camera.is_none() ? Camera() : camera_from(camera)),
+        : auto_camera_(auto_camera_from(camera)),
+          camera_(camera.is_none() || auto_camera_ ? Camera() : camera_from(camera)),
           background_(color_from(background, "background")), fog_(fog_from(fog)),
           settings_(settings_from(settings)), wavelengths_(wavelengths_from(wavelengths)) {}
 
+    void check() const {
+        SceneBuilder builder;
+        builder.add(Sphere{{}, 1.0F}); // an automatic camera needs a shape
+        static_cast<void>(built(builder));
+    }
     Scene built(SceneBuilder& builder) const {
         builder.camera = camera_;
+        builder.auto_camera = auto_camera_;
         builder.background = background_;
         builder.fog = fog_;
         builder.settings = settings_;
@@ -289,6 +332,7 @@ class Surroundings {
     }
 
   private:
+    std::optional<AutoCamera> auto_camera_;
     Camera camera_;
     Color background_;
     Fog fog_;
@@ -296,50 +340,115 @@ class Surroundings {
     std::vector<double> wavelengths_;
 };
 
+template <class To>
+py::tuple add_solid(Shared<To>& shared, const Solid& solid, const py::object& material) {
+    const MaterialIndex of = material_or_none(material);
+    return shared.numbers([&](To& to) { to.add(solid, of); });
+}
+
+template <class To>
+py::tuple add_group(Shared<To>& shared, SharedGroup& group, const py::object& material) {
+    const MaterialIndex of = material_or_none(material);
+    const Group members = group.change([](const Group& all) { return all; });
+    return shared.numbers([&](To& to) { to.add(members, of); });
+}
+
+py::tuple add_sphereflake(SharedBuilder& builder, const py::object& center,
+                          const py::object& radius, const py::object& depth, const py::object& up,
+                          const py::object& material) {
+    const Sphereflake flake{vector_from(center, "center"), number_from(radius, "radius"),
+                            int_from(depth, "depth"), vector_from(up, "up")};
+    const MaterialIndex of = material_or_none(material);
+    return builder.numbers([&](SceneBuilder& to) { to.add(flake, of); });
+}
+
+py::tuple add_lattice(SharedBuilder& builder, const py::object& n, const py::object& spacing,
+                      const py::object& sphere_radius, const py::object& strut_radius,
+                      const py::object& corner, const py::object& center,
+                      const py::object& material, const py::object& strut_material) {
+    if (corner.is_none() == center.is_none())
+        throw InvalidValue("corner", "must be given, or center, but not both");
+    Lattice lattice{{},
+                    int_from(n, "n"),
+                    number_from(spacing, "spacing"),
+                    number_from(sphere_radius, "sphere_radius"),
+                    number_from(strut_radius, "strut_radius")};
+    const char* const place = corner.is_none() ? "center" : "corner";
+    const Rows<double> at(corner.is_none() ? center : corner, {3}, place, 1);
+    lattice.corner = at.vector(0);
+    if (corner.is_none()) lattice = centered_at(lattice, at.vector(0));
+    const MaterialIndex of = material_or_none(material),
+                        of_struts = material_or_none(strut_material);
+    return builder.numbers([&](SceneBuilder& to) { to.add(lattice, of, of_struts); });
+}
+
+/// Binds the functions that add objects to a builder or to a group.
+template <class To>
+void bind_adding(py::class_<Shared<To>>& shared) {
+    shared.def(py::init())
+        .def("add_solid", &add_solid<To>)
+        .def("add_group", &add_group<To>)
+        .def("add_spheres", &add_spheres<To>)
+        .def("add_ellipsoids", &add_ellipsoids<To>)
+        .def("add_planes", &add_planes<To>)
+        .def("add_discs", &add_discs<To>)
+        .def("add_triangles", &add_triangles<To>)
+        .def("add_boxes", &add_boxes<To>)
+        .def("add_cylinders", &add_cylinders<To>)
+        .def("add_cones", &add_cones<To>)
+        .def("add_quadrics", &add_quadrics<To>)
+        .def("count",
+             [](Shared<To>& of) { return of.change([](const To& to) { return count_in(to); }); });
+}
+
 } // namespace
 
 void bind_builder(py::module_& module) {
-    py::class_<SharedBuilder>(module, "Builder")
-        .def(py::init())
+    py::class_<SharedGroup> group(module, "Group");
+    py::class_<SharedBuilder> builder(module, "Builder");
+    bind_adding(group);
+    bind_adding(builder);
+    group
+        .def("of",
+             [](SharedGroup& of, const py::object& material) {
+                 const MaterialIndex index = one_material(material);
+                 return of.change([&](const Group& all) {
+                     return std::unique_ptr<SharedGroup>(new SharedGroup{all.of(index)});
+                 });
+             })
+        .def("transformed",
+             [](SharedGroup& of, const Transform& transform) {
+                 return of.change([&](const Group& all) {
+                     return std::unique_ptr<SharedGroup>(
+                         new SharedGroup{all.transformed(transform)});
+                 });
+             })
+        .def("solid", [](SharedGroup& of) {
+            return of.change([](const Group& all) { return solid_of(all); });
+        });
+    builder
         .def("add_material",
-             [](SharedBuilder& builder, const py::object& material) {
+             [](SharedBuilder& to, const py::object& material, const std::string& name) {
                  const Material value = material_from(material);
-                 return builder.change([&](SceneBuilder& to) { return added(to, value); });
+                 return to.change([&](SceneBuilder& all) { return added(all, value, name); });
              })
+        .def("add_sphereflake", &add_sphereflake)
+        .def("add_lattice", &add_lattice)
         .def("add_light",
-             [](SharedBuilder& builder, const py::object& light) {
+             [](SharedBuilder& to, const py::object& light) {
                  const Light value = light_from(light);
-                 builder.change([&](SceneBuilder& to) { to.add_light(value); });
-             })
-        .def("add_solid",
-             [](SharedBuilder& builder, const Solid& solid, const py::object& material) {
-                 const MaterialIndex of = one_material(material);
-                 return told(builder.change([&](SceneBuilder& to) {
-                     const ShapeId first = to.add(solid, of);
-                     return Ids(first, to.shape_count());
-                 }));
-             })
-        .def("add_spheres", &add_spheres)
-        .def("add_ellipsoids", &add_ellipsoids)
-        .def("add_planes", &add_planes)
-        .def("add_discs", &add_discs)
-        .def("add_triangles", &add_triangles)
-        .def("add_boxes", &add_boxes)
-        .def("add_cylinders", &add_cylinders)
-        .def("add_cones", &add_cones)
-        .def("add_quadrics", &add_quadrics)
-        .def("shape_count",
-             [](SharedBuilder& builder) {
-                 return builder.change([](const SceneBuilder& of) { return of.shape_count(); });
+                 to.change([&](SceneBuilder& all) { all.add_light(value); });
              })
         .def("build",
-             [](SharedBuilder& builder, const py::object& camera, const py::object& background,
+             [](SharedBuilder& of, const py::object& camera, const py::object& background,
                 const py::object& fog, const py::object& settings, const py::object& wavelengths,
-                const py::object& merge_duplicates) {
+                const py::object& merge_duplicates, const py::object& camera_lights) {
                  const Surroundings around(camera, background, fog, settings, wavelengths);
                  const bool merge = bool_from(merge_duplicates, "merge_duplicates");
-                 return builder.change([&](SceneBuilder& whole) {
+                 const bool lights = bool_from(camera_lights, "camera_lights");
+                 return of.change([&](SceneBuilder& whole) {
                      whole.merge_duplicates = merge;
+                     whole.camera_lights = lights;
                      return around.built(whole);
                  });
              });
@@ -349,8 +458,7 @@ void bind_builder(py::module_& module) {
                   const py::object& settings, const py::object& wavelengths) {
                    const Surroundings around(camera, background, fog, settings, wavelengths);
                    const py::gil_scoped_release free;
-                   SceneBuilder empty;
-                   static_cast<void>(around.built(empty));
+                   around.check();
                });
 }
 

@@ -181,6 +181,10 @@ void bind_scene(py::module_& module) {
                      throw InvalidValue("index", error.expectation);
                  }
              })
+        .def("material_name",
+             [](const Scene& scene, const py::object& index) {
+                 return scene.material_name(one_material(index, "index"));
+             })
         .def("lights",
              [](const Scene& scene) {
                  py::list all;
@@ -211,6 +215,10 @@ void bind_scene(py::module_& module) {
         const py::gil_scoped_release free;
         return raylane::parse_atoms(view, name, show_cell);
     });
+    module.def("material_preset",
+               [](const std::string& name) { return to_python(material_preset(name)); });
+    module.def("catalogue_glass",
+               [](const std::string& name) { return to_python(catalogue_glass(name)); });
     module.def("save", [](const Scene& scene, const std::filesystem::path& path,
                           const py::object& on_remark) {
         const OnRemark remarks = remarks_to(on_remark);

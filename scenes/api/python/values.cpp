@@ -105,6 +105,15 @@ void take(const py::handle& from, const std::string& field, Vec3& to) {
     const auto [x, y, z] = three<float>(from, field);
     to = {x, y, z};
 }
+/// Reads three numbers, or a text such as "#ff8000".
+void take_color(const py::handle& from, const std::string& field, Color& to) {
+    if (PyUnicode_Check(from.ptr()) == 0) return take(from, field, to);
+    try {
+        to = color_from_srgb(py::cast<std::string>(from));
+    } catch (const InvalidValue& error) {
+        throw InvalidValue(field, error.expectation);
+    }
+}
 void take(const py::handle& from, const std::string& field, std::array<double, 3>& to) {
     to = three<double>(from, field);
 }
@@ -119,8 +128,12 @@ void take_axes(const py::handle& from, const std::string& field, int first_bit, 
 
 template <class Value>
 void take_fields(const py::handle& from, const std::string& prefix, Value& to);
+/// Reads a glass: its coefficients, or its name in the catalogue.
 void take(const py::handle& from, const std::string& field, Sellmeier& to) {
-    take_fields(from, field + "/", to);
+    if (PyUnicode_Check(from.ptr()) != 0)
+        to = catalogue_glass(py::cast<std::string>(from));
+    else
+        take_fields(from, field + "/", to);
 }
 void take(const py::handle& from, const std::string& field, Outline& to) {
     take_fields(from, field + "/", to);
@@ -133,15 +146,15 @@ void take(const py::handle& from, const std::string& field, Color (&to)[2]) {
         const py::error_already_set&) { // not a sequence: rejected below like one of a wrong length
     }
     if (both.size() != 2) throw InvalidValue(field, "must be two colours");
-    take(both[0], field + "/0", to[0]);
-    take(both[1], field + "/1", to[1]);
+    take_color(both[0], field + "/0", to[0]);
+    take_color(both[1], field + "/1", to[1]);
 }
 /// Reads a material's colour: a single colour or a pattern.
 void take(const py::handle& from, const std::string& field, Pattern& to) {
     if (py::hasattr(from, "kind"))
         take_fields(from, field + "/", to);
     else
-        take(from, field, to.colors[0]);
+        take_color(from, field, to.colors[0]);
 }
 template <class Value>
 void take_fields(const py::handle& from, const std::string& prefix, Value& to) {
@@ -155,6 +168,8 @@ void take_fields(const py::handle& from, const std::string& prefix, Value& to) {
                 member = enum_from<Member>(value, name, field.valid.words);
             else if constexpr (std::is_same_v<Member, std::uint8_t>)
                 take_axes(value, name, field.spelling.first_bit, member);
+            else if constexpr (std::is_same_v<Member, Color>)
+                field.valid.is_color ? take_color(value, name, member) : take(value, name, member);
             else
                 take(value, name, member);
         },
@@ -251,6 +266,9 @@ InvalidValue named_as_in_python(const InvalidValue& error) {
         std::string_view word, other; // another field's name in the expectation
     };
     constexpr Renamed all[] = {
+        {"auto_camera/direction", "camera/view", "", ""},
+        {"auto_camera", "camera", "", ""},
+        {"view", "camera/view", "", ""},
         {"camera/from", "camera/position", "", ""},
         {"camera/at", "camera/at", "\"from\"", "\"position\""},
         {"pattern/from", "color/start", "", ""},
@@ -282,6 +300,25 @@ Fog fog_from(const py::handle& fog) {
 Camera camera_from(const py::handle& camera) {
     return value_from<Camera>(camera, "Camera", "camera");
 }
+std::optional<AutoCamera> auto_camera_from(const py::handle& camera) {
+    if (!py::hasattr(camera, "view")) return std::nullopt;
+    const py::object view = camera.attr("view"), up = camera.attr("up");
+    AutoCamera result;
+    if (PyUnicode_Check(view.ptr()) != 0)
+        result = named_view(py::cast<std::string>(view));
+    else
+        take(view, "camera/view", result.direction);
+    if (!up.is_none()) {
+        take(up, "camera/up", result.up);
+        if (result.up == Vec3()) throw InvalidValue("camera/up", "must not be the zero vector");
+    }
+    result.projection = enum_from<Projection>(camera.attr("projection"), "camera/projection",
+                                              core::fields::projection_words);
+    take(camera.attr("field_of_view"), "camera/field_of_view", result.field_of_view);
+    take(camera.attr("zoom"), "camera/zoom", result.zoom);
+    take(camera.attr("depth_cue"), "camera/depth_cue", result.depth_cue);
+    return result;
+}
 Settings settings_from(const py::handle& settings) {
     return value_from<Settings>(settings, "Settings", "settings");
 }
@@ -296,7 +333,12 @@ std::vector<double> wavelengths_from(const py::handle& wavelengths) {
 }
 Color color_from(const py::handle& color, const std::string& field) {
     Color result;
-    take(color, field, result);
+    take_color(color, field, result);
+    return result;
+}
+Vec3 vector_from(const py::handle& vector, const std::string& field) {
+    Vec3 result;
+    take(vector, field, result);
     return result;
 }
 float number_from(const py::handle& number, const std::string& field) {
@@ -334,6 +376,9 @@ MaterialIndex one_material(const py::object& index, const char* field) {
 
 py::object to_python(const Material& material) {
     return give_fields("Material", material);
+}
+py::object to_python(const Sellmeier& glass) {
+    return give(glass);
 }
 py::object to_python(const Light& light) {
     return give_fields("Light", light);

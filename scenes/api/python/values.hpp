@@ -2,6 +2,8 @@
 
 #include "arrays.hpp"
 
+#include <optional>
+
 /// Conversions between the values of a scene and Python's dataclasses of the same names
 /// (raylane/_values.py).
 namespace raylane::python {
@@ -13,9 +15,12 @@ Light light_from(const py::handle& light);
 /// the camera and the settings.
 Fog fog_from(const py::handle& fog);
 Camera camera_from(const py::handle& camera);
+/// Returns nothing if the object is not an AutoCamera.
+std::optional<AutoCamera> auto_camera_from(const py::handle& camera);
 Settings settings_from(const py::handle& settings);
 std::vector<double> wavelengths_from(const py::handle& wavelengths);
 Color color_from(const py::handle& color, const std::string& field);
+Vec3 vector_from(const py::handle& vector, const std::string& field);
 float number_from(const py::handle& number, const std::string& field);
 int int_from(const py::handle& number, const std::string& field);
 bool bool_from(const py::handle& value, const std::string& field);
@@ -29,6 +34,7 @@ MaterialIndex one_material(const py::object& index, const char* field = "materia
 InvalidValue named_as_in_python(const InvalidValue& error);
 
 py::object to_python(const Material& material);
+py::object to_python(const Sellmeier& glass);
 py::object to_python(const Light& light);
 py::object to_python(const Fog& fog);
 py::object to_python(const Camera& camera);

@@ -11,22 +11,26 @@ import sys as _sys
 
 from ._atoms import frames, from_ase, from_atoms, from_mdanalysis, from_mdtraj
 from ._errors import BadInput, InputError, InvalidValue, SystemRefused
+from ._group import Group
 from ._image import Cancelled, Image, Layers, imshow, render
 from ._orbit import orbit
 from ._raylane import version as __version__
-from ._scene import Scene, SceneBuilder, Solid, load, parse
+from ._scene import Scene, SceneBuilder, load, parse
 from ._shapes import Shapes
+from ._solids import Solid, Transform
 from ._tracer import NO_SHAPE, Cells, Crossings, Hits, Leaving, Lengths, SolidLengths, Solids, Tracer
-from ._values import Camera, Fog, Light, Material, Outline, Pattern, Sellmeier, Settings
+from ._values import AutoCamera, Camera, Fog, Light, Material, Outline, Pattern, Sellmeier, Settings
 
 __all__ = [
     "NO_SHAPE",
+    "AutoCamera",
     "BadInput",
     "Camera",
     "Cancelled",
     "Cells",
     "Crossings",
     "Fog",
+    "Group",
     "Hits",
     "Image",
     "InputError",
@@ -48,6 +52,7 @@ __all__ = [
     "Solids",
     "SystemRefused",
     "Tracer",
+    "Transform",
     "__version__",
     "frames",
     "from_ase",

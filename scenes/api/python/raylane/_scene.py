@@ -5,17 +5,17 @@ from __future__ import annotations
 import os
 import tempfile
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, List, Optional, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
+from ._adding import Adding
 from ._errors import BadInput, InvalidValue
-from ._fields import Fields
 from ._renamed import ids_in
 from ._shapes import Shapes
-from ._values import Camera, Fog, Light, Material, Settings, Vector
+from ._values import AutoCamera, Camera, Color, Fog, Light, Material, Settings, Vector
 
 if TYPE_CHECKING:
     from ._image import Image
@@ -124,7 +124,12 @@ class Scene:
         return Shapes(kind, *self._scene.shapes(kind))
 
     def material(self, index: int) -> Material:
+        """Returns a material by its index. Raises :class:`InvalidValue` if the scene has no such material."""
         return self._scene.material(index)
+
+    def material_name(self, index: int) -> str:
+        """Returns the name that a material has in its file, or that its builder was given; empty if it has none."""
+        return self._scene.material_name(index)
 
     @property
     def materials(self) -> List[Material]:
@@ -238,103 +243,13 @@ def inner(scene: Scene) -> _raylane.Scene:
     return scene._scene
 
 
-class Solid:
-    """A constructed solid. The operators ``|`` (union), ``&`` (intersection) and ``-`` (difference) combine solids.
-
-    Solids nest up to 1024 levels deep. ``material`` is a material index; None takes the material of the solid or
-    scene object that this solid becomes a part of.
-
-    >>> bowl = Solid.sphere((0, 0, 0), 1) - Solid.sphere((0, 0, 0), 0.9) - Solid.half_space((0, 0, 0), (0, -1, 0))
-    """
-
-    def __init__(self, solid: _raylane.Solid) -> None:
-        self._solid = solid
-
-    @staticmethod
-    def sphere(center: ArrayLike, radius: float, material: Optional[int] = None) -> Solid:
-        return Solid(_raylane.sphere_solid(center, radius, material))
-
-    @staticmethod
-    def half_space(point: ArrayLike, normal: ArrayLike, material: Optional[int] = None) -> Solid:
-        """Returns the half-space behind a plane. The normal points away from the half-space."""
-        return Solid(_raylane.half_space_solid(point, normal, material))
-
-    @staticmethod
-    def box(corner: ArrayLike, edges: ArrayLike, material: Optional[int] = None) -> Solid:
-        """Returns a parallelepiped. ``edges``: (3, 3), with the edges from the corner as rows."""
-        return Solid(_raylane.box_solid(corner, edges, material))
-
-    @staticmethod
-    def ellipsoid(center: ArrayLike, axes: ArrayLike, material: Optional[int] = None) -> Solid:
-        """Returns an ellipsoid. ``axes``: (3, 3), with the semi-axes as rows."""
-        return Solid(_raylane.ellipsoid_solid(center, axes, material))
-
-    @staticmethod
-    def cylinder(base: ArrayLike, axis: ArrayLike, radius: float, material: Optional[int] = None) -> Solid:
-        return Solid(_raylane.cylinder_solid(base, axis, radius, material))
-
-    @staticmethod
-    def cone(
-        base: ArrayLike, axis: ArrayLike, base_radius: float, top_radius: float = 0.0, material: Optional[int] = None
-    ) -> Solid:
-        return Solid(_raylane.cone_solid(base, axis, base_radius, top_radius, material))
-
-    @staticmethod
-    def lens(
-        vertex: ArrayLike,
-        axis: ArrayLike,
-        radii: Tuple[float, float],
-        thickness: float,
-        radius: float,
-        conics: Tuple[float, float] = (0.0, 0.0),
-        material: Optional[int] = None,
-    ) -> Solid:
-        """Returns a lens: the solid between two surfaces of revolution, inside of a cylinder of the given radius.
-
-        ``vertex``: vertex of the first surface. ``axis``: from there to the second vertex, of any length except zero.
-        ``radii``: radii of curvature, positive if the centre of curvature lies behind the surface in the direction of
-        the axis; 0 is flat. ``thickness``: distance between the vertices. ``conics``: conic constants; 0 is a sphere.
-        Raises :class:`InvalidValue` if the surfaces meet inside of the cylinder or do not reach it.
-        """
-        return Solid(_raylane.lens_solid(vertex, axis, radii, conics, thickness, radius, material))
-
-    def of(self, material: int) -> Solid:
-        """Returns this solid with the given material. Parts that have their own material keep it."""
-        return Solid(self._solid.of(material))
-
-    def clipped(self, *by: Solid) -> Solid:
-        """Returns the part of this solid's surface inside of all other solids. The cuts stay open, without faces."""
-        return Solid(_raylane.clipped(self._solid, [_made(each) for each in by]))
-
-    def __or__(self, other: Solid) -> Solid:
-        if not isinstance(other, Solid):
-            return NotImplemented
-        return Solid(_raylane.union_of([self._solid, other._solid]))
-
-    def __and__(self, other: Solid) -> Solid:
-        if not isinstance(other, Solid):
-            return NotImplemented
-        return Solid(_raylane.intersection_of([self._solid, other._solid]))
-
-    def __sub__(self, other: Solid) -> Solid:
-        if not isinstance(other, Solid):
-            return NotImplemented
-        return Solid(_raylane.difference_of(self._solid, [other._solid]))
-
-
-def _made(solid: Solid) -> _raylane.Solid:
-    """Returns the compiled object of a solid. Raises TypeError for any other object."""
-    if not isinstance(solid, Solid):
-        raise TypeError(f"must be a raylane.Solid, not {type(solid).__name__}")
-    return solid._solid
-
-
-class SceneBuilder(Fields):
+class SceneBuilder(Adding):
     """Builds a scene from arrays, which are added in any order, and checks each value as it is added.
 
     An array has one row per shape; a single row or number applies to all shapes. Any strides are allowed. If all
     arrays are float32, the shapes are stored in float, otherwise in double. ``material``: an index, or an array with
-    one index per shape. Methods that add shapes return the range of the new ids: 0, 1, 2, ... in the order in which
+    one index per shape. Objects without a material have the default one, ``Material()``, which gets an index when it is
+    first used. Methods that add shapes return the range of the new ids: 0, 1, 2, ... in the order in which
     shapes are added. They raise :class:`InvalidValue` for an invalid shape; its field gives the number of the shape,
     and the shapes before it have been added. Lengths are in the scene's unit.
 
@@ -346,10 +261,14 @@ class SceneBuilder(Fields):
     >>> scene = builder.build()
     """
 
-    camera: Optional[Camera]
-    """None: a camera that shows all shapes from the front, or ``Camera()`` if there are only planes, or if the shapes
-    extend too far for such a camera."""
-    background: Vector
+    camera: Union[Camera, AutoCamera, None]
+    """An :class:`AutoCamera` is placed by :meth:`build`. None: a camera that shows all shapes from the front, or
+    ``Camera()`` if there are only planes, or if the shapes extend too far for such a camera."""
+    camera_lights: bool
+    """True: :meth:`build` adds two lights after the others, which :meth:`Scene.seen_by` moves with the camera: a sky
+    whose zenith is upward in the image, and a lamp over the camera's left shoulder. A file with an automatic camera and
+    without a list of lights has them."""
+    background: Color
     fog: Fog
     settings: Settings
     wavelengths: List[float]
@@ -364,18 +283,22 @@ class SceneBuilder(Fields):
         self._renew()
 
     def _renew(self) -> None:
-        self._builder = _raylane.Builder()
+        self._to = self._builder = _raylane.Builder()
         self.camera = None
+        self.camera_lights = False
         self.background = (0.0, 0.0, 0.0)
         self.fog = Fog()
         self.settings = Settings()
         self.wavelengths = []
 
-    def add_material(self, material: Optional[Material] = None, **fields: Any) -> int:
-        """Adds a :class:`Material`, or ``Material(**fields)``. Returns the index by which shapes refer to it."""
+    def add_material(self, material: Optional[Material] = None, *, name: str = "", **fields: Any) -> int:
+        """Adds a :class:`Material`, or ``Material(**fields)``. Returns the index by which shapes refer to it.
+
+        :meth:`Scene.save` writes the name. Several materials may have one name.
+        """
         if material is not None and fields:
             raise TypeError("add_material takes a Material, or fields of one")
-        return self._builder.add_material(Material(**fields) if material is None else material)
+        return self._builder.add_material(Material(**fields) if material is None else material, name)
 
     def add_light(self, light: Optional[Light] = None, **fields: Any) -> None:
         """Adds a :class:`Light`, or ``Light(**fields)``."""
@@ -383,29 +306,9 @@ class SceneBuilder(Fields):
             raise TypeError("add_light takes a Light, or fields of one")
         self._builder.add_light(Light(**fields) if light is None else light)
 
-    def add_spheres(self, centers: ArrayLike, radii: ArrayLike, *, material: ArrayLike) -> range:
-        """Adds spheres. ``centers``: (n, 3). ``radii``: (n,), > 0."""
-        return range(*self._builder.add_spheres(centers, radii, material))
-
-    def add_ellipsoids(self, centers: ArrayLike, axes: ArrayLike, *, material: ArrayLike) -> range:
-        """Adds solid ellipsoids. ``centers``: (n, 3). ``axes``: (n, 3, 3), semi-axes as rows, perpendicular or not."""
-        return range(*self._builder.add_ellipsoids(centers, axes, material))
-
-    def add_planes(self, points: ArrayLike, normals: ArrayLike, *, material: ArrayLike) -> range:
-        """Adds unbounded planes. ``points``: (n, 3). ``normals``: (n, 3), of any length except zero."""
-        return range(*self._builder.add_planes(points, normals, material))
-
-    def add_discs(self, centers: ArrayLike, normals: ArrayLike, radii: ArrayLike, *, material: ArrayLike) -> range:
-        """Adds discs. ``centers``: (n, 3). ``normals``: (n, 3), of any length except zero. ``radii``: (n,), > 0."""
-        return range(*self._builder.add_discs(centers, normals, radii, material))
-
-    def add_triangles(
-        self, corners: ArrayLike, *, material: ArrayLike, normals: Optional[ArrayLike] = None
+    def add_polygon(
+        self, corners: ArrayLike, *, material: Optional[int] = None, normals: Optional[ArrayLike] = None
     ) -> range:
-        """Adds triangles. ``corners``: (n, 3, 3), corners as rows. ``normals``: shading normals, (n, 3, 3), or None."""
-        return range(*self._builder.add_triangles(corners, normals, material, False))
-
-    def add_polygon(self, corners: ArrayLike, *, material: int, normals: Optional[ArrayLike] = None) -> range:
         """Adds triangles that tile one flat polygon. No reflection or shadow of one falls on another.
 
         ``corners``: (n, 3, 3), corners as rows. ``normals``: shading normals, (n, 3, 3), or None. If a triangle is
@@ -414,65 +317,46 @@ class SceneBuilder(Fields):
         """
         return range(*self._builder.add_triangles(corners, normals, material, True))
 
-    def add_boxes(self, corners: ArrayLike, edges: ArrayLike, *, material: ArrayLike) -> range:
-        """Adds solid parallelepipeds. ``corners``: (n, 3). ``edges``: (n, 3, 3), the edges from the corner as rows."""
-        return range(*self._builder.add_boxes(corners, edges, material))
-
-    def add_cylinders(
-        self, bases: ArrayLike, axes: ArrayLike, radii: ArrayLike, *, material: ArrayLike, caps: bool = True
-    ) -> range:
-        """Adds cylinders from a base along an axis: solids with ``caps``, otherwise open surfaces.
-
-        ``bases``: (n, 3). ``axes``: (n, 3), from the base to the top. ``radii``: (n,), > 0.
-        """
-        return range(*self._builder.add_cylinders(bases, axes, radii, material, caps))
-
-    def add_cones(
+    def add_sphereflake(
         self,
-        bases: ArrayLike,
-        axes: ArrayLike,
-        base_radii: ArrayLike,
-        top_radii: ArrayLike = 0.0,
+        center: ArrayLike,
+        radius: float,
+        depth: int,
+        up: ArrayLike = (0.0, 0.0, 1.0),
         *,
-        material: ArrayLike,
-        caps: bool = True,
+        material: Optional[int] = None,
     ) -> range:
-        """Adds cones and frusta: solids with ``caps``, otherwise open surfaces.
+        """Adds a sphere with nine spheres of a third of its radius around it, each of which has nine again, and so on.
 
-        ``bases``: (n, 3). ``axes``: (n, 3), from the base to the top. ``base_radii`` and ``top_radii``: (n,), >= 0, not
-        both 0.
+        ``depth``: 0 to 8, for 1, 10, 91, 820, ..., 48427561 spheres. ``up``: direction of the first three of the nine,
+        of any length except zero. Numbers are rounded to float32.
         """
-        return range(*self._builder.add_cones(bases, axes, base_radii, top_radii, material, caps))
+        return range(*self._builder.add_sphereflake(center, radius, depth, up, material))
 
-    def add_quadrics(
-        self, centers: ArrayLike, coefficients: ArrayLike, lower: ArrayLike, upper: ArrayLike, *, material: ArrayLike
+    def add_lattice(
+        self,
+        n: int,
+        spacing: float,
+        sphere_radius: float,
+        strut_radius: float,
+        *,
+        corner: Optional[ArrayLike] = None,
+        center: Optional[ArrayLike] = None,
+        material: Optional[int] = None,
+        strut_material: Optional[int] = None,
     ) -> range:
-        """Adds quadrics: the surfaces Q(p) = 0 for lower <= p <= upper, p = x - center.
+        """Adds a cubic grid of n^3 spheres, followed by the 3 n^2 (n - 1) open cylinders between neighbours.
 
-        ``centers``, ``lower`` and ``upper``: (n, 3). ``coefficients``: (n, 10), in the order xx, yy, zz, xy, xz, yz,
-        x, y, z, one, of
-        Q = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz) + 2 (x px + y py + z pz) + one.
+        ``n``: nodes per side, 1 to 256. ``spacing`` (between neighbours) and radii: > 0, rounded to float32. Give
+        either ``corner``, the node with the smallest coordinates, or ``center``, that of all nodes. ``strut_material``:
+        of the cylinders; default: that of the spheres.
         """
-        return range(*self._builder.add_quadrics(centers, coefficients, lower, upper, material))
-
-    def add(self, shapes: Shapes) -> range:
-        """Adds shapes that a scene gave back, such as ``scene.spheres()`` or ``scene.shape(id)``.
-
-        Their materials have the indices that they had in that scene.
-        """
-        if not isinstance(shapes, Shapes):
-            raise TypeError(f"must be a raylane.Shapes, not {type(shapes).__name__}")
-        return shapes._add_to(self)
-
-    def add_solid(self, solid: Solid, *, material: int) -> range:
-        """Adds a constructed solid. Returns the ids of its parts; the first one is also the id of the solid.
-
-        ``material`` applies to parts without a material, and to the inside of the solid if that has none.
-        """
-        return range(*self._builder.add_solid(_made(solid), material))
+        return range(
+            *self._builder.add_lattice(n, spacing, sphere_radius, strut_radius, corner, center, material, strut_material)
+        )
 
     def __len__(self) -> int:
-        return self._builder.shape_count()
+        return self._builder.count()
 
     def build(self) -> Scene:
         """Checks the scene as a whole and returns it. Leaves the builder empty.
@@ -484,9 +368,10 @@ class SceneBuilder(Fields):
         """
         builder, camera, settings = self._builder, self.camera, self.settings
         others = (self.background, self.fog, settings, self.wavelengths)
+        lights = self.camera_lights
         _raylane.check(camera, *others)
         self._renew()
-        scene = Scene(builder.build(camera, *others, self.merge_duplicates))
+        scene = Scene(builder.build(camera, *others, self.merge_duplicates, lights))
         if camera is not None or not np.all(np.less_equal(*scene.bounds)):
             return scene
         aspect = min(max(settings.width / settings.height, 1e-5), 1e5)

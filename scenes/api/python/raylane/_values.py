@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from typing import Literal, Tuple, Union
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,9 @@ from ._fields import Fields
 
 Vector = Tuple[float, float, float]
 """A point, a direction or a colour (red, green, blue): any three numbers."""
+
+Color = Union[Vector, str]
+"""A colour: linear red, green and blue, where 1 is white, or ``"#rrggbb"`` in sRGB."""
 
 Precision = Literal["fast", "robust", "exact", "double"]
 """Method by which hits are found. ``"exact"`` decides as real arithmetic does for the given numbers, and is hardly
@@ -28,7 +31,7 @@ class Pattern(Fields):
     """A colour as a function of the point in space, in world coordinates."""
 
     kind: Literal["solid", "checker", "stripes", "gradient", "back_plane"] = "solid"
-    colors: Tuple[Vector, Vector] = (_WHITE, _WHITE)
+    colors: Tuple[Color, Color] = (_WHITE, _WHITE)
     """Linear RGB, >= 0. solid: the first only. checker, stripes: alternating. gradient: at ``start`` and at ``end``."""
     size: float = 1.0
     """checker: edge length of a cell; stripes: width of a band. In units of length, > 0."""
@@ -52,6 +55,11 @@ class Sellmeier(Fields):
     B: Vector = _BLACK
     C: Vector = _BLACK
 
+    @classmethod
+    def catalogue(cls, name: str) -> Sellmeier:
+        """Returns a glass by its name, as :attr:`Material.glass` takes it."""
+        return _raylane.catalogue_glass(name)
+
 
 @dataclass
 class Material(Fields):
@@ -65,8 +73,8 @@ class Material(Fields):
     reflected fraction. ``ambient``, ``diffuse``, ``specular`` and ``exponent`` are >= 0.
     """
 
-    color: Union[Vector, Pattern] = _WHITE
-    """Linear RGB, >= 0, or a :class:`Pattern`."""
+    color: Union[Color, Pattern] = _WHITE
+    """Linear RGB, >= 0, ``"#rrggbb"``, or a :class:`Pattern`."""
     ambient: float = 0.1
     diffuse: float = 0.8
     specular: float = 0.0
@@ -80,14 +88,30 @@ class Material(Fields):
     """0 to 1, per crossed surface; 0 is opaque."""
     index: float = 1.5
     """Index of refraction, > 0; outside of all shapes it is 1."""
-    glass: Sellmeier = field(default_factory=Sellmeier)
-    """Replaces ``index`` if any B is nonzero."""
+    glass: Union[Sellmeier, str] = field(default_factory=Sellmeier)
+    """Replaces ``index`` if any B is nonzero. Also a name of the catalogue: ``"N-BK7"``, ``"N-K5"``, ``"N-BAK4"``,
+    ``"F2"``, ``"N-F2"``, ``"SF5"``, ``"N-SF5"``, ``"N-SF10"``, ``"N-SF11"``, ``"SF11"``, ``"fused silica"``,
+    ``"calcium fluoride"`` or ``"diamond"``."""
     absorption: Vector = _BLACK
     """Per unit of length inside, >= 0: the fraction exp(-absorption * length) of the light remains."""
     visible: Literal["both", "outside", "inside"] = "both"
     """Sides from which the surface is visible. Rays pass through the other side without a hit."""
     opacity: float = 1.0
     """0 to 1: weight of the surface's colour. The scene straight behind the surface has the weight 1 - opacity."""
+
+    @classmethod
+    def preset(cls, name: str, **fields: Any) -> Material:
+        """Returns a material that files know by name, with other values of some fields.
+
+        ``name``: ``"matte"`` (the same as ``Material()``), ``"plastic"``, ``"metal"``, ``"mirror"``, ``"glass"``,
+        ``"water"`` or ``"diamond"``. As in files, ``reflectivity`` also sets ``reflection`` to ``"constant"``.
+
+        >>> Material.preset("metal", color="#b87333").reflectivity
+        0.35
+        """
+        if "reflectivity" in fields:
+            fields.setdefault("reflection", "constant")
+        return replace(_raylane.material_preset(name), **fields)
 
 
 @dataclass
@@ -104,13 +128,13 @@ class Light(Fields):
     direction: Vector = (0.0, -1.0, 0.0)
     """directional: direction in which the light travels; sky: direction in which the zenith's light travels; disc:
     normal."""
-    color: Vector = _WHITE
+    color: Color = _WHITE
     """>= 0. Lights with a size: the radiance. sky: the colour of the zenith."""
     radius: float = 1.0
     edge_u: Vector = (1.0, 0.0, 0.0)
     edge_v: Vector = (0.0, 0.0, 1.0)
-    ground: Vector = _WHITE
-    """sky: colour of the nadir, >= 0."""
+    ground: Color = _WHITE
+    """sky: colour of the nadir, >= 0. White unless given, also if ``color`` is not; in files, it is the zenith's."""
     reach: float = math.inf
     """sky: > 0, in units of length. Shapes farther than this from a surface do not shade it."""
 
@@ -124,7 +148,7 @@ class Fog(Fields):
     """
 
     kind: Literal["none", "linear_z", "linear", "exponential"] = "none"
-    color: Vector = _WHITE
+    color: Color = _WHITE
     start: float = 0.0
     end: float = 1.0
     density: float = 0.0
@@ -165,12 +189,34 @@ class Camera(Fields):
 
 
 @dataclass
+class AutoCamera(Fields):
+    """A camera that :meth:`SceneBuilder.build` places so that it shows all bounded shapes as large as possible.
+
+    Building raises :class:`InvalidValue` if the scene has no bounded shapes.
+    """
+
+    view: Union[str, Vector] = "front"
+    """Side from which it sees the scene: ``"front"`` (from +z), ``"back"``, ``"right"`` (from +x), ``"left"``,
+    ``"top"`` (from +y), ``"bottom"``, ``"x"``, ``"y"`` (from +x and +y, with z upward), ``"z"`` or ``"corner"``; or its
+    line of sight, of any length except zero."""
+    up: Optional[Vector] = None
+    """Upward direction in the image, not along the line of sight. None: that of the view."""
+    projection: Literal["perspective", "orthographic"] = "perspective"
+    field_of_view: float = 30.0
+    """perspective: degrees from the image's lower to its upper edge, 0.01 to 179."""
+    zoom: float = 1.0
+    """Magnification, 0.01 to 1000. 1: all bounded shapes are visible."""
+    depth_cue: float = 0.0
+    """Fraction of the background's colour at the farthest shapes, 0 to 0.99, by a fog that replaces the scene's."""
+
+
+@dataclass
 class Outline(Fields):
     """Lines over the image, along the edges of the first visible surfaces."""
 
     width: float = 0.0
     """Line width in pixels, 0 to 32; 0: no lines."""
-    color: Vector = _BLACK
+    color: Color = _BLACK
     creases: float = 180.0
     """Degrees, 0 to 180. Surfaces that meet have a line between them if their materials differ or if the angle between
     their normals exceeds this one. 180: lines only where one surface is in front of another."""
