@@ -75,6 +75,10 @@ struct HitSpan {
     /// surface; 0 if it goes from the inside to the outside, or hits nothing.
     std::span<std::uint8_t> entering{};
     /// Part of the shape's surface, for RaySpan::origin_face; 0 where nothing is hit.
+    /// - Box, with points corner + u edge_u + v edge_v + w edge_w: 0 where u = 0, 1 where u = 1, 2
+    ///   where v = 0, 3 where v = 1, 4 where w = 0, 5 where w = 1.
+    /// - Cylinder and cone: 0 on the side, 1 on the cap at the base, 2 on the cap at the top.
+    /// - Other shapes: 0.
     std::span<std::uint8_t> face{};
     /// t as a double; finite where a shape is hit, infinity elsewhere. It takes longer to compute
     /// than all other values together.
@@ -84,7 +88,8 @@ struct HitSpan {
     std::span<double> normal_double_x{}, normal_double_y{}, normal_double_z{};
 };
 
-/// Rays that continue from the hits of others: see onward(). Owns all arrays but the directions.
+/// Rays that continue from the hits of others (spawned, secondary rays): see onward(). Owns all
+/// arrays but the directions.
 template <class Real>
 struct OnwardRays {
     std::vector<Real> origin_x, origin_y, origin_z;
@@ -130,19 +135,19 @@ struct BasicPointSpan {
 using PointSpan = BasicPointSpan<float>;
 using DoublePointSpan = BasicPointSpan<double>;
 
-/// All crossings of n rays, in compressed rows, structure of arrays. The crossings of ray i are the
-/// elements first[i] to first[i + 1] - 1, in their order along the ray.
+/// All crossings of n rays, in compressed rows (CSR), structure of arrays. The crossings of ray i
+/// are the elements first[i] to first[i + 1] - 1, in their order along the ray.
 struct CrossingRows {
-    std::vector<std::uint64_t> first; ///< n + 1 elements
+    std::vector<std::uint64_t> first; ///< n + 1 row offsets
     std::vector<double> t;            ///< > 0 and finite
     std::vector<ShapeId> shape;
     /// 1 if the ray goes from the outside (front) to the inside (back), 0 if it goes out.
     std::vector<std::uint8_t> entering;
     std::vector<std::uint8_t> face; ///< part of the shape's surface, same as HitSpan::face
-    /// 1 if the crossing is at the same t as the crossing before it in the row.
+    /// 1 for a tie: the crossing is at the same t as the crossing before it in the row.
     std::vector<std::uint8_t> tied;
-    /// 1 if the ray enters and leaves the shape at the same t, as a tangent does. The two crossings
-    /// together change nothing.
+    /// 1 if the ray is tangent to the shape: it enters and leaves it at the same t. The two
+    /// crossings together change nothing.
     std::vector<std::uint8_t> touching;
     std::vector<float> normal_x, normal_y, normal_z; ///< same as in HitSpan; empty if not wanted
     std::vector<double> normal_double_x, normal_double_y, normal_double_z; ///< likewise
@@ -179,7 +184,7 @@ struct CrossingStatistics {
 /// The solids that contain each of n points, in compressed rows. The solids of point i are the
 /// elements first[i] to first[i + 1] - 1, in the order of their ids.
 struct SolidRows {
-    std::vector<std::uint64_t> first; ///< n + 1 elements
+    std::vector<std::uint64_t> first; ///< n + 1 row offsets
     std::vector<ShapeId> shape;
     std::vector<std::uint8_t> on_surface; ///< 1 if the point is exactly on the solid's surface
 };
@@ -195,10 +200,10 @@ struct CellSpan {
 /// Lengths of n rays inside of materials, in compressed rows. The lengths of ray i are the elements
 /// first[i] to first[i + 1] - 1, in the order of their materials.
 struct LengthRows {
-    std::vector<std::uint64_t> first; ///< n + 1 elements
+    std::vector<std::uint64_t> first; ///< n + 1 row offsets
     std::vector<MaterialIndex> material;
     std::vector<double> length; ///< > 0, in the scene's unit, within 1 ulp of the true length;
-                                ///< infinite if the inside has no end
+                                ///< infinite if an unbounded solid contains the ray's end
 };
 
 /// Lengths of n rays inside of solids, in compressed rows. The lengths of ray i are the elements
@@ -220,7 +225,9 @@ struct TracerOptions {
 /// may call any function of one Tracer concurrently. Long spans are divided among worker threads.
 /// The result for a ray depends only on the scene and on that ray.
 ///
-/// Pass many rays in one call. With 100 spheres (AVX2, scanlines, one thread) a ray takes 380 ns
+/// Pass many rays in one call. Neighbours in the arrays should be neighbours in space: rays from
+/// one point, to one point, in one direction or close together are several times as fast as others.
+/// With 100 spheres (AVX2, scanlines, one thread) a ray takes 380 ns
 /// alone, 120 ns in calls of 16 rays, 46 ns in calls of 256 and 43 ns in the longest calls. After
 /// the first calls `intersect` and `occluded` allocate no memory.
 ///

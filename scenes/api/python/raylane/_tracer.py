@@ -31,7 +31,7 @@ AnyRows = TypeVar("AnyRows")
 @renamed("shape", "shape_id")
 @dataclass(eq=False)
 class Leaving(Fields):
-    """The surfaces that rays start on, from the hits that they continue. :meth:`Hits.onward` makes it.
+    """The surfaces that spawned rays start on, from the hits that they continue. :meth:`Hits.onward` makes it.
 
     Such a ray starts exactly on the surface, regardless of the rounding of its origin. ``shape_id`` and ``face``: those
     of the hit, arrays that broadcast with the rays; ``NO_SHAPE`` for a ray that starts on no surface. ``inward``: true
@@ -65,7 +65,13 @@ class Hits(Fields):
     entering: Bools
     """(...): true if the ray goes from the outside (front) to the inside (back), or only touches the surface."""
     face: Bytes
-    """(...): the part of the shape's surface, for :class:`Leaving`."""
+    """(...): the part of the shape's surface, for :class:`Leaving`; 0 where nothing is hit.
+
+    - Box, with points corner + u edges[0] + v edges[1] + w edges[2]: 0 where u = 0, 1 where u = 1, 2 where v = 0,
+      3 where v = 1, 4 where w = 0, 5 where w = 1
+    - Cylinder and cone: 0 on the side, 1 on the cap at the base, 2 on the cap at the top
+    - Other shapes: 0
+    """
     t_double: Optional[Doubles]
     """(...): t in float64, or None if not wanted. For rays in float64, it is ``t``; for others it takes longer to
     compute than all other values together."""
@@ -182,7 +188,7 @@ def _array(values: Any) -> NDArray[Any]:
 
 
 class _Rows:
-    """Rows of different lengths, concatenated. Row i has the elements ``first[i]`` to ``first[i + 1] - 1``.
+    """Rows of different lengths, concatenated (CSR). Row i has the elements ``first[i]`` to ``first[i + 1] - 1``.
 
     n rays or points in arrays of any shape are numbered in the order of C, the last axis first. So
     ``rows.counts().reshape(height, width)`` has the counts of an image's rays.
@@ -219,15 +225,15 @@ class Crossings(_Rows):
     """
 
     first: Firsts
-    """(n + 1,): index of the first crossing of each ray."""
+    """(n + 1,): row offsets, the index of the first crossing of each ray."""
     t: Doubles
     shape_id: Ids
     entering: Bools
     face: Bytes
     tied: Bools
-    """True if the crossing is at the same t, in real arithmetic, as the crossing before it in the row."""
+    """True for a tie: the crossing is at the same t, in real arithmetic, as the crossing before it in the row."""
     touching: Bools
-    """True if the ray enters and leaves the shape at the same t, as a tangent does."""
+    """True if the ray is tangent to the shape: it enters and leaves it at the same t."""
     normal: Optional[Floats] = None
     """(m, 3): normals as in :class:`Hits`, or None if not wanted."""
     normal_double: Optional[Doubles] = None
@@ -264,7 +270,7 @@ class Lengths(_Rows):
     first: Firsts
     material: Ids
     length: Doubles
-    """> 0, in the scene's unit, within 1 ulp of the true length; infinite if the inside has no end."""
+    """> 0, in the scene's unit, within 1 ulp of the true length; infinite if an unbounded solid contains the ray's end."""
 
     def total(self, material: Optional[int] = None) -> Doubles:
         """Returns the length of each ray in all materials together, or in one material: (n,)."""
@@ -300,6 +306,9 @@ class Tracer:
     Rays with numbers far outside of the range of float32 take some microseconds each: with coordinates from 2^128 on, or
     below 2^-149 but not 0; with directions shorter than 2^-400 or longer than 2^400; with components of a direction
     below 2^-276 of the largest one.
+
+    Pass many rays in one call: a ray alone takes ten times as long. Neighbours in the arrays should be neighbours in
+    space: rays from one point, to one point, in one direction or close together are several times as fast as others.
 
     If all arrays, including ``t_min`` and ``t_max``, are float32, the rays are traced as float rays, otherwise as
     double rays, with exactly the given numbers. ``t`` has the type of the rays. A limit takes the type of the rays if it
