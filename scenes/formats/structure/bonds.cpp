@@ -14,11 +14,31 @@ constexpr float tolerance = 0.4F, min_distance = 0.4F;
 /// hold 700 atoms.
 constexpr std::size_t max_near = 4096;
 
-/// Returns true for elements that form no molecules with each other: alkali and alkaline earth
-/// metals, transition and rare earth metals, and the elements after them except metalloids.
-bool is_metal(Element z) {
-    return z == 3 || z == 4 || (z >= 11 && z <= 13) || (z >= 19 && z <= 31) ||
-           (z >= 37 && z <= 50) || (z >= 55 && z <= 84) || z >= 87;
+/// Returns the largest distance at which two atoms are bonded. Two metals may be.
+float reach_of(Element a, Element b) {
+    if (is_metal(a) && is_metal(b)) return 1.1F * (metallic_radius(a) + metallic_radius(b));
+    return data_of(a).covalent_radius + data_of(b).covalent_radius + tolerance;
+}
+
+bool is_between_metals(const Structure& structure, const Bond& bond) {
+    return is_metal(structure.element(bond.a)) && is_metal(structure.element(bond.b));
+}
+
+/// Returns 1 for each element whose atoms form a metal, by their bonds.
+std::vector<char> metallic_elements(const Structure& structure, const std::vector<Bond>& bonds) {
+    std::vector<std::size_t> atoms(element_count), to_metals(element_count),
+        to_others(element_count);
+    for (AtomIndex atom = 0; atom < structure.size(); ++atom)
+        ++atoms[structure.element(atom)];
+    for (const Bond& bond : bonds)
+        for (const AtomIndex atom : {bond.a, bond.b})
+            ++(is_between_metals(structure, bond) ? to_metals : to_others)[structure.element(atom)];
+    std::vector<char> is_metallic(element_count);
+    for (Element z = 1; z < element_count; ++z)
+        if (is_metal(z) && to_metals[z] > 0 && to_metals[z] >= atoms[z] &&
+            to_others[z] < 2 * atoms[z])
+            is_metallic[z] = 1;
+    return is_metallic;
 }
 
 bool is_before(const Bond& x, const Bond& y) {
@@ -27,35 +47,40 @@ bool is_before(const Bond& x, const Bond& y) {
 
 } // namespace
 
-std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_atoms) {
+std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_atoms,
+                             std::vector<char>* is_metallic) {
     std::vector<Bond> bonds = structure.bonds;
     std::vector<AtomIndex> atoms;
-    float longest = 0.0F;
+    float longest = tolerance;
     if (!structure.has_all_bonds)
         for (AtomIndex atom = 0; atom < structure.size(); ++atom) {
-            const float radius = data_of(structure.element(atom)).covalent_radius;
+            const Element z = structure.element(atom);
+            const float radius = data_of(z).covalent_radius;
             if (radius == 0.0F) continue;
-            longest = std::max(longest, radius);
+            longest = std::max(longest, std::max(2 * radius + tolerance, reach_of(z, z)));
             atoms.push_back(atom);
         }
-    std::vector<char> is_crowded(structure.size());
-    const AtomGrid grid(structure.positions, atoms, 2 * longest + tolerance);
+    // Atoms that would have too many bonds, and among them those of metals with each other.
+    std::vector<char> is_crowded(structure.size()), is_dense_metal(structure.size());
+    const AtomGrid grid(structure.positions, atoms, longest);
     grid.for_each([&](AtomIndex a, const AtomGrid::Near& others) {
         const Element of_a = structure.element(a);
         const std::size_t before = bonds.size();
-        std::size_t looked_at = 0, neighbours = 0;
+        std::size_t looked_at = 0, neighbours = 0, metals = 0;
         const bool has_room = others.each([&](AtomIndex b) {
             if (b == a) return true;
             if (++looked_at > max_near) return false;
             const core::Vec3f apart = structure.positions[a] - structure.positions[b];
             const float squared = core::dot(apart, apart);
             const Element of_b = structure.element(b);
-            const float most =
-                data_of(of_a).covalent_radius + data_of(of_b).covalent_radius + tolerance;
+            const float most = reach_of(of_a, of_b);
             if (squared > most * most) return true;
             const bool is_too_near = squared < min_distance * min_distance;
-            if (!is_too_near && is_metal(of_a) && is_metal(of_b)) return true;
-            if (++neighbours > max_bonds) return false;
+            if (!is_too_near && is_metal(of_a) && is_metal(of_b)) {
+                if (++metals > max_bonds) is_dense_metal[a] = 1;
+            } else if (++neighbours > max_bonds) {
+                return false;
+            }
             if (!is_too_near && a < b) bonds.push_back({a, b, 1});
             return true;
         });
@@ -63,12 +88,21 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
         bonds.resize(before);
         is_crowded[a] = 1;
     });
-    const auto found = bonds.begin() + static_cast<std::ptrdiff_t>(structure.bonds.size());
-    bonds.erase(std::remove_if(found, bonds.end(),
-                               [&](const Bond& bond) {
-                                   return is_crowded[bond.a] != 0 || is_crowded[bond.b] != 0;
-                               }),
-                bonds.end());
+    const auto remove_found = [&](const auto& is_wrong) {
+        const auto found = bonds.begin() + static_cast<std::ptrdiff_t>(structure.bonds.size());
+        bonds.erase(std::remove_if(found, bonds.end(), is_wrong), bonds.end());
+    };
+    remove_found([&](const Bond& bond) {
+        return is_crowded[bond.a] != 0 || is_crowded[bond.b] != 0 ||
+               (is_between_metals(structure, bond) &&
+                (is_dense_metal[bond.a] != 0 || is_dense_metal[bond.b] != 0));
+    });
+    const std::vector<char> metallic = metallic_elements(structure, bonds);
+    remove_found([&](const Bond& bond) {
+        return is_between_metals(structure, bond) && (metallic[structure.element(bond.a)] == 0 ||
+                                                      metallic[structure.element(bond.b)] == 0);
+    });
+    if (is_metallic != nullptr) *is_metallic = metallic;
     if (crowded_atoms != nullptr)
         *crowded_atoms =
             static_cast<std::size_t>(std::count(is_crowded.begin(), is_crowded.end(), 1));

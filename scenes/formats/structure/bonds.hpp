@@ -13,13 +13,20 @@ inline constexpr std::size_t max_bonds = 24; ///< of an atom, besides the file's
 /// Two atoms are bonded if they are nearer to each other than the sum of their covalent radii and
 /// 0.4 angstrom, and farther apart than 0.4 angstrom: nearer positions are two places of one atom.
 ///
+/// Two metal atoms are bonded if they are nearer than 1.1 times the sum of their metallic radii and
+/// both elements are metallic. An element is metallic if its atoms have, on average, at least one
+/// metal atom so near, and less than two bonds to atoms that are not metals. So ions of salts and
+/// oxides are not bonded to each other.
+///
 /// Some atoms have only the file's bonds:
-/// - atoms of unknown elements, and metals with each other;
+/// - atoms of unknown elements;
 /// - crowded atoms, which would have more than `max_bonds`, counting atoms nearer than 0.4
 ///   angstrom.
 ///
 /// So the time is linear in the atoms even if they lie on top of each other. `crowded_atoms`, if
-/// given, receives the number of crowded atoms.
-std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_atoms = nullptr);
+/// given, receives the number of crowded atoms, and `is_metallic` 1 for each element that is
+/// metallic.
+std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_atoms = nullptr,
+                             std::vector<char>* is_metallic = nullptr);
 
 } // namespace raylane::scenes

@@ -72,6 +72,28 @@ constexpr std::array<ElementData, element_count> elements = {{
     {"Og", 0.00F, 0.00F, 294.214F, 0xeb0026},
 }};
 
+constexpr std::pair<Element, float> known_metallic_radii[] = {
+    {3, 1.52F},   {4, 1.12F},   {11, 1.86F},  {12, 1.60F},  {13, 1.43F},  {19, 2.27F},
+    {20, 1.97F},  {21, 1.62F},  {22, 1.47F},  {23, 1.34F},  {24, 1.28F},  {25, 1.27F},
+    {26, 1.26F},  {27, 1.25F},  {28, 1.24F},  {29, 1.28F},  {30, 1.34F},  {31, 1.35F},
+    {37, 2.48F},  {38, 2.15F},  {39, 1.80F},  {40, 1.60F},  {41, 1.46F},  {42, 1.39F},
+    {43, 1.36F},  {44, 1.34F},  {45, 1.34F},  {46, 1.37F},  {47, 1.44F},  {48, 1.51F},
+    {49, 1.67F},  {55, 2.65F},  {56, 2.22F},  {57, 1.87F},  {58, 1.818F}, {59, 1.824F},
+    {60, 1.814F}, {61, 1.834F}, {62, 1.804F}, {63, 1.804F}, {64, 1.804F}, {65, 1.773F},
+    {66, 1.781F}, {67, 1.762F}, {68, 1.761F}, {69, 1.759F}, {70, 1.76F},  {71, 1.738F},
+    {72, 1.59F},  {73, 1.46F},  {74, 1.39F},  {75, 1.37F},  {76, 1.35F},  {77, 1.355F},
+    {78, 1.385F}, {79, 1.44F},  {80, 1.51F},  {81, 1.70F},  {82, 1.75F},  {90, 1.79F},
+    {91, 1.63F},  {92, 1.56F},  {93, 1.55F},  {94, 1.59F},  {95, 1.73F},  {96, 1.74F}};
+
+constexpr std::array<float, element_count> metallic_radii = [] {
+    std::array<float, element_count> radii{};
+    for (std::size_t z = 0; z < radii.size(); ++z)
+        radii[z] = elements[z].covalent_radius;
+    for (const auto& [element, radius] : known_metallic_radii)
+        radii[element] = radius;
+    return radii;
+}();
+
 constexpr int heaviest = 99; // einsteinium: samples have no heavier elements
 
 /// In daltons, of isotopes that samples have: D, T, lithium's, boron's, and carbon's.
@@ -102,6 +124,15 @@ char lower(char c) {
 
 const ElementData& data_of(Element element) {
     return elements[element < element_count ? element : 0];
+}
+
+bool is_metal(Element z) {
+    return z == 3 || z == 4 || (z >= 11 && z <= 13) || (z >= 19 && z <= 31) ||
+           (z >= 37 && z <= 50) || (z >= 55 && z <= 84) || z >= 87;
+}
+
+float metallic_radius(Element element) {
+    return metallic_radii[element < element_count ? element : 0];
 }
 
 Element element_of(std::string_view symbol) {

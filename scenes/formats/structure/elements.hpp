@@ -26,6 +26,14 @@ struct ElementData {
 
 const ElementData& data_of(Element element);
 
+/// Returns true for elements that form no molecules with each other: alkali and alkaline earth
+/// metals, transition and rare earth metals, and the elements after them except metalloids.
+bool is_metal(Element element);
+
+/// Returns the radius of an atom in a metal with 12 neighbours, in angstrom: Greenwood and
+/// Earnshaw, "Chemistry of the Elements" (1997). Returns the covalent radius of other elements.
+float metallic_radius(Element element);
+
 /// Returns the element of a symbol in any case, or 0. "D" and "T" are hydrogen.
 Element element_of(std::string_view symbol);
 

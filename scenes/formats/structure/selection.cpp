@@ -3,11 +3,14 @@
 #include "scenes/files/errors.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/formats/structure/atom_tree.hpp"
+#include "scenes/formats/structure/labels.hpp"
 #include "scenes/formats/structure/lines.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdlib>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <utility>
@@ -52,15 +55,65 @@ Selected atoms_within(const Structure& structure, const Selected& of, float reac
     return result;
 }
 
-/// Words of the language, except and, or and of.
-constexpr std::array<std::string_view, 16> keywords = {
-    "all",   "none",    "protein", "nucleic", "water", "hetero", "hydrogen", "backbone",
-    "chain", "residue", "element", "name",    "type",  "index",  "within",   "not"};
+/// Words of the language, except and, or, of, to, x, y and z.
+constexpr std::array<std::string_view, 23> keywords = {
+    "all",    "none",     "protein", "nucleic",  "water",     "ligand", "metal",   "ion",
+    "hetero", "hydrogen", "noh",     "backbone", "sidechain", "chain",  "residue", "element",
+    "name",   "type",     "index",   "within",   "exwithin",  "byres",  "not"};
+
+/// A word of PyMOL or VMD.
+struct Alias {
+    std::string_view elsewhere, here;
+};
+constexpr std::array aliases = {
+    Alias{"*", "all"},
+    Alias{"atomname", "name"},
+    Alias{"b.", "b_factor"},
+    Alias{"bb.", "backbone"},
+    Alias{"br.", "byres"},
+    Alias{"byresidue", "byres"},
+    Alias{"c.", "chain"},
+    Alias{"e.", "element"},
+    Alias{"elem", "element"},
+    Alias{"everything", "all"},
+    Alias{"h.", "hydrogen"},
+    Alias{"hetatm", "hetero"},
+    Alias{"hydro", "hydrogen"},
+    Alias{"hydrogens", "hydrogen"},
+    Alias{"ions", "ion"},
+    Alias{"metals", "metal"},
+    Alias{"n.", "name"},
+    Alias{"organic", "ligand"},
+    Alias{"polymer.nucleic", "nucleic"},
+    Alias{"polymer.protein", "protein"},
+    Alias{"r.", "resn"},
+    Alias{"i.", "resi"},
+    Alias{"resid", "resi"},
+    Alias{"resname", "resn"},
+    Alias{"sc.", "sidechain"},
+    Alias{"solvent", "water"},
+    Alias{"waters", "water"},
+};
+
+/// Returns the word of the language for a word in any case.
+std::string keyword_of(std::string_view word) {
+    std::string lower = in_lower_case(word);
+    for (const Alias& alias : aliases)
+        if (lower == alias.elsewhere) return std::string(alias.here);
+    return lower;
+}
+
+/// Returns the property that PyMOL or VMD calls `word`, or `word`.
+std::string_view property_name_of(std::string_view word) {
+    if (is_one_of(word, {"b", "beta", "bfactor", "tempfactor"})) return "b_factor";
+    return is_same(word, "q") ? "occupancy" : word;
+}
 
 class Parser {
   public:
-    Parser(const Structure& structure, std::string_view text, std::vector<std::string>& unmatched)
-        : structure_(structure), text_(text), unmatched_(unmatched) {
+    Parser(const Structure& structure, std::string_view text, const std::string& option,
+           std::vector<std::string>& unmatched)
+        : structure_(structure), text_(text), option_(option), unmatched_(unmatched) {
         advance();
     }
 
@@ -77,7 +130,7 @@ class Parser {
     }
     /// Throws for a word of the expression, which may be behind the parser already.
     [[noreturn]] void fail_at(std::string_view word, const std::string& message) const {
-        throw BadInput("--select", place_of(word), message);
+        throw BadInput(option_, place_of(word), message);
     }
     [[noreturn]] void fail(const std::string& message) const { fail_at(word_, message); }
 
@@ -87,7 +140,7 @@ class Parser {
                         const Test& is_there) const {
         for (const std::string_view word : words)
             if (!is_there(word))
-                unmatched_.push_back(text_of({"--select",
+                unmatched_.push_back(text_of({option_,
                                               {},
                                               place_of(word),
                                               "\"" + printable(word) + "\" matches no " + what}));
@@ -99,15 +152,17 @@ class Parser {
                (text_[position_] == ' ' || text_[position_] == '\t' || text_[position_] == ','))
             ++position_;
         const std::size_t begin = position_;
-        constexpr std::string_view signs = "()<>=";
-        if (position_ < text_.size() && signs.find(text_[position_]) != std::string_view::npos) {
-            const char first = text_[position_++];
-            if ((first == '<' || first == '>') && position_ < text_.size() &&
-                text_[position_] == '=')
+        constexpr std::string_view signs = "()<>=!&|";
+        const auto is_at = [&](std::string_view any) {
+            return position_ < text_.size() && any.find(text_[position_]) != any.npos;
+        };
+        if (is_at(signs)) {
+            const char first = text_[position_++]; // <=, >=, ==, && and || are words
+            if ((is_at("=") && (first == '<' || first == '>' || first == '=')) ||
+                (is_at("&") && first == '&') || (is_at("|") && first == '|'))
                 ++position_;
         } else {
-            while (position_ < text_.size() &&
-                   std::string_view("()<>= \t,").find(text_[position_]) == std::string_view::npos)
+            while (position_ < text_.size() && !is_at(signs) && !is_at(" \t,"))
                 ++position_;
         }
         word_ = text_.substr(begin, position_ - begin);
@@ -128,7 +183,7 @@ class Parser {
 
     Selected any() {
         Selected result = both();
-        while (take("or")) {
+        while (take("or") || take("|") || take("||")) {
             const Selected other = both();
             for (std::size_t i = 0; i < result.size(); ++i)
                 result[i] = static_cast<char>(result[i] | other[i]);
@@ -136,12 +191,37 @@ class Parser {
         return result;
     }
     Selected both() {
+        Selected result = near();
+        while (take("and") || take("&") || take("&&"))
+            keep_both(result, near());
+        return result;
+    }
+    /// Takes PyMOL's "A within 5 of B", "A around 5" and "A expand 5" as well.
+    Selected near() {
         Selected result = one();
-        while (take("and")) {
-            const Selected other = one();
-            for (std::size_t i = 0; i < result.size(); ++i)
-                result[i] = static_cast<char>(result[i] & other[i]);
+        while (true) {
+            if (is_same(word_, "within") || is_same(word_, "exwithin"))
+                keep_both(result, one());
+            else if (take("around"))
+                result = without(atoms_within(structure_, result, distance()), result);
+            else if (take("expand"))
+                result = atoms_within(structure_, result, distance());
+            else
+                return result;
         }
+    }
+    static void keep_both(Selected& result, const Selected& other) {
+        for (std::size_t i = 0; i < result.size(); ++i)
+            result[i] = static_cast<char>(result[i] & other[i]);
+    }
+    static Selected without(Selected result, const Selected& other) {
+        for (std::size_t i = 0; i < result.size(); ++i)
+            result[i] = static_cast<char>(result[i] & (1 - other[i]));
+        return result;
+    }
+    static Selected opposite(Selected result) {
+        for (char& is_selected : result)
+            is_selected = static_cast<char>(1 - is_selected);
         return result;
     }
 
@@ -152,25 +232,47 @@ class Parser {
         return result;
     }
     Selected one_of_any_depth() {
-        if (take("not")) {
-            Selected result = one();
-            for (char& is_selected : result)
-                is_selected = static_cast<char>(1 - is_selected);
-            return result;
-        }
+        if (take("not") || take("!")) return opposite(one());
         if (take("(")) {
             Selected result = any();
             if (!take(")")) fail(R"x(must be ")", got )x" + got());
             return result;
         }
-        if (take("within")) {
-            const std::string_view distance = word_;
-            const double reach = number("a distance");
-            if (!(reach >= 0.0)) fail_at(distance, "a distance must not be negative");
-            if (!take("of")) fail(R"(must be "of", got )" + got());
-            return atoms_within(structure_, one(), static_cast<float>(reach));
+        const bool excludes = is_same(word_, "exwithin");
+        if (take("within") || take("exwithin")) {
+            const float reach = distance();
+            require("of");
+            const Selected of = one();
+            Selected near = atoms_within(structure_, of, reach);
+            return excludes ? without(std::move(near), of) : near;
+        }
+        if (is_same(keyword_of(word_), "byres")) {
+            advance();
+            return whole_residues(near());
+        }
+        if (take("same")) {
+            require("residue");
+            require("as");
+            return whole_residues(near());
         }
         return words();
+    }
+    void require(const char* word) {
+        if (!take(word)) fail("must be \"" + std::string(word) + "\", got " + got());
+    }
+    float distance() {
+        const std::string_view word = word_;
+        const double reach = number("a distance");
+        if (!(reach >= 0.0)) fail_at(word, "a distance must not be negative");
+        return static_cast<float>(reach);
+    }
+    /// Adds the other atoms of residues of which atoms are selected.
+    Selected whole_residues(Selected of) const {
+        if (structure_.residues.empty()) return of;
+        std::vector<char> has_any(structure_.of_residue.size());
+        for (AtomIndex i = 0; i < of.size(); ++i)
+            if (of[i] != 0) has_any[structure_.residues[i]] = 1;
+        return where([&](AtomIndex i) { return has_any[structure_.residues[i]] != 0; });
     }
 
     double number(const char* what) {
@@ -199,7 +301,21 @@ class Parser {
 
     Selected words() {
         const std::string_view given = word_;
-        const std::string word = in_lower_case(taken("a selection"));
+        const std::string word = keyword_of(taken("a selection"));
+        if (std::optional<Selected> named = named_selection(word)) return *std::move(named);
+        if (word == "chain") return chains();
+        if (word == "residue") return residues(true, true);
+        if (word == "resn") return residues(true, false);
+        if (word == "resi") return residues(false, true);
+        if (word == "element") return elements();
+        if (word == "name") return names();
+        if (word == "type") return types();
+        if (word == "index") return indices();
+        return property(given);
+    }
+    /// Returns the atoms of a word that stands by itself.
+    std::optional<Selected> named_selection(const std::string& word) const {
+        const auto is_hydrogen = [&](AtomIndex i) { return structure_.element(i) == 1; };
         if (word == "all") return Selected(structure_.size(), 1);
         if (word == "none") return Selected(structure_.size(), 0);
         if (word == "protein") return where_residue(is_amino_acid);
@@ -207,16 +323,61 @@ class Parser {
         if (word == "water") return where_residue(is_water);
         if (word == "hetero")
             return where_residue([](const Residue& residue) { return residue.is_hetero; });
-        if (word == "hydrogen")
-            return where([&](AtomIndex i) { return structure_.element(i) == 1; });
+        if (word == "ligand") return ligands();
+        if (word == "ion") return ions();
+        if (word == "metal")
+            return where([&](AtomIndex i) { return is_metal(structure_.element(i)); });
+        if (word == "hydrogen") return where(is_hydrogen);
+        if (word == "noh") return opposite(where(is_hydrogen));
         if (word == "backbone") return backbone();
-        if (word == "chain") return chains();
-        if (word == "residue") return residues();
-        if (word == "element") return elements();
-        if (word == "name") return names();
-        if (word == "type") return types();
-        if (word == "index") return indices();
-        return property(given);
+        if (word == "sidechain") return without(where_residue(is_amino_acid), backbone());
+        return std::nullopt;
+    }
+
+    /// Selects residues with carbon, except water and parts of polymers.
+    Selected ligands() const {
+        if (structure_.residues.empty()) return Selected(structure_.size());
+        const std::size_t count = structure_.of_residue.size();
+        std::vector<char> has_carbon(count), is_like_amino_acid(count);
+        for (AtomIndex i = 0; i < structure_.size(); ++i) {
+            const std::uint32_t of = structure_.residues[i];
+            if (structure_.element(i) == 6) has_carbon[of] = 1;
+            if (!structure_.names.empty() && structure_.names[i] == "CA" &&
+                structure_.element(i) == 6)
+                is_like_amino_acid[of] = 1;
+        }
+        // A modified amino acid is next to another residue of its chain.
+        const auto is_linked = [&](std::size_t k, std::size_t other) {
+            if (other >= count) return false;
+            const Residue &a = structure_.of_residue[k], &b = structure_.of_residue[other];
+            return a.chain == b.chain && std::abs(std::int64_t{a.number} - b.number) <= 1 &&
+                   is_amino_acid(b);
+        };
+        std::vector<char> result(count);
+        for (std::size_t k = 0; k < count; ++k) {
+            const Residue& residue = structure_.of_residue[k];
+            const bool is_modified =
+                is_like_amino_acid[k] != 0 && (is_linked(k, k - 1) || is_linked(k, k + 1));
+            if (has_carbon[k] != 0 && !is_modified && !is_water(residue) &&
+                !is_amino_acid(residue) && !is_nucleotide(residue) &&
+                !is_polymer_residue(residue.name))
+                result[k] = 1;
+        }
+        return where([&](AtomIndex i) { return result[structure_.residues[i]] != 0; });
+    }
+
+    /// Selects residues of one atom that are not water.
+    Selected ions() const {
+        if (structure_.residues.empty()) return Selected(structure_.size());
+        std::vector<std::size_t> atoms(structure_.of_residue.size());
+        for (const std::uint32_t residue : structure_.residues)
+            ++atoms[residue];
+        return where([&](AtomIndex i) {
+            const std::uint32_t of = structure_.residues[i];
+            const Residue& residue = structure_.of_residue[of];
+            return atoms[of] == 1 && !is_water(residue) && !is_amino_acid(residue) &&
+                   !is_nucleotide(residue);
+        });
     }
 
     Selected backbone() const {
@@ -229,17 +390,39 @@ class Parser {
     }
 
     bool is_in_list() const {
-        return !word_.empty() && word_ != "(" && word_ != ")" && !is_one_of(word_, {"and", "or"}) &&
+        if (word_.empty() || word_ == "(" || word_ == ")") return false;
+        if (is_one_of(word_, {"and", "or", "&", "|", "resn", "resi", "around", "expand", "same"}))
+            return false;
+        return is_same(word_, "ion") || // a residue of GROMOS
                std::none_of(keywords.begin(), keywords.end(),
                             [&](std::string_view keyword) { return is_same(word_, keyword); });
     }
-    /// Returns the words up to a keyword; at least one.
+    /// Returns the words up to a keyword; at least one. A word "20 to 30" has blanks.
     std::vector<std::string_view> list(const char* what) {
         if (!is_in_list()) fail(std::string("must be ") + what + ", got " + got());
         std::vector<std::string_view> result;
-        while (is_in_list())
-            result.push_back(taken(what));
+        while (is_in_list()) {
+            const std::string_view first = taken(what);
+            if (range_in(first) && is_same(word_, "to")) {
+                advance();
+                const std::string_view last = taken("the end of a range");
+                const auto length = last.data() + last.size() - first.data();
+                result.emplace_back(first.data(), static_cast<std::size_t>(length));
+            } else {
+                add_parts(first, result);
+            }
+        }
         return result;
+    }
+    /// Adds the parts of a word of PyMOL, such as CA+CB. "Na+" is one part.
+    static void add_parts(std::string_view word, std::vector<std::string_view>& parts) {
+        while (true) {
+            const std::size_t plus = word.find('+', 1);
+            const bool is_last = plus == std::string_view::npos || plus + 1 == word.size();
+            parts.push_back(is_last ? word : word.substr(0, plus));
+            if (is_last) return;
+            word.remove_prefix(plus + 1);
+        }
     }
 
     Selected chains() {
@@ -255,7 +438,7 @@ class Parser {
     }
 
     using Range = std::pair<long long, long long>;
-    /// Parses "17" or "20-30"; a number may be negative.
+    /// Parses "17", "20-30", "20:30" or "20 to 30"; a number may be negative.
     static std::optional<Range> range_in(std::string_view word) {
         Range range;
         const char* const end = word.data() + word.size();
@@ -263,8 +446,13 @@ class Parser {
         if (error != std::errc()) return {};
         range.second = range.first;
         if (stop == end) return range;
-        if (*stop != '-') return {};
-        const auto [last, again] = std::from_chars(stop + 1, end, range.second);
+        std::string_view rest(stop, static_cast<std::size_t>(end - stop));
+        if (*stop == '-' || *stop == ':')
+            rest.remove_prefix(1);
+        else if (const std::size_t to = in_lower_case(rest).find("to"); to != rest.npos)
+            rest = trimmed(rest.substr(to + 2));
+        const auto [last, again] =
+            std::from_chars(rest.data(), rest.data() + rest.size(), range.second);
         if (again != std::errc() || last != end) return {};
         return range;
     }
@@ -274,25 +462,41 @@ class Parser {
         });
     }
 
-    Selected residues() {
-        std::vector<Range> ranges;
-        const std::vector<std::string_view> names = list("the name or number of a residue");
-        for (const std::string_view word : names) // some names are numbers
-            if (const std::optional<Range> range = range_in(word)) ranges.push_back(*range);
-        note_unmatched(names, "residue", [&](std::string_view word) {
-            const std::optional<Range> range = range_in(word);
-            return std::any_of(structure_.of_residue.begin(), structure_.of_residue.end(),
-                               [&](const Residue& residue) {
-                                   return is_same(word, residue.name) ||
-                                          (range && range->first <= residue.number &&
-                                           residue.number <= range->second);
-                               });
+    /// Takes names of residues, numbers, or both: some names are numbers.
+    Selected residues(bool by_name, bool by_number) {
+        const std::vector<std::string_view> words =
+            list(!by_number ? "the name of a residue"
+                 : by_name  ? "the name or number of a residue"
+                            : "the number of a residue");
+        std::vector<std::vector<Range>> ranges; // of each word: one or none
+        for (const std::string_view word : words) {
+            ranges.emplace_back();
+            if (const std::optional<Range> range = range_in(word); by_number && range)
+                ranges.back().push_back(*range);
+            else if (!by_name)
+                fail_at(word, "must be a number or a range such as 20-30, got \"" +
+                                  printable(word) + "\"");
+        }
+        const auto has = [&](const Residue& residue, std::size_t k) {
+            return is_in(ranges[k], residue.number) || (by_name && is_same(words[k], residue.name));
+        };
+        std::vector<char> is_matched(words.size());
+        Selected result = where_residue([&](const Residue& residue) {
+            bool has_any = false;
+            for (std::size_t k = 0; k < words.size(); ++k)
+                if (has(residue, k)) {
+                    is_matched[k] = 1;
+                    has_any = true;
+                }
+            return has_any;
         });
-        return where_residue([&](const Residue& residue) {
-            return is_in(ranges, residue.number) ||
-                   std::any_of(names.begin(), names.end(),
-                               [&](std::string_view name) { return is_same(name, residue.name); });
+        note_unmatched(words, "residue", [&](std::string_view word) {
+            const auto k = std::find_if(words.begin(), words.end(), [&](std::string_view other) {
+                return other.data() == word.data();
+            });
+            return is_matched[static_cast<std::size_t>(k - words.begin())] != 0;
         });
+        return result;
     }
 
     Selected elements() {
@@ -350,26 +554,44 @@ class Parser {
         return where([&](AtomIndex i) { return is_in(ranges, static_cast<long long>(i) + 1); });
     }
 
+    /// Returns the values of x, y, z or a property of the file. Throws for other words.
+    std::function<double(AtomIndex)> numbers_named(std::string_view name) const {
+        const auto named = [&](std::string_view wanted) {
+            return std::find_if(
+                structure_.properties.begin(), structure_.properties.end(),
+                [&](const AtomProperty& property) { return is_same(property.name, wanted); });
+        };
+        auto found = named(name);
+        if (found == structure_.properties.end()) found = named(property_name_of(name));
+        if (found != structure_.properties.end())
+            return [values = &found->values](AtomIndex i) {
+                return static_cast<double>((*values)[i]);
+            };
+        for (int axis = 0; axis < 3; ++axis)
+            if (is_same(name, std::string_view("xyz").substr(static_cast<std::size_t>(axis), 1)))
+                return [this, axis](AtomIndex i) {
+                    return static_cast<double>(structure_.positions[i][axis]);
+                };
+        std::vector<std::string_view> known(keywords.begin(), keywords.end());
+        known.insert(known.end(), {"x", "y", "z"});
+        for (const AtomProperty& property : structure_.properties)
+            known.push_back(property.name);
+        std::string all;
+        for (const std::string_view word : known)
+            all.append(all.empty() ? "" : ", ").append(word);
+        fail_at(name, "must be one of " + printable(all, 400) + ", got \"" + printable(name) +
+                          "\"" + suggestion(name, known));
+    }
+
     Selected property(std::string_view name) {
-        const auto found = std::find_if(
-            structure_.properties.begin(), structure_.properties.end(),
-            [&](const AtomProperty& property) { return is_same(property.name, name); });
-        if (found == structure_.properties.end()) {
-            std::vector<std::string_view> known(keywords.begin(), keywords.end());
-            for (const AtomProperty& property : structure_.properties)
-                known.push_back(property.name);
-            std::string all;
-            for (const std::string_view word : known)
-                all.append(all.empty() ? "" : ", ").append(word);
-            fail_at(name, "must be one of " + printable(all, 400) + ", got \"" + printable(name) +
-                              "\"" + suggestion(name, known));
-        }
+        const std::function<double(AtomIndex)> value_of = numbers_named(name);
         const std::string_view sign = taken("<, <=, >, >= or =");
-        if (sign != "<" && sign != "<=" && sign != ">" && sign != ">=" && sign != "=")
+        if (sign != "<" && sign != "<=" && sign != ">" && sign != ">=" && sign != "=" &&
+            sign != "==")
             fail_at(sign, "must have <, <=, >, >= or = behind it, got \"" + printable(sign) + "\"");
         const double bound = number("a number");
         return where([&](AtomIndex i) {
-            const auto value = static_cast<double>(found->values[i]);
+            const double value = value_of(i);
             if (sign == "<") return value < bound;
             if (sign == "<=") return value <= bound;
             if (sign == ">") return value > bound;
@@ -380,6 +602,7 @@ class Parser {
 
     const Structure& structure_;
     std::string_view text_, word_;
+    const std::string& option_;
     std::size_t position_ = 0;
     int depth_ = 0;
     std::vector<std::string>& unmatched_;
@@ -388,8 +611,8 @@ class Parser {
 } // namespace
 
 std::vector<char> select_atoms(const Structure& structure, std::string_view expression,
-                               std::vector<std::string>& unmatched) {
-    return Parser(structure, expression, unmatched).all();
+                               std::vector<std::string>& unmatched, const std::string& option) {
+    return Parser(structure, expression, option, unmatched).all();
 }
 
 } // namespace raylane::scenes

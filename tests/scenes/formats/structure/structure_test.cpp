@@ -8,6 +8,7 @@
 #include "tests/scenes/files/message_of.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/scenes/formats/structure/frames.hpp"
+#include "tests/scenes/formats/structure/structures.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random.hpp"
 
@@ -19,34 +20,10 @@
 using namespace raylane::scenes;
 using raylane::core::Vec3f;
 using raylane::ray_sets::Random;
+using raylane::tests::of_atoms;
+using raylane::tests::peptide;
 
 namespace {
-
-Structure of_atoms(const std::vector<std::pair<const char*, Vec3f>>& atoms) {
-    Structure structure;
-    for (const auto& [symbol, at] : atoms) {
-        structure.of_kind.push_back({symbol, element_of(symbol)});
-        structure.kinds.push_back(static_cast<std::uint16_t>(structure.of_kind.size() - 1));
-        structure.positions.push_back(at);
-    }
-    return structure;
-}
-
-/// Returns two residues in chain A, and water in chain b.
-Structure peptide() {
-    Structure structure = of_atoms({{"N", {0, 0, 0}},
-                                    {"C", {1.4F, 0, 0}},
-                                    {"H", {0, 1, 0}},
-                                    {"C", {10, 0, 0}},
-                                    {"O", {12, 0, 0}}});
-    structure.names = {"N", "CA", "H", "CB", "O"};
-    structure.chains = {"A", "b"};
-    structure.of_residue = {
-        {"ALA", -1, ' ', 0, false}, {"GLY", 20, ' ', 0, false}, {"HOH", 301, ' ', 1, true}};
-    structure.residues = {0, 0, 0, 1, 2};
-    structure.properties = {{"b_factor", {10, 20, 30, 40, 50}}};
-    return structure;
-}
 
 std::string selected(const Structure& structure, const std::string& expression) {
     std::string result;
@@ -311,8 +288,6 @@ TEST_CASE("lists of a selection end at the next word of the language") {
     const Structure structure = peptide();
     CHECK(complaint(structure, "chain A an water") ==
           "--select: column 12: must be \"and\", \"or\" or the end, got \"water\"");
-    CHECK(complaint(structure, "chain A within 3 of water") ==
-          "--select: column 9: must be \"and\", \"or\" or the end, got \"within\"");
     CHECK(complaint(structure, "chain and water") ==
           "--select: column 7: must be the name of a chain, got \"and\"");
     CHECK(complaint(structure, "(chain A") == "--select: column 9: must be \")\", got nothing");
