@@ -83,6 +83,22 @@ class SceneReader {
         std::string pointer;
         bool reported;
     };
+    /// A file whose names of materials are looked up first.
+    class OpenFile {
+      public:
+        explicit OpenFile(SceneReader& reader) : reader_(reader) {
+            reader.open_files_.push_back(reader.files_.size());
+            reader.files_.emplace_back();
+        }
+        ~OpenFile() { reader_.open_files_.pop_back(); }
+        OpenFile(const OpenFile&) = delete;
+        OpenFile& operator=(const OpenFile&) = delete;
+
+      private:
+        SceneReader& reader_;
+    };
+
+    using NamedMaterials = std::map<std::string, core::MaterialIndex, std::less<>>;
     /// The place of a light in its file.
     struct LightPlace {
         std::string file, pointer;
@@ -123,9 +139,13 @@ class SceneReader {
     Inclusion inclusion_;
     Parameters parameters_;
     core::SceneBuilder builder_;
-    std::map<std::string, core::MaterialIndex, std::less<>> materials_;
-    std::map<std::string, UnknownName, std::less<>> unknown_names_;
+    NamedMaterials materials_;            // the first of each name
+    std::vector<NamedMaterials> files_;   // materials of each file, in the order of reading
+    std::vector<std::size_t> open_files_; // indices; the last is the file that is being read
+    std::map<std::pair<std::size_t, std::string>, UnknownName> unknown_names_; // by file and name
     Definitions definitions_;
+    // Names of other files' materials that a file used before it had any: by file.
+    std::set<std::pair<std::size_t, std::string>> borrowed_;
     std::vector<core::MaterialIndex> named_; // in the order of the files
     std::size_t material_count_ = 0;
     std::vector<LightPlace> lights_;
@@ -138,6 +158,7 @@ class SceneReader {
 
 Outline SceneReader::take_all(InputFile& file, InputErrors& errors) {
     const bool is_first = inclusion_.depth() == 0;
+    const OpenFile open(*this);
     std::array<RootKey, keys.size()> known = keys;
     for (RootKey& key : known)
         key.required = key.required && is_first;
@@ -263,17 +284,26 @@ void SceneReader::take_light(const JsonValue& value) {
         {std::string(value.file()), value.pointer(), value.toward("position").positions().value});
 }
 
+// A file's objects use its materials first, and those of other files for other names.
 void SceneReader::take_material(std::string_view name, const JsonValue& value) {
-    if (materials_.contains(name)) refuse_again(value);
-    const auto entry = materials_.emplace(name, 0).first;
+    NamedMaterials& own = files_[open_files_.back()];
+    if (own.contains(name)) refuse_again(value);
+    if (borrowed_.contains({open_files_.back(), std::string(name)}))
+        value.fail("must come before the objects that use it, because another file has a material "
+                   "of this name");
+    const auto entry = own.emplace(name, 0).first;
     try {
         entry->second = add_material(value);
     } catch (const BadInput&) {
         entry->second = add({}); // otherwise each object that uses it would be an error, too
+        materials_.emplace(name, entry->second);
         throw;
     }
+    std::string unique(name);
+    for (int k = 2; !materials_.emplace(unique, entry->second).second; ++k)
+        unique = std::string(name) + '-' + std::to_string(k);
     // The writer names a material without a name by its number.
-    if (name != std::to_string(named_.size())) builder_.name_material(entry->second, name);
+    if (unique != std::to_string(named_.size())) builder_.name_material(entry->second, unique);
     named_.push_back(entry->second);
 }
 
@@ -310,20 +340,24 @@ core::MaterialIndex SceneReader::material_of(const JsonValue& value) {
     if (value.type() == JsonType::object) return add_material(value);
     if (value.type() != JsonType::string)
         value.fail_expecting("the name of a material, or a material");
-    const auto found = materials_.find(value.string());
-    return found != materials_.end() ? found->second : index_of_unknown(value);
+    const NamedMaterials& own = files_[open_files_.back()];
+    if (const auto found = own.find(value.string()); found != own.end()) return found->second;
+    const auto of_others = materials_.find(value.string());
+    if (of_others == materials_.end()) return index_of_unknown(value);
+    if (own.empty()) borrowed_.emplace(open_files_.back(), value.string());
+    return of_others->second;
 }
 
 /// Returns an index that stands for the material until it comes: materials may come after the
 /// objects. Reports an unknown name only once, and as soon as the materials are known.
 core::MaterialIndex SceneReader::index_of_unknown(const JsonValue& value) {
-    const auto found = unknown_names_.find(value.string());
+    const std::pair key(open_files_.back(), std::string(value.string()));
+    const auto found = unknown_names_.find(key);
     if (found != unknown_names_.end()) return found->second.index;
     const bool hopeless = !materials_.empty() && !misses("materials");
     const core::MaterialIndex index = add({});
-    unknown_names_.emplace(value.string(),
-                           UnknownName{index, std::string(value.file()), value.positions().value,
-                                       value.pointer(), hopeless});
+    unknown_names_.emplace(key, UnknownName{index, std::string(value.file()),
+                                            value.positions().value, value.pointer(), hopeless});
     if (hopeless) value.fail(complaint_about_name(value.string()));
     return index;
 }
@@ -344,18 +378,22 @@ void SceneReader::number_materials() {
     core::MaterialIndex next = 0;
     for (const core::MaterialIndex index : named_)
         new_index[index] = next++;
-    for (const auto& [name, unknown] : unknown_names_)
-        new_index[unknown.index] = new_index[materials_.at(name)];
+    for (const auto& [key, unknown] : unknown_names_) {
+        const NamedMaterials& own = files_[key.first];
+        const auto found = own.find(key.second);
+        new_index[unknown.index] =
+            new_index[found != own.end() ? found->second : materials_.at(key.second)];
+    }
     for (core::MaterialIndex& index : new_index)
         if (index == none) index = next++;
     builder_.renumber_materials(new_index);
 }
 
 core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
-    for (const auto& [name, unknown] : unknown_names_)
-        if (!unknown.reported && !materials_.contains(name) && !misses("materials"))
-            errors.add(
-                {unknown.file, unknown.position, unknown.pointer, complaint_about_name(name)});
+    for (const auto& [key, unknown] : unknown_names_)
+        if (!unknown.reported && !materials_.contains(key.second) && !misses("materials"))
+            errors.add({unknown.file, unknown.position, unknown.pointer,
+                        complaint_about_name(key.second)});
     // A camera that finds its place by itself brings light, too. An empty list is intended.
     builder_.wants_light = has_lights_ || !outline.has("lights");
     if (!has_lights_ && builder_.wants_light && builder_.auto_camera.fit_camera)

@@ -177,6 +177,43 @@ TEST_CASE("included files are relative to the including file") {
           std::string::npos);
 }
 
+TEST_CASE("materials of one name in several files are several materials") {
+    const TemporaryDirectory directory;
+    const auto ball = [](const std::string& x) {
+        return R"("objects": [{"type": "sphere", "material": "C", "radius": 1, "center": [)" + x +
+               ", 0, 0]}]";
+    };
+    const auto color = [](const std::string& rgb) {
+        return R"("materials": {"C": {"color": [)" + rgb + "]}}";
+    };
+    directory.write("red.json", "{" + color("1, 0, 0") + ", " + ball("0") + "}");
+    directory.write("green.json", "{" + color("0, 1, 0") + ", " + ball("3") + "}");
+    directory.write("none.json", "{" + ball("6") + "}");
+    const auto scene_with = [&](const std::string& own) {
+        return scenes::load_scene(directory.write("scene.json", R"({"camera": "auto",
+            "include": ["red.json", "green.json", "none.json"], )" + own +
+                                                                    "}"));
+    };
+    const auto colors = [](const core::Scene& scene) {
+        std::string text;
+        for (core::ShapeId id = 0; id < scene.shape_count(); ++id) {
+            const core::Color of = scene.material_of(id).pattern.colors[0];
+            text += of.x > 0.0F ? "r" : of.y > 0.0F ? "g" : "b";
+        }
+        return text;
+    };
+    // A file without a material of the name uses the first one.
+    CHECK(colors(scene_with(ball("9"))) == "rgrr");
+    const core::Scene scene = scene_with(color("0, 0, 1") + ", " + ball("9"));
+    CHECK(colors(scene) == "rgrb");
+    CHECK(scene.material_name(scene.material_index_of(0)) == "C");
+    CHECK(scene.material_name(scene.material_index_of(1)) == "C-2");
+    CHECK(scene.material_name(scene.material_index_of(3)) == "C-3");
+    CHECK(message_of<scenes::BadInput>([&] { scene_with(ball("9") + ", " + color("0, 0, 1")); })
+              .find("/materials/C: must come before the objects that use it, because another file "
+                    "has a material of this name") != std::string::npos);
+}
+
 TEST_CASE("a light on a surface is reported with its file and the object's file") {
     const TemporaryDirectory directory;
     directory.write("balls.json", R"({"objects": [
