@@ -1,9 +1,11 @@
 #include "scenes/formats/structure/colors.hpp"
 
 #include "core/scene/transfer.hpp"
+#include "scenes/files/number.hpp"
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 namespace raylane::scenes {
@@ -20,9 +22,50 @@ constexpr std::array<std::uint32_t, 20> many_apart = {
     0x008856, 0xe68fac, 0x0067a5, 0xf99379, 0x604e97, 0xf6a600, 0xb3446c,
     0xdcd300, 0x882d17, 0x8db600, 0x654522, 0xe25822, 0x2b3d26};
 
-/// Viridis: Smith and van der Walt (2015), sampled at nine colours.
-constexpr std::array<std::uint32_t, 9> ramp = {0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c,
-                                               0x28ae80, 0x5ec962, 0xaddc30, 0xfde725};
+/// Nine colours at equal distances.
+struct Ramp {
+    std::string_view name;
+    std::array<std::uint32_t, 9> colors;
+};
+
+/// Viridis, magma and plasma: Smith and van der Walt (2015). Cividis: Nunez, Anderton and Renslow,
+/// PLoS ONE 13, e0199239 (2018). Coolwarm, for values around a middle: Moreland (2009).
+constexpr std::array<Ramp, 5> ramps = {
+    {{"viridis",
+      {0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725}},
+     {"cividis",
+      {0x00224e, 0x1a386f, 0x434e6c, 0x61656f, 0x7d7c78, 0x9b9476, 0xbcae6c, 0xdec958, 0xfee838}},
+     {"magma",
+      {0x000004, 0x1d1147, 0x51127c, 0x832681, 0xb73779, 0xe75263, 0xfc8961, 0xfec488, 0xfcfdbf}},
+     {"plasma",
+      {0x0d0887, 0x4c02a1, 0x7e03a8, 0xaa2395, 0xcc4778, 0xe66c5c, 0xf89540, 0xfdc527, 0xf0f921}},
+     {"coolwarm",
+      {0x3b4cc0, 0x6282ea, 0x8db0fe, 0xb9d0f9, 0xdddcdc, 0xf5c4ac, 0xf4987a, 0xdd5f4b, 0xb40426}}}};
+
+struct NamedColor {
+    std::string_view name;
+    std::uint32_t srgb;
+};
+
+/// Names of CSS Color Module Level 4.
+constexpr std::array<NamedColor, 48> named_colors = {{
+    {"black", 0x000000},      {"white", 0xffffff},     {"gray", 0x808080},
+    {"grey", 0x808080},       {"lightgray", 0xd3d3d3}, {"lightgrey", 0xd3d3d3},
+    {"darkgray", 0xa9a9a9},   {"silver", 0xc0c0c0},    {"dimgray", 0x696969},
+    {"red", 0xff0000},        {"darkred", 0x8b0000},   {"maroon", 0x800000},
+    {"firebrick", 0xb22222},  {"crimson", 0xdc143c},   {"tomato", 0xff6347},
+    {"salmon", 0xfa8072},     {"coral", 0xff7f50},     {"orange", 0xffa500},
+    {"darkorange", 0xff8c00}, {"gold", 0xffd700},      {"yellow", 0xffff00},
+    {"khaki", 0xf0e68c},      {"wheat", 0xf5deb3},     {"tan", 0xd2b48c},
+    {"beige", 0xf5f5dc},      {"ivory", 0xfffff0},     {"brown", 0xa52a2a},
+    {"chocolate", 0xd2691e},  {"olive", 0x808000},     {"green", 0x008000},
+    {"lime", 0x00ff00},       {"darkgreen", 0x006400}, {"forestgreen", 0x228b22},
+    {"lightgreen", 0x90ee90}, {"teal", 0x008080},      {"turquoise", 0x40e0d0},
+    {"cyan", 0x00ffff},       {"lightblue", 0xadd8e6}, {"skyblue", 0x87ceeb},
+    {"steelblue", 0x4682b4},  {"slategray", 0x708090}, {"blue", 0x0000ff},
+    {"navy", 0x000080},       {"purple", 0x800080},    {"violet", 0xee82ee},
+    {"magenta", 0xff00ff},    {"orchid", 0xda70d6},    {"pink", 0xffc0cb},
+}};
 
 core::Color linear(std::uint32_t srgb) {
     const auto channel = [&](int shift) {
@@ -33,8 +76,11 @@ core::Color linear(std::uint32_t srgb) {
 
 } // namespace
 
-std::uint32_t ramp_at(double share) {
-    constexpr int steps = static_cast<int>(ramp.size()) - 1;
+std::uint32_t ramp_at(double share, std::string_view palette) {
+    const auto* const named = std::find_if(ramps.begin(), ramps.end(),
+                                           [&](const Ramp& of) { return of.name == palette; });
+    const auto& ramp = (named != ramps.end() ? *named : ramps.front()).colors;
+    const auto steps = static_cast<int>(ramp.size()) - 1;
     // 64 colours are enough for the eye, and need few materials.
     const double place = std::round(std::clamp(share, 0.0, 1.0) * 64.0) / 64.0 * steps;
     const int below = std::min(static_cast<int>(place), steps - 1);
@@ -50,6 +96,36 @@ std::uint32_t ramp_at(double share) {
     return color;
 }
 
+std::vector<std::string_view> palette_names() {
+    std::vector<std::string_view> names;
+    for (const Ramp& ramp : ramps)
+        names.push_back(ramp.name);
+    return names;
+}
+
+std::optional<std::uint32_t> color_named(std::string_view word) {
+    std::uint32_t srgb = 0;
+    if (word.starts_with('#')) {
+        const char* const end = word.data() + word.size();
+        const auto [stop, error] = std::from_chars(word.data() + 1, end, srgb, 16);
+        if (word.size() != 7 || error != std::errc() || stop != end) return std::nullopt;
+        return srgb;
+    }
+    const std::string lower = in_lower_case(word);
+    const auto* const found =
+        std::find_if(named_colors.begin(), named_colors.end(),
+                     [&](const NamedColor& color) { return color.name == lower; });
+    if (found == named_colors.end()) return std::nullopt;
+    return found->srgb;
+}
+
+std::vector<std::string_view> color_names() {
+    std::vector<std::string_view> names;
+    for (const NamedColor& color : named_colors)
+        names.push_back(color.name);
+    return names;
+}
+
 std::uint32_t color_of_one(std::size_t place, std::size_t of) {
     if (of <= apart_from_each_other.size()) return apart_from_each_other[place];
     if (of <= many_apart.size()) return many_apart[place];
@@ -60,20 +136,16 @@ std::uint32_t color_of_type(std::size_t number) {
     return apart_from_each_other[number % apart_from_each_other.size()];
 }
 
-core::MaterialIndex Palette::of(std::uint32_t srgb) {
-    if (srgb == last_color_ && !index_.empty()) return last_;
-    const auto [found, is_new] = index_.try_emplace(srgb);
-    if (is_new) {
-        core::Material material;
-        material.pattern.colors[0] = linear(srgb);
-        material.ambient = 0.0F;
-        material.specular = 0.15F;
-        material.exponent = 20.0F;
-        material.opacity = opacity_;
-        found->second = builder_.add_material(material);
-    }
-    last_color_ = srgb;
-    return last_ = found->second;
+core::MaterialIndex Palette::add(std::uint32_t srgb, std::string_view name) {
+    core::Material material;
+    material.pattern.colors[0] = linear(srgb);
+    material.ambient = 0.0F;
+    material.specular = 0.15F;
+    material.exponent = 20.0F;
+    material.opacity = opacity_;
+    const core::MaterialIndex index = builder_.add_material(material);
+    builder_.name_material(index, name);
+    return index;
 }
 
 } // namespace raylane::scenes

@@ -3,36 +3,39 @@
 #include "core/scene/fit_camera.hpp"
 #include "core/scene/scene.hpp"
 #include "scenes/files/input_file.hpp"
+#include "scenes/formats/structure/atom_colors.hpp"
+#include "scenes/formats/structure/representation.hpp"
 #include "scenes/formats/structure/structure.hpp"
 
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace raylane::scenes {
 
-enum class Style {
-    automatic, ///< spheres for more than 500 atoms or atoms with radii, otherwise balls
-    balls,     ///< balls and sticks
-    sticks,    ///< thin sticks, two or three for double or triple bonds
-    licorice,  ///< thick sticks, one for each bond
-    spheres,   ///< with van der Waals' radii, or those of the file
-    points,    ///< small balls of one size
-};
-
 /// Properties of a structure as a whole. Several frames should share those of one frame.
 struct DrawingScale {
-    Style style = Style::automatic;
-    float usual_radius = 1.5F;      ///< of atoms of unknown elements
-    double least = 0.0, most = 0.0; ///< range of the property that colours stand for
+    float usual_radius = 1.5F;                ///< of atoms of unknown elements
+    std::vector<Style> styles = {};           ///< of the looks that leave it open
+    std::map<std::string, ColorRange> ranges; ///< of the properties that colours stand for
+
+    /// Widens the ranges to those of another frame.
+    void include(const DrawingScale& other);
+};
+
+/// A representation, in the words of representation_of().
+struct ShowWords {
+    std::string text;
+    std::string option = "--show"; ///< in messages
 };
 
 /// Options for rendering a structure.
 struct Drawing {
     Style style = Style::automatic;
-    std::string color = "element";         ///< or "chain", "residue", or the name of a property
+    std::string color = "element";         ///< in the words of color_words_of()
     std::string select = "all";            ///< in the language of select_atoms
     std::array<int, 3> repeat = {1, 1, 1}; ///< cells side by side along the edges
     bool show_cell = false;                ///< the cell's edges
@@ -40,8 +43,16 @@ struct Drawing {
     core::FitCamera fit_camera{};
     int width = 1200, height = 900; ///< pixels of the image
     float opacity = 1.0F;           ///< of atoms and bonds, in (0, 1]
-    float depth_cue = 0.3F;         ///< share of the background in the farthest atoms, in [0, 1)
+    float depth_cue = 0.3F;         ///< share of the background in the farthest atoms, in [0, 1);
+                                    ///< unused if colours stand for a property
     std::optional<DrawingScale> scale{}; ///< of another frame
+    /// If there are any, only the atoms that they select are shown. Each replaces the ones before
+    /// it for the atoms that it selects. Their unset words follow from the options above.
+    std::vector<ShowWords> show{};
+    std::vector<std::string> hide{};     ///< selections of atoms that are not shown
+    std::string radius{}, scale_radii{}; ///< in the words of size_words_of(); empty: unset
+    std::string palette{};               ///< one of palette_names(); empty: the first
+    std::optional<ColorRange> range{};   ///< of a property that colours stand for
 };
 
 /// The atoms of a shape: an atom, twice; the ends of a bond; or `no_atoms` for the cell's edges.

@@ -39,4 +39,15 @@ class KindTable {
     std::size_t last_ = 0;
 };
 
+/// Returns the indices of the kinds with this label, or with this element's symbol in any case.
+inline std::vector<std::size_t> kinds_named(const std::vector<AtomKind>& kinds,
+                                            std::string_view word) {
+    const Element element = element_of(word);
+    std::vector<std::size_t> found;
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+        if (kinds[kind].label == word || (element != 0 && kinds[kind].element == element))
+            found.push_back(kind);
+    return found;
+}
+
 } // namespace raylane::scenes

@@ -3,6 +3,7 @@
 #include "core/scene/field_of_view.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/formats/json/parameters.hpp"
+#include "scenes/formats/structure/colors.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -185,6 +186,42 @@ Values<float> opacities() {
             }};
 }
 
+namespace {
+
+/// Returns a text that `parse` accepts.
+template <class Parse>
+Values<std::string> text_for(const std::string& type, const Parse& parse) {
+    return {type, "", [=](const std::string& option, const std::string& text) {
+                static_cast<void>(parse(option, text));
+                return text;
+            }};
+}
+
+} // namespace
+
+Values<std::string> color_texts() {
+    return text_for("BY", color_words_of);
+}
+
+Values<std::string> size_texts() {
+    return text_for("X", size_words_of);
+}
+
+Values<std::string> show_texts() {
+    return text_for("WHICH:LOOK", representation_of);
+}
+
+Values<std::string> palettes() {
+    std::vector<std::pair<std::string_view, std::string>> names;
+    for (const std::string_view name : palette_names())
+        names.emplace_back(name, name);
+    return choice(names);
+}
+
+Values<ColorRange> color_ranges() {
+    return {"A:B", "", range_of};
+}
+
 Values<std::array<int, 3>> repetitions() {
     return {"AxBxC", "", [](const std::string& option, const std::string& text) {
                 std::array<int, 3> result{};
@@ -210,6 +247,13 @@ Drawing DrawingArguments::drawing() const {
     drawing.color = color.value_or(drawing.color);
     drawing.select = select.value_or(drawing.select);
     drawing.opacity = opacity.value_or(drawing.opacity);
+    for (const std::string& text : *show)
+        drawing.show.push_back({text});
+    drawing.hide = *hide;
+    drawing.palette = palette.value_or("");
+    drawing.range = range.value();
+    drawing.radius = radius.value_or("");
+    drawing.scale_radii = scale.value_or("");
     drawing.repeat = repeat.value_or(drawing.repeat);
     drawing.show_cell = cell.is_given();
     drawing.ellipsoids = ellipsoids.is_given();

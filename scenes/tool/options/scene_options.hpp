@@ -162,6 +162,12 @@ struct ViewArguments : OptionTable {
 };
 
 Values<float> opacities();
+/// Words of colours, sizes and representations, see representation.hpp.
+Values<std::string> color_texts();
+Values<std::string> size_texts();
+Values<std::string> show_texts();
+Values<std::string> palettes();
+Values<ColorRange> color_ranges();
 /// Numbers of cells along the edges of the unit cell.
 Values<std::array<int, 3>> repetitions();
 
@@ -172,24 +178,44 @@ struct DrawingArguments : OptionTable {
 
     Option<Style> style = {
         *this, "--style",
-        choice<Style>({{"balls", Style::balls},
-                       {"sticks", Style::sticks},
-                       {"licorice", Style::licorice},
-                       {"spheres", Style::spheres},
-                       {"points", Style::points}})
+        choice<Style>(named_styles())
             .otherwise("balls for up to 500 atoms, otherwise spheres")
             .recorded(),
-        "Style of atoms and bonds. balls have sticks; spheres have van der Waals radii."};
+        "Style of atoms and bonds. balls have sticks; spheres have van der Waals radii; "
+        "touching has covalent radii, and metallic ones in metals; envelope is the "
+        "solvent-accessible surface."};
     Option<std::string> color = {
-        *this, "--color", word("BY").otherwise("element").recorded(),
-        "Property that colours the atoms: element, chain, residue, or a number per atom "
-        "in the file, such as b_factor."};
+        *this, "--color", color_texts().otherwise("element").recorded(),
+        "Colours of atoms: element, chain, residue, a number per atom in the file, such as "
+        "b_factor, or a colour, such as orange or #ff8000. \"carbons chain\" colours carbon, and "
+        "other atoms by element. Fe=gold or 1=red is for an element or type."};
+    Option<std::string> palette = {*this, "--palette", palettes().otherwise("viridis").recorded(),
+                                   "Colours for a number per atom."};
+    Option<ColorRange> range = {*this, "--range",
+                                color_ranges().otherwise("the range in the image").recorded(),
+                                "Numbers at the ends of the palette, such as 0:50."};
+    Option<std::string> radius = {
+        *this, "--radius", size_texts().otherwise("that of the style").recorded(),
+        "Radius of atoms in angstrom, of sticks, too, in styles without balls. \"0.4 H=0.2\" is "
+        "for an element or type."};
+    Option<std::string> scale = {*this, "--scale", size_texts().otherwise("1").recorded(),
+                                 "Factor for the radii, in the same form."};
     Option<std::string> select = {
         *this, "--select", word("WHICH").otherwise("all").recorded(),
-        "Atoms to show: all, none, protein, nucleic, water, hetero, hydrogen, backbone, "
-        "chain A B, residue ALA 17 20-30, element C Fe, name CA, type 1, index 1-100, a "
-        "number per atom in the file, such as b_factor < 30, or within 5 of ... Combine "
-        "these by not, and, or and parentheses."};
+        "Atoms to show: all, none, protein, nucleic, ligand, water, ion, metal, hetero, hydrogen, "
+        "backbone, sidechain, chain A B, residue ALA 17 20-30, element C Fe, name CA, type 1, "
+        "index 1-100, x < 50, a number per atom in the file, such as b_factor < 30, within 5 of "
+        "..., or byres ... Combine these by not, and, or and parentheses. PyMOL's and VMD's words "
+        "for these are known, too."};
+    ListOption<std::string> show = {
+        *this, "--show", show_texts().recorded(),
+        "Show the atoms of a selection, and no others, as \"ligand: sticks orange\" or "
+        "\"protein: spheres white opacity 0.3 + sticks\". Words behind the colon: a style, a "
+        "colour as in --color, opacity A, radius R, scale X, palette NAME, range A:B. Other "
+        "options give the defaults. + shows two looks at once. Given again, the option "
+        "replaces the look of the atoms that it selects."};
+    ListOption<std::string> hide = {*this, "--hide", word("WHICH").recorded(),
+                                    "Atoms not to show, in the words of --select."};
     Option<float> opacity = {
         *this, "--opacity", opacities().otherwise("1").recorded(),
         "Opacity of atoms and bonds. Inner surfaces of overlapping shapes are hidden."};

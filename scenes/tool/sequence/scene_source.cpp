@@ -71,12 +71,10 @@ class Trajectory : public SceneSource {
                                if (!std::exchange(has_remarked_, true) && options_.on_remark)
                                    options_.on_remark(remark);
                            });
-        if (scale_) {
-            scale_->least = std::min(scale_->least, scale.least);
-            scale_->most = std::max(scale_->most, scale.most);
-        } else {
+        if (scale_)
+            scale_->include(scale);
+        else
             scale_ = scale;
-        }
         return scene;
     }
     void rewind() override {

@@ -313,6 +313,36 @@ TEST_CASE("a part with a missing or malformed Rays attribute is refused") {
     CHECK(fixture.is_output_empty());
 }
 
+TEST_CASE("verify renders the looks that an image names") {
+    const ToolFixture fixture;
+    fixture.write("a.xyz", "3\n\nO 0 0 0\nC 1.2 0 0\nH 0 1 0\n");
+    const std::vector<std::string> looks = {"--show",    "all: spheres white opacity 0.4 + sticks",
+                                            "--show",    "index 1: points red",
+                                            "--hide",    "element H",
+                                            "--color",   "green range -1:2",
+                                            "--palette", "magma",
+                                            "--range",   "-5:50",
+                                            "--radius",  "0.3 O=0.5",
+                                            "--scale",   "C=1.5"};
+    std::vector<std::string> render = {"render", "a.xyz", "-o", "a.png",  "--size",
+                                       "60x40",  "--spp", "1",  "--quiet"};
+    render.insert(render.end(), looks.begin(), looks.end());
+    const Outcome drawn = fixture.run(render);
+    CHECK(drawn.err.empty());
+    REQUIRE(drawn.code == 0);
+    const Outcome verified = fixture.run({"verify", "a.png", "a.xyz", "--quiet"});
+    CHECK(verified.err.empty());
+    CHECK(verified.out.starts_with("scene      same as the image names\n"));
+    CHECK(verified.code == 0);
+    const std::string text = content(fixture, "a.png");
+    for (const char* const word : {"index 1: points red", "element H", "--palette magma", "-5:50"})
+        CHECK(text.find(word) != std::string::npos);
+    const Outcome wrong = fixture.run({"render", "a.xyz", "-o", "b.png", "--show", "all: opacity"});
+    CHECK(wrong.code == 2);
+    CHECK(wrong.err == "raylane: --show: column 13: opacity must be above 0 and at most 1, got "
+                       "nothing\n");
+}
+
 TEST_CASE("verify understands the selection that an image names") {
     const ToolFixture fixture;
     std::string atoms;

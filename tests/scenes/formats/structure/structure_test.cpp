@@ -377,7 +377,8 @@ TEST_CASE("options that cannot be drawn give an error of one line") {
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.color = "chain"; }) ==
           "--color: must not be chain here: a.xyz has no residues");
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.color = "elment"; }) ==
-          "--color: must be element, got \"elment\", did you mean \"element\"?");
+          "--color: must be element or a colour such as red or #ff8000, got \"elment\", did you "
+          "mean \"element\"?");
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.show_cell = true; }) ==
           "--cell: must have a cell to show, but a.xyz has none");
     CHECK(error("a.xyz", one, [](LoadOptions& o) {

@@ -1,0 +1,235 @@
+#include "scenes/formats/structure/atom_layer.hpp"
+
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/structure/displacement.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace raylane::scenes {
+
+namespace {
+
+using core::MaterialIndex;
+using core::Vec3d;
+using core::Vec3f;
+
+constexpr double apart = 0.13;          // distance of a double bond's sticks from its line
+constexpr float share_of_stick = 0.55F; // of each of several
+
+class LayerShapes {
+  public:
+    LayerShapes(const DrawnAtoms& atoms, const AtomLayer& layer, const std::string& file,
+                core::SceneBuilder& builder, TransparentSolids& transparent,
+                std::vector<AtomPair>* atoms_of_shape)
+        : atoms_(atoms), structure_(atoms.structure), layer_(layer), file_(file), builder_(builder),
+          palette_(builder, *layer.look.opacity), atoms_of_shape_(atoms_of_shape),
+          transparent_(transparent) {}
+
+    void add_all() {
+        add_atoms();
+        if (has_sticks(*layer_.look.style)) add_bonds();
+    }
+
+  private:
+    bool has(AtomIndex atom) const { return atoms_.representations[atom] == layer_.representation; }
+    MaterialIndex material_of(AtomIndex atom) {
+        return palette_.of(layer_.colors.of(atom), [&] { return layer_.colors.meaning_of(atom); });
+    }
+
+    template <class Shape>
+    void add(const Shape& shape, MaterialIndex material, const AtomPair& atoms) {
+        if (*layer_.look.opacity < 1.0F) {
+            transparent_.add(*layer_.look.style, *layer_.look.opacity, shape, material, atoms);
+            return;
+        }
+        builder_.add(shape, material);
+        if (atoms_of_shape_ != nullptr) atoms_of_shape_->push_back(atoms);
+    }
+
+    void add_atoms() {
+        std::vector<char> has_ellipsoid;
+        const Style style = *layer_.look.style;
+        if (atoms_.ellipsoids)
+            has_ellipsoid = add_displacements();
+        else if (style == Style::spheres || style == Style::balls)
+            has_ellipsoid = add_shapes();
+        for (AtomIndex atom = 0; atom < structure_.size(); ++atom) {
+            if (!has(atom) || (!has_ellipsoid.empty() && has_ellipsoid[atom] != 0)) continue;
+            const MaterialIndex material = material_of(atom);
+            const float radius = displaced_radius(atom).value_or(layer_.radii.of(atom));
+            for (const Vec3f& image : atoms_.images)
+                add(core::Sphere{structure_.positions[atom] + image, radius}, material,
+                    {atom, atom});
+        }
+    }
+
+    /// Returns the radius of an isotropic displacement that is rendered.
+    std::optional<float> displaced_radius(AtomIndex atom) const {
+        if (!atoms_.ellipsoids || structure_.isotropies.empty() ||
+            !(structure_.isotropies[atom] > 0.0F))
+            return std::nullopt;
+        return static_cast<float>(
+            radius_of_displacement(static_cast<double>(structure_.isotropies[atom])));
+    }
+
+    std::vector<char> add_displacements() {
+        if (structure_.anisotropies.empty())
+            throw BadInput("--ellipsoids", "", file_ + " has no anisotropic displacements");
+        std::vector<char> done(structure_.size());
+        for (const Anisotropy& of : structure_.anisotropies) {
+            if (!has(of.atom)) continue;
+            const auto axes = axes_of(of);
+            if (!axes) continue;
+            add_ellipsoid(of.atom,
+                          {core::convert<float>((*axes)[0]), core::convert<float>((*axes)[1]),
+                           core::convert<float>((*axes)[2])});
+            done[of.atom] = 1;
+        }
+        return done;
+    }
+
+    /// Adds the atoms that are not balls, in the same proportion to their size as balls.
+    std::vector<char> add_shapes() {
+        std::vector<char> done(structure_.shapes.empty() ? 0 : structure_.size());
+        for (const auto& [atom, axes] : structure_.shapes) {
+            if (!has(atom)) continue;
+            const float size = layer_.radii.share_of_shape(atom);
+            add_ellipsoid(atom, {size * axes[0], size * axes[1], size * axes[2]});
+            done[atom] = 1;
+        }
+        return done;
+    }
+
+    void add_ellipsoid(AtomIndex atom, const std::array<Vec3f, 3>& axes) {
+        const MaterialIndex material = material_of(atom);
+        for (const Vec3f& image : atoms_.images)
+            add(core::Ellipsoid{structure_.positions[atom] + image, axes[0], axes[1], axes[2]},
+                material, {atom, atom});
+    }
+
+    void add_bonds() {
+        const Structure& all = atoms_.all();
+        if (*layer_.look.style != Style::licorice) find_neighbours(all);
+        for (const Bond& bond : atoms_.bonds) {
+            const AtomIndex of_a = atoms_.original(bond.a), of_b = atoms_.original(bond.b);
+            if (!(has(of_a) && atoms_.shows_bonds_of(of_b)) &&
+                !(has(of_b) && atoms_.shows_bonds_of(of_a)))
+                continue;
+            const Vec3d a = core::convert<double>(all.positions[bond.a]);
+            const Vec3d b = core::convert<double>(all.positions[bond.b]);
+            if (a == b || (*layer_.look.style == Style::touching && is_inside(of_a, of_b, a, b)))
+                continue;
+            const int sticks = *layer_.look.style == Style::licorice ? 1 : bond.order;
+            if (sticks == 1) {
+                add_stick(bond, a, b, 1.0F);
+                continue;
+            }
+            const Vec3d side = beside(all, bond, a, b);
+            for (int k = 0; k < sticks; ++k) {
+                const double by = (k - 0.5 * (sticks - 1)) * 2.0 * apart / (sticks - 1);
+                add_stick(bond, a + by * side, b + by * side, share_of_stick);
+            }
+        }
+    }
+
+    /// Returns true if the balls of two atoms meet, so that they hide the stick between them.
+    bool is_inside(AtomIndex of_a, AtomIndex of_b, const Vec3d& a, const Vec3d& b) const {
+        return core::length(b - a) <=
+               static_cast<double>(layer_.radii.of(of_a) + layer_.radii.of(of_b));
+    }
+
+    /// Adds a stick in the colours of both atoms, which meet in the middle of its visible part.
+    /// Omits the half of an atom of another representation. `share`: factor for the radius.
+    void add_stick(const Bond& bond, const Vec3d& a, const Vec3d& b, float share) {
+        const AtomPair atoms = {atoms_.original(bond.a), atoms_.original(bond.b)};
+        const auto add_part = [&](const Vec3d& from, const Vec3d& to, AtomIndex of) {
+            add(core::CappedCylinder{core::convert<float>(from), core::convert<float>(to - from),
+                                     share * layer_.radii.stick_of(of)},
+                material_of(of), atoms);
+        };
+        const bool is_whole = has(atoms[0]) && has(atoms[1]) &&
+                              material_of(atoms[0]) == material_of(atoms[1]) &&
+                              layer_.radii.stick_of(atoms[0]) == layer_.radii.stick_of(atoms[1]);
+        if (is_whole) {
+            add_part(a, b, atoms[0]);
+            return;
+        }
+        const Vec3d middle = a + share_of_first(atoms, core::length(b - a)) * (b - a);
+        if (has(atoms[0])) add_part(a, middle, atoms[0]);
+        if (has(atoms[1])) add_part(middle, b, atoms[1]);
+    }
+
+    double share_of_first(const AtomPair& atoms, double distance) const {
+        if (!has(atoms[0]) || !has(atoms[1])) return 0.5; // another layer has the other half
+        const auto larger =
+            static_cast<double>(layer_.radii.of(atoms[0]) - layer_.radii.of(atoms[1]));
+        return std::clamp(0.5 + 0.5 * larger / distance, 0.1, 0.9);
+    }
+
+    /// Finds up to two neighbours that each atom is bonded to. The atom itself stands for a missing
+    /// one.
+    void find_neighbours(const Structure& all) {
+        one_.resize(all.size());
+        another_.resize(all.size());
+        for (AtomIndex i = 0; i < one_.size(); ++i)
+            one_[i] = another_[i] = i;
+        const auto note = [&](AtomIndex of, AtomIndex other) {
+            (one_[of] == of ? one_ : another_)[of] = other;
+        };
+        for (const Bond& bond : atoms_.bonds) {
+            note(bond.a, bond.b);
+            note(bond.b, bond.a);
+        }
+    }
+
+    /// Returns a direction across a bond, of length 1, in the plane of an adjacent bond.
+    Vec3d beside(const Structure& all, const Bond& bond, const Vec3d& a, const Vec3d& b) const {
+        const Vec3d along = 1.0 / core::length(b - a) * (b - a);
+        const auto across = [&](const Vec3d& way) {
+            const Vec3d part = way - core::dot(way, along) * along;
+            const double size = core::length(part);
+            return size > 0.1 ? 1.0 / size * part : Vec3d(0.0);
+        };
+        const std::pair<AtomIndex, AtomIndex> ends[] = {{bond.a, bond.b}, {bond.b, bond.a}};
+        for (const auto& [end, other] : ends)
+            for (const AtomIndex next : {one_[end], another_[end]}) {
+                if (next == end || next == other) continue;
+                const Vec3d way = core::convert<double>(all.positions[next]) -
+                                  core::convert<double>(all.positions[end]);
+                if (const Vec3d side = across(way); side != Vec3d(0.0)) return side;
+            }
+        const Vec3d side = across({1, 0, 0});
+        return side != Vec3d(0.0) ? side : across({0, 1, 0});
+    }
+
+    const DrawnAtoms& atoms_;
+    const Structure& structure_;
+    const AtomLayer& layer_;
+    const std::string& file_;
+    core::SceneBuilder& builder_;
+    Palette palette_;
+    std::vector<AtomPair>* atoms_of_shape_;
+    TransparentSolids& transparent_;
+    std::vector<AtomIndex> one_, another_;
+};
+
+} // namespace
+
+void TransparentSolids::add_to(core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape) {
+    for (auto& [key, one] : solids_) {
+        if (one.solid.parts.size() == 1) one.solid = core::Solid(one.solid.parts[0]);
+        builder.add_solid(one.solid, one.solid.material);
+        if (atoms_of_shape != nullptr)
+            atoms_of_shape->insert(atoms_of_shape->end(), one.atoms.begin(), one.atoms.end());
+    }
+    solids_.clear();
+}
+
+void add_layer(const DrawnAtoms& atoms, const AtomLayer& layer, const std::string& file,
+               core::SceneBuilder& builder, TransparentSolids& transparent,
+               std::vector<AtomPair>* atoms_of_shape) {
+    LayerShapes(atoms, layer, file, builder, transparent, atoms_of_shape).add_all();
+}
+
+} // namespace raylane::scenes

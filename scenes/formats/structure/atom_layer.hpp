@@ -1,0 +1,80 @@
+#pragma once
+
+#include "core/scene/scene.hpp"
+#include "scenes/formats/structure/atom_colors.hpp"
+#include "scenes/formats/structure/atom_radii.hpp"
+#include "scenes/formats/structure/colors.hpp"
+#include "scenes/formats/structure/drawing.hpp"
+#include "scenes/formats/structure/structure.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// A look of the atoms of a representation.
+struct AtomLayer {
+    std::size_t representation; ///< index
+    Look look;                  ///< with a style and an opacity
+    AtomColors colors;
+    AtomRadii radii;
+};
+
+/// The parts of a drawing that its layers share.
+struct DrawnAtoms {
+    static constexpr std::uint16_t hidden = 65535;
+
+    const Structure& structure;
+    std::vector<std::uint16_t> representations = {}; ///< of each atom: index, or `hidden`
+    std::vector<char> shows_bonds = {};              ///< by representation
+    bool ellipsoids = false;                         ///< ellipsoids of displacements
+    std::vector<core::Vec3f> images = {};            ///< positions of the cells
+    /// Images of the atoms side by side, if there are several or if the file has bonds.
+    std::optional<Structure> repeated = {};
+    std::vector<Bond> bonds = {}; ///< of all(); may be empty if no representation shows bonds
+
+    const Structure& all() const { return repeated ? *repeated : structure; }
+    /// Returns the atom of which this one is an image.
+    AtomIndex original(AtomIndex atom) const {
+        return atom % static_cast<AtomIndex>(structure.size());
+    }
+    bool shows_bonds_of(AtomIndex atom) const {
+        const std::uint16_t of = representations[atom];
+        return of != hidden && shows_bonds[of] != 0;
+    }
+};
+
+/// The transparent shapes of a drawing. Those of one style and opacity are one solid, as a molecule
+/// has no walls inside.
+class TransparentSolids {
+  public:
+    template <class Shape>
+    void add(Style style, float opacity, const Shape& shape, core::MaterialIndex material,
+             const AtomPair& atoms) {
+        One& one = solids_[{style, opacity}];
+        one.solid.parts.push_back({.shape = core::to_doubles(shape), .material = material});
+        one.atoms.push_back(atoms);
+    }
+    /// Moves the solids into a builder. `atoms_of_shape`, unless null, receives their atoms.
+    void add_to(core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape);
+
+  private:
+    struct One {
+        core::Solid solid{.made = core::Made::by_union};
+        std::vector<AtomPair> atoms;
+    };
+    std::map<std::pair<Style, float>, One> solids_;
+};
+
+/// Adds a layer's atoms and bonds to a builder, or to `transparent`. A bond between two
+/// representations that show bonds has a half in the look of each. `file` is the name in messages.
+/// `atoms_of_shape`, unless null, receives the atoms of each shape. Throws BadInput if
+/// displacements are missing.
+void add_layer(const DrawnAtoms& atoms, const AtomLayer& layer, const std::string& file,
+               core::SceneBuilder& builder, TransparentSolids& transparent,
+               std::vector<AtomPair>* atoms_of_shape);
+
+} // namespace raylane::scenes
