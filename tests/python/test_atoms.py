@@ -72,6 +72,75 @@ def test_what_no_atoms_are_says_where():
     assert colors_and_places(raylane.from_atoms(np.array([6]), places)) == colors_and_places(carbon)
 
 
+def names_of(scene):
+    """Returns the opacities and colours of a scene's shapes, in order."""
+    materials = [scene.material(int(m)) for m in scene.material_of(np.arange(scene.shape_count))]
+    return [(m.opacity, tuple(np.round(m.color, 3))) for m in materials]
+
+
+def test_representations():
+    white, orange = (1.0, 1.0, 1.0), (1.0, 0.376, 0.0)
+    places = [[0.0, 0, 0], [9, 0, 0], [18, 0, 0]]
+    known = dict(
+        names=["CA", "C1", "O"],
+        residue_names=["ALA", "XK2", "HOH"],
+        residue_numbers=[1, 2, 3],
+        chains=["A", "", ""],
+        properties={"charge": [0.5, 0, -1]},
+    )
+    scene = raylane.from_atoms(
+        "C C O".split(),
+        places,
+        representations=["all: spheres white opacity 0.5", "ligand: spheres carbons orange", "charge < -0.5: points white"],
+        **known,
+    )
+    assert sorted(names_of(scene)) == [(0.5, white), (1.0, orange), (1.0, white)]
+    assert raylane.from_atoms("C C O".split(), places, representations=["resn ALA"], **known).shape_count == 1
+    with pytest.warns(UserWarning, match='representations/0: column 13: "B" matches no chain'):
+        raylane.from_atoms("C C O".split(), places, representations=["chain A or chain B"], **known)
+
+
+def test_malformed_representations_say_where():
+    places = [[0.0, 0, 0]]
+    for representations, text in (
+        (["all: stiks"], "representations/0: must be a style, element or a colour such as red or #ff8000, got \"stiks\""),
+        (["all", "al: sticks"], "representations/1: column 1: must be one of all"),
+        (["all: opacity 2"], "representations/0: column 14: opacity must be above 0 and at most 1"),
+    ):
+        with pytest.raises(raylane.BadInput) as error:
+            raylane.from_atoms(["C"], places, representations=representations)
+        assert str(error.value).startswith(text)
+    for keys, text in (
+        (dict(representations="all"), "representations: must be a list of texts, got one text"),
+        (dict(representations=[1]), "representations/0: must be a text, got 1"),
+        (dict(names=["A", "B"]), "names: must have 1 values, one for each atom, got 2"),
+        (dict(names=["A B"]), "names/0: must be a word without spaces, got 'A B'"),
+        (dict(properties={"a b": [1]}), "properties: must have names of letters, digits and _, got 'a b'"),
+        (dict(properties={"a": [1, 2]}), "properties/a: must be 1 numbers, one for each atom"),
+    ):
+        with pytest.raises(raylane.InvalidValue) as error:
+            raylane.from_atoms(["C"], places, **keys)
+        assert str(error.value) == text
+
+
+class Atoms:
+    """The attributes of an AtomGroup of MDAnalysis that raylane reads."""
+
+    elements = names = ["C", "C"]
+    positions = np.array([[0.0, 0, 0], [9, 0, 0]])
+    resnames, resids, chainIDs, segids, charges = ["ALA", "LIG"], [1, 2], ["", ""], ["P", "L"], [0.0, 1.0]
+
+    @property
+    def atoms(self):
+        return self
+
+
+def test_names_of_mdanalysis_are_known_to_representations():
+    for select in ("ligand", "resn LIG", "resi 2", "chain L", "charge > 0.5"):
+        assert raylane.from_mdanalysis(Atoms(), [select + ": spheres red"]).bounds[0][0] > 7
+    assert raylane.from_mdanalysis(Atoms()).shape_count == 2
+
+
 def test_ase(monkeypatch):
     ase = pytest.importorskip("ase")
     import ase.build

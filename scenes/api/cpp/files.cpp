@@ -68,12 +68,20 @@ Scene parse(std::string_view text, const std::string& name, const OnRemark& on_r
 
 Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
                   const OnRemark& on_remark) {
+    return parse_atoms(text, name, show_cell, std::vector<std::string>(), on_remark);
+}
+
+Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
+                  const std::vector<std::string>& representations, const OnRemark& on_remark) {
     return with_file_errors([&] {
         simd::ParallelWorkers workers;
         scenes::LoadOptions options;
         options.workers = &workers;
         options.on_remark = on_remark;
         options.drawing.show_cell = show_cell;
+        for (std::size_t k = 0; k < representations.size(); ++k)
+            options.drawing.show.push_back(
+                {representations[k], "representations/" + std::to_string(k)});
         return owning(scenes::parse_scene(name, text, options));
     });
 }

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 #include <pybind11/functional.h>
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 namespace raylane::python {
@@ -210,11 +211,14 @@ void bind_scene(py::module_& module) {
                    const py::gil_scoped_release free;
                    return parse(view, name, remarks);
                });
-    module.def("parse_atoms", [](const py::bytes& text, const std::string& name, bool show_cell) {
-        const std::string_view view = text;
-        const py::gil_scoped_release free;
-        return raylane::parse_atoms(view, name, show_cell);
-    });
+    module.def("parse_atoms",
+               [](const py::bytes& text, const std::string& name, bool show_cell,
+                  const std::vector<std::string>& representations, const py::object& on_remark) {
+                   const OnRemark remarks = remarks_to(on_remark);
+                   const std::string_view view = text;
+                   const py::gil_scoped_release free;
+                   return raylane::parse_atoms(view, name, show_cell, representations, remarks);
+               });
     module.def("material_preset",
                [](const std::string& name) { return to_python(material_preset(name)); });
     module.def("catalogue_glass",

@@ -16,10 +16,34 @@ namespace {
 
 /// The meaning of a column, or of several adjacent ones.
 struct Column {
-    enum class Is { species, position, radius, property, other };
+    enum class Is {
+        species,
+        position,
+        radius,
+        name,
+        residue_name,
+        residue_number,
+        chain,
+        property,
+        other
+    };
     Is is;
     int count;
     std::string name;
+};
+
+/// Columns of one word that have names and residues, in the words of ASE and others.
+constexpr std::pair<std::string_view, Column::Is> named_columns[] = {
+    {"species", Column::Is::species},
+    {"element", Column::Is::species},
+    {"z", Column::Is::species},
+    {"name", Column::Is::name},
+    {"atomtypes", Column::Is::name},
+    {"resname", Column::Is::residue_name},
+    {"residuenames", Column::Is::residue_name},
+    {"resid", Column::Is::residue_number},
+    {"residuenumbers", Column::Is::residue_number},
+    {"chain", Column::Is::chain},
 };
 
 std::vector<Column> usual_columns() {
@@ -118,6 +142,11 @@ class XyzReader : public FrameReader {
     }
 
   private:
+    bool has(Column::Is what) const {
+        return std::any_of(columns_.begin(), columns_.end(),
+                           [&](const Column& column) { return column.is == what; });
+    }
+
     /// Reserves no more than the file can hold, as the number of atoms may be wrong.
     void reserve(Structure& frame, std::size_t count) const {
         constexpr std::size_t min_bytes = 8; // "C 0 0 0\n"
@@ -142,9 +171,9 @@ class XyzReader : public FrameReader {
             if (name == "origin") read_numbers(value, 3, "Origin", &frame.cell.origin.x);
             if (name == "pbc") read_periodic(frame, value);
         }
-        has_radius_ = std::any_of(columns_.begin(), columns_.end(), [](const Column& column) {
-            return column.is == Column::Is::radius;
-        });
+        has_radius_ = has(Column::Is::radius);
+        has_residues_ = has(Column::Is::residue_name) || has(Column::Is::residue_number) ||
+                        has(Column::Is::chain);
         of_column_.assign(columns_.size(), 0);
         for (std::size_t k = 0; k < columns_.size(); ++k) {
             if (columns_[k].is != Column::Is::property) continue;
@@ -174,8 +203,13 @@ class XyzReader : public FrameReader {
                     printable(lines_.text()) + "\"");
             Column column{Column::Is::other, count, std::string(name)};
             const std::string known = in_lower_case(name);
-            if (count == 1 && (known == "species" || known == "element" || known == "z"))
-                column.is = Column::Is::species;
+            const auto* const named =
+                std::find_if(std::begin(named_columns), std::end(named_columns),
+                             [&](const auto& pair) { return pair.first == known; });
+            if (count == 1 && named != std::end(named_columns) &&
+                (named->second != Column::Is::residue_number || type[0] == 'I') &&
+                !has(named->second))
+                column.is = named->second;
             else if (count == 3 && known == "pos")
                 column.is = Column::Is::position;
             else if (count == 1 && (known == "radius" || known == "radii") && type[0] == 'R')
@@ -233,6 +267,8 @@ class XyzReader : public FrameReader {
         std::string_view species = "X";
         core::Vec3f position(0.0F);
         float radius = 0.0F;
+        Residue residue;
+        std::string_view chain;
         for (std::size_t k = 0; k < columns_.size(); ++k) {
             const Column& column = columns_[k];
             switch (column.is) {
@@ -245,6 +281,19 @@ class XyzReader : public FrameReader {
                 break;
             case Column::Is::radius:
                 radius = words.coordinate("a radius");
+                break;
+            case Column::Is::name:
+                frame.names.emplace_back(words.get("a name"));
+                break;
+            case Column::Is::residue_name:
+                residue.name = words.get("a residue");
+                break;
+            case Column::Is::residue_number:
+                residue.number = static_cast<int>(
+                    words.whole("the number of a residue", -999'999'999, 999'999'999));
+                break;
+            case Column::Is::chain:
+                chain = words.get("a chain");
                 break;
             case Column::Is::property: {
                 double sum = 0.0, value = 0.0;
@@ -266,15 +315,30 @@ class XyzReader : public FrameReader {
             species, [&](std::string_view label) { return element_of_species(label, has_types_); });
         if (kind == Structure::max_kinds) lines_.fail("must be of one of at most 65535 elements");
         if (has_radius_) frame.radii.push_back(radius);
+        if (has_residues_) add_residue(frame, std::move(residue), chain);
         frame.positions.push_back(position);
         frame.kinds.push_back(static_cast<std::uint16_t>(kind));
+    }
+
+    /// Puts the last atom into a residue: the last one, or a new one.
+    static void add_residue(Structure& frame, Residue residue, std::string_view chain) {
+        if (frame.chains.empty() || frame.chains.back() != chain) frame.chains.emplace_back(chain);
+        residue.chain = static_cast<std::uint32_t>(frame.chains.size() - 1);
+        residue.is_hetero = !is_polymer_residue(residue.name);
+        const auto is_same = [&](const Residue& last) {
+            return last.chain == residue.chain && last.number == residue.number &&
+                   last.name == residue.name;
+        };
+        if (frame.of_residue.empty() || !is_same(frame.of_residue.back()))
+            frame.of_residue.push_back(std::move(residue));
+        frame.residues.push_back(static_cast<std::uint32_t>(frame.of_residue.size() - 1));
     }
 
     InputFile& file_;
     Lines lines_;
     std::vector<Column> columns_;
     std::vector<std::size_t> of_column_; // index of the property
-    bool has_radius_ = false, has_types_ = false;
+    bool has_radius_ = false, has_residues_ = false, has_types_ = false;
     std::size_t frames_ = 0;
 };
 

@@ -242,6 +242,14 @@ RAYLANE_API Scene parse(std::string_view text, const std::string& name = "scene"
 RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
                               const OnRemark& on_remark = {});
 
+/// Does the same with representations. Each is a text such as "ligand: sticks carbons orange" or
+/// "protein: spheres white opacity 0.3 + sticks", in the words of the tool's option --show: only
+/// the atoms that they select are visible, and later ones replace earlier ones of the same atoms.
+/// Throws BadInput for a malformed text, as "representations/0: column 9: ...".
+RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
+                              const std::vector<std::string>& representations,
+                              const OnRemark& on_remark = {});
+
 /// Writes a scene to a file. The file appears complete or not at all. The ending, in upper or lower
 /// case, decides the format:
 /// - .json: everything that is visible of the scene, to the bit. It does not store which triangles

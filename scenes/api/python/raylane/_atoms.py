@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import io
 from numbers import Integral
-from typing import Any, Iterator, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
 from ._errors import InvalidValue
-from ._scene import Scene
+from ._scene import Scene, _warn
 
 
 _MOST = 1e30  # maximum magnitude of a coordinate, as in all scenes
@@ -52,23 +52,88 @@ def _symbol(symbol: Any, index: int) -> str:
     return symbol
 
 
+def _words(values: Sequence[Any], count: int, field: str) -> List[str]:
+    """Returns one word of an XYZ file for each atom, "_" for an empty one. Raises InvalidValue for other values."""
+    words = [str(value).strip() or "_" for value in values]
+    if len(words) != count:
+        raise InvalidValue(field, f"must have {count} values, one for each atom, got {len(words)}")
+    for index, word in enumerate(words):
+        if any(c.isspace() for c in word) or not word.isprintable():
+            raise InvalidValue(f"{field}/{index}", f"must be a word without spaces, got {word[:40]!r}")
+    return words
+
+
+def _column(values: Any, count: int, name: str) -> Tuple[str, List[str]]:
+    """Returns a property of an XYZ file and its values."""
+    field = f"properties/{name}"
+    if not name.isidentifier():
+        raise InvalidValue("properties", f"must have names of letters, digits and _, got {name[:40]!r}")
+    numbers = np.asarray(values)
+    if numbers.shape != (count,) or numbers.dtype.kind not in "biuf":
+        raise InvalidValue(field, f"must be {count} numbers, one for each atom")
+    return f"{name}:R:1", [repr(x) for x in numbers.astype(np.float64).tolist()]
+
+
+def _texts(representations: Optional[Sequence[str]]) -> List[str]:
+    if representations is None:
+        return []
+    if isinstance(representations, str):
+        raise InvalidValue("representations", "must be a list of texts, got one text")
+    for index, text in enumerate(representations):
+        if not isinstance(text, str):
+            raise InvalidValue(f"representations/{index}", f"must be a text, got {text!r:.40}")
+    return list(representations)
+
+
 def from_atoms(
-    symbols: Sequence[Union[str, int]], positions: ArrayLike, cell: Optional[ArrayLike] = None
+    symbols: Sequence[Union[str, int]],
+    positions: ArrayLike,
+    cell: Optional[ArrayLike] = None,
+    *,
+    representations: Optional[Sequence[str]] = None,
+    names: Optional[Sequence[str]] = None,
+    residue_names: Optional[Sequence[str]] = None,
+    residue_numbers: Optional[Sequence[int]] = None,
+    chains: Optional[Sequence[str]] = None,
+    properties: Optional[Mapping[str, ArrayLike]] = None,
+    on_remark: Callable[[str], object] = _warn,
 ) -> Scene:
     """Returns a scene of atoms, in the style of a scene from an XYZ file.
 
     ``symbols``: n symbols or numbers (0 to 118) of elements. ``positions``: (n, 3), in angstrom. ``cell``: (3, 3), with
     the cell's vectors as rows, in angstrom; the scene includes its edges unless a vector is zero. Coordinates are
-    finite, from -1e30 to 1e30. Raises :class:`InvalidValue`, fields ``"symbols/0"``, ``"positions/0/2"``,
-    ``"cell/0/2"``, ...
+    finite, from -1e30 to 1e30.
+
+    ``representations``: texts such as ``"ligand: sticks carbons orange"`` or ``"protein: spheres white opacity 0.3 +
+    sticks"``, in the words of the option ``--show`` of ``raylane render``. Only the atoms that they select are visible.
+    Later ones replace earlier ones of the same atoms. Default: all atoms in one look.
+
+    The others, each of length n, are for selections and colours: the atoms' ``names``, the names and numbers of their
+    residues, their ``chains``, and ``properties``, which maps names such as ``"charge"`` to numbers.
+
+    Calls ``on_remark`` for names that select nothing; default: a warning. Raises :class:`InvalidValue`, fields
+    ``"symbols/0"``, ``"positions/0/2"``, ``"cell/0/2"``, ``"names/0"``, ..., and :class:`BadInput` for a malformed
+    representation, with its column.
     """
     if isinstance(symbols, (str, bytes)):  # the characters of "H2O" would count as elements, 2 as helium
         raise InvalidValue("symbols", f"must be a list of symbols or numbers, got {symbols[:40]!r}")
     words = [_symbol(symbol, index) for index, symbol in enumerate(symbols)]
     if not words:
         raise InvalidValue("symbols", "must have at least one atom, got none")
-    places = _numbers(positions, (len(words), 3), "positions")
-    comment = "Properties=species:S:1:pos:R:3"
+    count = len(words)
+    places = _numbers(positions, (count, 3), "positions")
+    texts = _texts(representations)
+    columns = [("species:S:1", words), ("pos:R:3", [f"{x!r} {y!r} {z!r}" for x, y, z in places.tolist()])]
+    for column, values, field in (
+        ("name:S:1", names, "names"),
+        ("resname:S:1", residue_names, "residue_names"),
+        ("resid:I:1", None if residue_numbers is None else [int(n) for n in residue_numbers], "residue_numbers"),
+        ("chain:S:1", chains, "chains"),
+    ):
+        if values is not None:
+            columns.append((column, _words(values, count, field)))
+    columns += [_column(values, count, name) for name, values in (properties or {}).items()]
+    comment = "Properties=" + ":".join(column for column, _ in columns)
     show_cell = False
     if cell is not None:
         edges = _numbers(cell, (3, 3), "cell")
@@ -76,16 +141,36 @@ def from_atoms(
         comment = f'Lattice="{vectors}" {comment}'
         show_cell = bool(edges.astype(np.float32).any(axis=1).all())
     text = io.StringIO()
-    text.write(f"{len(words)}\n{comment}\n")
-    for word, (x, y, z) in zip(words, places.tolist()):
-        text.write(f"{word} {x!r} {y!r} {z!r}\n")
-    return Scene(_raylane.parse_atoms(text.getvalue().encode(), "atoms.xyz", show_cell))
+    text.write(f"{count}\n{comment}\n")
+    for row in zip(*(values for _, values in columns)):
+        text.write(" ".join(row) + "\n")
+    return Scene(_raylane.parse_atoms(text.getvalue().encode(), "atoms.xyz", show_cell, texts, on_remark))
 
 
-def from_ase(atoms: Any) -> Scene:
-    """Returns a scene of ``ase.Atoms``, with their cell if they have one."""
+def from_ase(atoms: Any, representations: Optional[Sequence[str]] = None) -> Scene:
+    """Returns a scene of ``ase.Atoms``, with their cell if they have one.
+
+    ``representations``: as in :func:`from_atoms`. Selections know the names, residues and numbers that ASE reads from
+    PDB files, and arrays of one number per atom.
+    """
     cell = np.asarray(atoms.get_cell())
-    return from_atoms(atoms.get_chemical_symbols(), atoms.get_positions(), cell if np.any(cell) else None)
+    arrays = atoms.arrays if representations is not None else {}
+    known = ("numbers", "positions", "atomtypes", "residuenames", "residuenumbers")
+    properties = {
+        "b_factor" if name == "bfactor" else name: values
+        for name, values in arrays.items()
+        if name not in known and name.isidentifier() and values.ndim == 1 and values.dtype.kind in "biuf"
+    }
+    return from_atoms(
+        atoms.get_chemical_symbols(),
+        atoms.get_positions(),
+        cell if np.any(cell) else None,
+        representations=representations,
+        names=arrays.get("atomtypes"),
+        residue_names=arrays.get("residuenames"),
+        residue_numbers=arrays.get("residuenumbers"),
+        properties=properties,
+    )
 
 
 def _element(name: str) -> str:
@@ -94,32 +179,69 @@ def _element(name: str) -> str:
     return letters[:1].upper() or "X"
 
 
-def from_mdanalysis(atoms: Any) -> Scene:
-    """Returns a scene of an ``AtomGroup`` or ``Universe`` of MDAnalysis, in its current frame."""
+def from_mdanalysis(atoms: Any, representations: Optional[Sequence[str]] = None) -> Scene:
+    """Returns a scene of an ``AtomGroup`` or ``Universe`` of MDAnalysis, in its current frame.
+
+    ``representations``: as in :func:`from_atoms`. Selections and colours know names, residues, chains (``chainIDs``, or
+    ``segids`` without them), ``b_factor`` (``tempfactors``), ``occupancy`` and ``charge``.
+    """
     group = atoms.atoms
     if hasattr(group, "elements"):
         symbols = [str(e).strip().capitalize() or _element(n) for e, n in zip(group.elements, group.names)]
     else:
         symbols = [_element(str(name)) for name in group.names]
-    return from_atoms(symbols, group.positions)
+    if representations is None:
+        return from_atoms(symbols, group.positions)
+    chains = getattr(group, "chainIDs", None)
+    if chains is None or not any(chains):
+        chains = getattr(group, "segids", None)
+    numbers = {"b_factor": "tempfactors", "occupancy": "occupancies", "charge": "charges"}
+    return from_atoms(
+        symbols,
+        group.positions,
+        representations=representations,
+        names=getattr(group, "names", None),
+        residue_names=getattr(group, "resnames", None),
+        residue_numbers=getattr(group, "resids", None),
+        chains=chains,
+        properties={name: getattr(group, of) for name, of in numbers.items() if hasattr(group, of)},
+    )
 
 
-def from_mdtraj(trajectory: Any, frame: int = 0) -> Scene:
-    """Returns a scene of one frame of a ``Trajectory`` of mdtraj. Converts nanometres to angstrom."""
-    symbols = [
-        atom.element.symbol if atom.element is not None else _element(atom.name) for atom in trajectory.topology.atoms
-    ]
-    return from_atoms(symbols, 10.0 * trajectory.xyz[frame].astype(np.float64))
+def from_mdtraj(trajectory: Any, frame: int = 0, representations: Optional[Sequence[str]] = None) -> Scene:
+    """Returns a scene of one frame of a ``Trajectory`` of mdtraj. Converts nanometres to angstrom.
+
+    ``representations``: as in :func:`from_atoms`. Selections know names, residues, and chains by their letters, or by
+    their numbers from 0 if the letters are unknown.
+    """
+    atoms = list(trajectory.topology.atoms)
+    symbols = [atom.element.symbol if atom.element is not None else _element(atom.name) for atom in atoms]
+    positions = 10.0 * trajectory.xyz[frame].astype(np.float64)
+    if representations is None:
+        return from_atoms(symbols, positions)
+    residues = [atom.residue for atom in atoms]
+    return from_atoms(
+        symbols,
+        positions,
+        representations=representations,
+        names=[atom.name for atom in atoms],
+        residue_names=[residue.name for residue in residues],
+        residue_numbers=[residue.resSeq for residue in residues],
+        chains=[getattr(residue.chain, "chain_id", None) or str(residue.chain.index) for residue in residues],
+    )
 
 
-def frames(trajectory: Any) -> Iterator[Scene]:
-    """Yields a scene for each frame: of mdtraj's trajectory, MDAnalysis' universe or atoms, or ASE's list of atoms."""
+def frames(trajectory: Any, representations: Optional[Sequence[str]] = None) -> Iterator[Scene]:
+    """Yields a scene for each frame: of mdtraj's trajectory, MDAnalysis' universe or atoms, or ASE's list of atoms.
+
+    ``representations``: as in :func:`from_atoms`.
+    """
     if hasattr(trajectory, "xyz"):
         for frame in range(len(trajectory.xyz)):
-            yield from_mdtraj(trajectory, frame)
+            yield from_mdtraj(trajectory, frame, representations)
     elif hasattr(trajectory, "universe"):
         for _ in trajectory.universe.trajectory:
-            yield from_mdanalysis(trajectory)
+            yield from_mdanalysis(trajectory, representations)
     else:
         for atoms in trajectory:
-            yield from_ase(atoms)
+            yield from_ase(atoms, representations)
