@@ -44,13 +44,15 @@ void read(std::string_view text, Format format) {
     scenes::LoadOptions options;
     options.on_remark = [](const std::string&) {};
     if (scenes::is_structure(format)) { // in one of several styles
-        constexpr int styles = 6;
-        options.drawing.style = static_cast<scenes::Style>(text.size() % styles);
+        const auto& styles = scenes::named_styles();
+        options.drawing.style = styles[text.size() % styles.size()].second;
         options.drawing.ellipsoids = text.find("U_11") != std::string_view::npos ||
                                      text.find("ANISOU") != std::string_view::npos;
         options.drawing.show_cell = text.size() % 4 == 1;
         if (text.size() % 8 == 1) options.drawing.repeat = {2, 1, 2};
         if (text.size() % 5 == 1) options.drawing.opacity = 0.5F;
+        if (text.size() % 9 == 1)
+            options.drawing.show = {{"all: carbons residue"}, {"ligand or x < 0: sticks"}};
     }
     try {
         const core::Scene scene = scenes::parse_scene(name, text, options);

@@ -96,7 +96,7 @@ def test_representations():
     )
     assert sorted(names_of(scene)) == [(0.5, white), (1.0, orange), (1.0, white)]
     assert raylane.from_atoms("C C O".split(), places, representations=["resn ALA"], **known).shape_count == 1
-    with pytest.warns(UserWarning, match='representations/0: column 13: "B" matches no chain'):
+    with pytest.warns(UserWarning, match='representations/0: column 18: "B" matches no chain'):
         raylane.from_atoms("C C O".split(), places, representations=["chain A or chain B"], **known)
 
 

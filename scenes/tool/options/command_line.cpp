@@ -20,6 +20,18 @@ CLI::Option* add(CLI::App& command, AnyOption& option) {
             .add_flag_callback(
                 names, [&option] { option.give({""}); }, option.help())
             ->disable_flag_override();
+    if (const int most = option.properties().most_words; most > 1)
+        return command
+            .add_option_function<std::vector<std::string>>(
+                names,
+                [&option](const std::vector<std::string>& words) {
+                    std::string text;
+                    for (const std::string& word : words)
+                        text.append(text.empty() ? "" : " ").append(word);
+                    option.give({text});
+                },
+                option.help())
+            ->expected(1, most);
     if (!option.is_list())
         // CLI11 itself would treat an empty text as a missing value.
         return command.add_option_function<std::string>(

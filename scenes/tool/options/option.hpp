@@ -31,6 +31,7 @@ struct OptionProperties {
     std::string standard = {};              ///< the default, in words
     std::string for_atoms = {};             ///< the default for files of atoms, if it is another
     std::vector<std::string> excluded = {}; ///< names of options that it goes without
+    int most_words = 1;                     ///< on the command line; they are joined by blanks
     bool is_required = false;
     bool is_recorded = false; ///< an image records the option
 };
@@ -74,6 +75,10 @@ struct Values : OptionProperties {
     }
     Values without(std::vector<std::string> names) && {
         excluded = std::move(names);
+        return std::move(*this);
+    }
+    Values of_words(int most) && {
+        most_words = most;
         return std::move(*this);
     }
     Values required() && {

@@ -219,7 +219,7 @@ Values<std::string> palettes() {
 }
 
 Values<ColorRange> color_ranges() {
-    return {"A:B", "", range_of};
+    return {"A B", "", range_of};
 }
 
 Values<std::array<int, 3>> repetitions() {

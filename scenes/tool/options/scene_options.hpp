@@ -191,9 +191,9 @@ struct DrawingArguments : OptionTable {
         "other atoms by element. Fe=gold or 1=red is for an element or type."};
     Option<std::string> palette = {*this, "--palette", palettes().otherwise("viridis").recorded(),
                                    "Colours for a number per atom."};
-    Option<ColorRange> range = {*this, "--range",
-                                color_ranges().otherwise("the range in the image").recorded(),
-                                "Numbers at the ends of the palette, such as 0:50."};
+    Option<ColorRange> range = {
+        *this, "--range", color_ranges().of_words(2).otherwise("the range in the image").recorded(),
+        "Numbers at the ends of the palette, such as 0 50 or 0:50."};
     Option<std::string> radius = {
         *this, "--radius", size_texts().otherwise("that of the style").recorded(),
         "Radius of atoms in angstrom, of sticks, too, in styles without balls. \"0.4 H=0.2\" is "

@@ -321,9 +321,10 @@ TEST_CASE("verify renders the looks that an image names") {
                                             "--hide",    "element H",
                                             "--color",   "green range -1:2",
                                             "--palette", "magma",
-                                            "--range",   "-5:50",
-                                            "--radius",  "0.3 O=0.5",
-                                            "--scale",   "C=1.5"};
+                                            "--range",   "0",
+                                            "50",        "--radius",
+                                            "0.3 O=0.5", "--scale",
+                                            "C=1.5"};
     std::vector<std::string> render = {"render", "a.xyz", "-o", "a.png",  "--size",
                                        "60x40",  "--spp", "1",  "--quiet"};
     render.insert(render.end(), looks.begin(), looks.end());
@@ -335,7 +336,7 @@ TEST_CASE("verify renders the looks that an image names") {
     CHECK(verified.out.starts_with("scene      same as the image names\n"));
     CHECK(verified.code == 0);
     const std::string text = content(fixture, "a.png");
-    for (const char* const word : {"index 1: points red", "element H", "--palette magma", "-5:50"})
+    for (const char* const word : {"index 1: points red", "element H", "--palette magma", "0 50"})
         CHECK(text.find(word) != std::string::npos);
     const Outcome wrong = fixture.run({"render", "a.xyz", "-o", "b.png", "--show", "all: opacity"});
     CHECK(wrong.code == 2);

@@ -24,6 +24,35 @@ std::string pdb_atom(const char* record, int serial, const char* name, const cha
 
 } // namespace
 
+TEST_CASE("columns of an extended XYZ file have names and residues") {
+    for (const std::string columns :
+         {"name:S:1:resname:S:1:resid:I:1", "atomtypes:S:1:residuenames:S:1:residuenumbers:I:1"}) {
+        const Structure all =
+            frames(open_xyz, "4\nProperties=species:S:1:pos:R:3:" + columns +
+                                 ":chain:S:1\nC 0 0 0 CA ALA 7 A\nN 1 0 0 N ALA 7 A\n"
+                                 "O 2 0 0 OW HOH 7 A\nC 3 0 0 C1 LIG -8 B\n")
+                .at(0);
+        CHECK(all.names == std::vector<std::string>{"CA", "N", "OW", "C1"});
+        CHECK(all.residues == std::vector<std::uint32_t>{0, 0, 1, 2});
+        CHECK(all.chains == std::vector<std::string>{"A", "B"});
+        REQUIRE(all.of_residue.size() == 3);
+        CHECK(all.of_residue[0].name == "ALA");
+        CHECK(all.of_residue[2].number == -8);
+        CHECK(all.of_residue[2].chain == 1);
+        CHECK_FALSE(all.of_residue[0].is_hetero);
+        CHECK(all.of_residue[2].is_hetero);
+    }
+    CHECK(complaint(open_xyz, "1\nProperties=pos:R:3:resid:I:1\n0 0 0 x\n")
+              .find("the number of a residue") != std::string::npos);
+    // Numbers that are not whole are a property, and a second column of names is ignored.
+    const Structure other = frames(open_xyz, "1\nProperties=pos:R:3:resid:R:1:name:S:1:atomtypes:"
+                                             "S:1\n0 0 0 1.5 A B\n")
+                                .at(0);
+    CHECK(other.properties.at(0).name == "resid");
+    CHECK(other.names == std::vector<std::string>{"A"});
+    CHECK(other.residues.empty());
+}
+
 TEST_CASE("XYZ is read frame by frame") {
     const std::vector<Structure> all = frames(open_xyz, "2\nwater, part of it\nO 0.1 0 -1.5e0\n"
                                                         "h  +1 2.D0 3  extra\n\n"
