@@ -20,12 +20,16 @@ struct AtomKind {
     Element element = 0;
 };
 
+/// The secondary structure of a residue. Helices are of any kind.
+enum class Secondary : std::uint8_t { coil, helix, strand };
+
 struct Residue {
-    std::string name;        ///< "ALA"
-    int number = 0;          ///< as in the file
-    char insertion = ' ';    ///< distinguishes residues of one number
-    std::uint32_t chain = 0; ///< index
-    bool is_hetero = false;  ///< not part of a polymer, in the terms of the PDB
+    std::string name;                      ///< "ALA"
+    int number = 0;                        ///< as in the file
+    char insertion = ' ';                  ///< distinguishes residues of one number
+    std::uint32_t chain = 0;               ///< index
+    bool is_hetero = false;                ///< not part of a polymer, in the terms of the PDB
+    Secondary secondary = Secondary::coil; ///< in the file
 };
 
 struct Bond {
@@ -76,6 +80,7 @@ struct Structure {
     std::vector<std::uint32_t> residues; ///< index
     std::vector<Residue> of_residue;
     std::vector<std::string> chains;
+    bool has_secondary = false; ///< the file has the secondary structure of its residues
 
     std::vector<AtomProperty> properties;
     std::vector<Anisotropy> anisotropies; ///< by ascending atom
