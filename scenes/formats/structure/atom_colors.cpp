@@ -2,6 +2,7 @@
 
 #include "scenes/files/errors.hpp"
 #include "scenes/files/number.hpp"
+#include "scenes/formats/structure/cartoon/chain_colors.hpp"
 #include "scenes/formats/structure/colors.hpp"
 #include "scenes/formats/structure/kind_table.hpp"
 
@@ -37,6 +38,10 @@ void AtomColors::color_by(const ColorWords& words, const std::string& file) {
         color_by_residue(by == "chain");
         return;
     }
+    if (is_chain_color(by) && !structure_.residues.empty()) {
+        chain_colors(structure_, by, of_residue_, name_of_residue_);
+        return;
+    }
     for (const AtomProperty& property : structure_.properties)
         if (property_ == nullptr && property.name == by) property_ = &property;
     if (property_ != nullptr) return;
@@ -44,7 +49,8 @@ void AtomColors::color_by(const ColorWords& words, const std::string& file) {
     one_name_ = by;
     if (one_) return;
     std::vector<std::string_view> known = {"element"};
-    if (!structure_.residues.empty()) known.insert(known.end(), {"chain", "residue"});
+    if (!structure_.residues.empty())
+        known.insert(known.end(), {"chain", "residue", "secondary", "rainbow"});
     for (const AtomProperty& property : structure_.properties)
         known.push_back(property.name);
     std::vector<std::string> choices(known.begin(), known.end());

@@ -27,7 +27,8 @@ std::vector<float> by_kind(const Structure& structure, const SizeWords& words, f
 } // namespace
 
 bool has_sticks(Style style) {
-    return style != Style::spheres && style != Style::envelope && style != Style::points;
+    return style != Style::spheres && style != Style::envelope && style != Style::points &&
+           !shows_chains(style);
 }
 
 AtomRadii::AtomRadii(const Structure& structure, const Look& look, float usual,
@@ -69,6 +70,11 @@ float AtomRadii::of_style(AtomIndex atom) const {
         return licorice_stick;
     case Style::points:
         return std::min(dot_size, 0.5F * full(atom));
+    case Style::cartoon:
+    case Style::cylinders:
+    case Style::tube:
+    case Style::trace:
+        break;
     }
     return 0.0F;
 }

@@ -5,6 +5,8 @@
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/structure/atom_layer.hpp"
 #include "scenes/formats/structure/bonds.hpp"
+#include "scenes/formats/structure/cartoon/chain_colors.hpp"
+#include "scenes/formats/structure/chain_layer.hpp"
 #include "scenes/formats/structure/images.hpp"
 #include "scenes/formats/structure/selection.hpp"
 
@@ -78,7 +80,12 @@ class SceneFromAtoms {
         builder_.reserve(count_ * atoms_.images.size());
         TransparentSolids transparent;
         for (const AtomLayer& layer : layers_)
-            add_layer(atoms_, layer, file_, builder_, transparent, atoms_of_shape_);
+            if (!shows_chains(*layer.look.style))
+                add_layer(atoms_, layer, file_, builder_, transparent, atoms_of_shape_);
+            else if (const std::string remark = add_chain_layer(atoms_, layer, file_, builder_,
+                                                                transparent, atoms_of_shape_);
+                     !remark.empty() && on_remark_ && !drawing_.scale)
+                on_remark_(printable(file_, 4096) + ": " + remark);
         transparent.add_to(builder_, atoms_of_shape_);
         if (drawing_.show_cell) add_cell();
         set_up_view();
@@ -193,10 +200,13 @@ class SceneFromAtoms {
 
     void make_layers() {
         for (std::size_t k = 0; k < shown_.size(); ++k)
-            for (const Look& look : shown_[k].what.looks)
+            for (Look& look : shown_[k].what.looks) {
+                if (look.color.by.empty() && shows_chains(*look.style))
+                    look.color.by = usual_chain_color(structure_);
                 layers_.push_back(
                     {k, look, AtomColors(structure_, look.color, file_, unmatched_),
                      AtomRadii(structure_, look, scale_.usual_radius, is_metallic_, unmatched_)});
+            }
     }
 
     /// Finds the ranges of properties over all atoms that show them.
@@ -293,7 +303,8 @@ class SceneFromAtoms {
         builder_.settings.height = drawing_.height;
         // An image of balls and sticks is mostly white, and white has no error.
         const bool is_filled = std::all_of(layers_.begin(), layers_.end(), [](const auto& layer) {
-            return !has_sticks(*layer.look.style) || layer.look.style == Style::touching;
+            const Style style = *layer.look.style;
+            return style == Style::touching || !(has_sticks(style) || shows_chains(style));
         });
         builder_.settings.quality = is_filled ? 40.0F : 46.0F;
         builder_.background = core::Color(1.0F);

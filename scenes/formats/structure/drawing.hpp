@@ -35,7 +35,9 @@ struct ShowWords {
 /// Options for rendering a structure.
 struct Drawing {
     Style style = Style::automatic;
-    std::string color = "element";         ///< in the words of color_words_of()
+    /// In the words of color_words_of(). Empty: "element" for atoms, and usual_chain_color() for
+    /// chains.
+    std::string color{};
     std::string select = "all";            ///< in the language of select_atoms
     std::array<int, 3> repeat = {1, 1, 1}; ///< cells side by side along the edges
     bool show_cell = false;                ///< the cell's edges

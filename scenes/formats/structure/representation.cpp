@@ -194,7 +194,8 @@ const std::vector<std::pair<std::string_view, Style>>& named_styles() {
     static const std::vector<std::pair<std::string_view, Style>> styles = {
         {"balls", Style::balls},     {"sticks", Style::sticks},     {"licorice", Style::licorice},
         {"spheres", Style::spheres}, {"touching", Style::touching}, {"envelope", Style::envelope},
-        {"points", Style::points}};
+        {"points", Style::points},   {"cartoon", Style::cartoon},   {"cylinders", Style::cylinders},
+        {"tube", Style::tube},       {"trace", Style::trace}};
     return styles;
 }
 

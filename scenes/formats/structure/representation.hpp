@@ -19,7 +19,16 @@ enum class Style {
     touching,  ///< spheres with radii at which neighbours touch; sticks where a gap remains
     envelope,  ///< the solvent-accessible surface: spheres larger by 1.4 angstrom
     points,    ///< small balls of one size
+    cartoon,   ///< ribbons of proteins, tubes and boxes of nucleic acids
+    cylinders, ///< a cartoon with cylinders for helices
+    tube,      ///< a round tube along each chain
+    trace,     ///< straight rods between the CA, or P, of each chain
 };
+
+/// Returns true for the styles that show chains, not atoms.
+constexpr bool shows_chains(Style style) {
+    return style >= Style::cartoon;
+}
 
 /// Returns the styles with the names that users give, in the order of the help.
 const std::vector<std::pair<std::string_view, Style>>& named_styles();

@@ -183,10 +183,16 @@ struct DrawingArguments : OptionTable {
             .recorded(),
         "Style of atoms and bonds. balls have sticks; spheres have van der Waals radii; "
         "touching has covalent radii, and metallic ones in metals; envelope is the "
-        "solvent-accessible surface."};
+        "solvent-accessible surface. cartoon, tube and trace show the chains of proteins and "
+        "nucleic acids; cylinders is a cartoon with cylinders for helices."};
     Option<std::string> color = {
-        *this, "--color", color_texts().otherwise("element").recorded(),
-        "Colours of atoms: element, chain, residue, a number per atom in the file, such as "
+        *this, "--color",
+        color_texts()
+            .otherwise("element; for chains, chain, or secondary if "
+                       "there is one chain")
+            .recorded(),
+        "Colours of atoms: element, chain, residue, secondary (helices and strands), rainbow "
+        "(along each chain), a number per atom in the file, such as "
         "b_factor, or a colour, such as orange or #ff8000. \"carbons chain\" colours carbon, and "
         "other atoms by element. Fe=gold or 1=red is for an element or type."};
     Option<std::string> palette = {*this, "--palette", palettes().otherwise("viridis").recorded(),

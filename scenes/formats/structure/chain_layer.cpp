@@ -1,0 +1,60 @@
+#include "scenes/formats/structure/chain_layer.hpp"
+
+#include "core/shapes/triangle.hpp"
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/structure/cartoon/cartoon.hpp"
+
+namespace raylane::scenes {
+
+namespace {
+
+ChainLook chain_look_of(const Look& look) {
+    const Style style = *look.style;
+    return {.style = style == Style::tube    ? ChainStyle::tube
+                     : style == Style::trace ? ChainStyle::trace
+                                             : ChainStyle::cartoon,
+            .cylinders = style == Style::cylinders,
+            .radius = look.radius.of_all,
+            .scale = look.scale.of_all.value_or(1.0F)};
+}
+
+} // namespace
+
+std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
+                            const std::string& file, core::SceneBuilder& builder,
+                            TransparentSolids& transparent, std::vector<AtomPair>* atoms_of_shape) {
+    const float opacity = *layer.look.opacity;
+    Palette palette(builder, opacity);
+    const auto add = [&]<class Shape>(const Shape& shape, core::MaterialIndex material,
+                                      const AtomPair& pair) {
+        // Triangles enclose nothing by themselves, so they are not parts of solids.
+        if constexpr (!core::AnyTriangle<Shape>)
+            if (opacity < 1.0F) {
+                transparent.add(*layer.look.style, opacity, shape, material, pair);
+                return;
+            }
+        builder.add(shape, material);
+        if (atoms_of_shape != nullptr) atoms_of_shape->push_back(pair);
+    };
+    const ChainRemainder rest = add_chains(
+        atoms.structure, chain_look_of(layer.look),
+        [&](AtomIndex atom) { return atoms.representations[atom] == layer.representation; },
+        [&](const CartoonShape& shape, AtomIndex atom) {
+            const core::MaterialIndex material =
+                palette.of(layer.colors.of(atom), [&] { return layer.colors.meaning_of(atom); });
+            for (const core::Vec3f& image : atoms.images)
+                std::visit(
+                    [&](const auto& of) {
+                        add(moved(of, image), material, {atom, atom});
+                    },
+                    shape);
+        });
+    if (rest.drawn == 0)
+        throw BadInput(layer.look.color.option == "--color" ? "--style" : layer.look.color.option,
+                       "",
+                       "must be a style of atoms here: " + file +
+                           " has no proteins or nucleic acids of two residues in the selection");
+    return rest.remark(atoms.structure);
+}
+
+} // namespace raylane::scenes

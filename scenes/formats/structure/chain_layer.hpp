@@ -1,0 +1,16 @@
+#pragma once
+
+#include "scenes/formats/structure/atom_layer.hpp"
+
+#include <string>
+
+namespace raylane::scenes {
+
+/// Adds the chains of a layer whose style shows chains, like add_layer(). Returns a message about
+/// residues that could not be drawn, or an empty text. Throws BadInput if no chain has two residues
+/// of the layer.
+std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
+                            const std::string& file, core::SceneBuilder& builder,
+                            TransparentSolids& transparent, std::vector<AtomPair>* atoms_of_shape);
+
+} // namespace raylane::scenes
