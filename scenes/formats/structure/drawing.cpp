@@ -201,7 +201,8 @@ class SceneFromAtoms {
     void make_layers() {
         for (std::size_t k = 0; k < shown_.size(); ++k)
             for (Look& look : shown_[k].what.looks) {
-                if (look.color.by.empty() && shows_chains(*look.style))
+                if (look.color.by.empty() && shows_chains(*look.style) &&
+                    !structure_.residues.empty())
                     look.color.by = usual_chain_color(structure_);
                 layers_.push_back(
                     {k, look, AtomColors(structure_, look.color, file_, unmatched_),

@@ -463,6 +463,35 @@ int whole_number_in(const std::string& text) {
     return number;
 }
 
+/// Reads helices and strands. Kinds of helices begin with HELX, kinds of strands with STRN.
+void read_secondary(gemmi::cif::Block& block, std::vector<SecondaryRange>& ranges) {
+    for (const bool is_sheet : {false, true}) {
+        const std::string table = is_sheet ? "_struct_sheet_range." : "_struct_conf.";
+        for (auto row : block.find(
+                 table, {is_sheet ? "sheet_id" : "conf_type_id", "?beg_auth_asym_id",
+                         "?beg_label_asym_id", "?beg_auth_seq_id", "?beg_label_seq_id",
+                         "?pdbx_beg_PDB_ins_code", "?end_auth_asym_id", "?end_label_asym_id",
+                         "?end_auth_seq_id", "?end_label_seq_id", "?pdbx_end_PDB_ins_code"})) {
+            const std::string kind = is_sheet ? "STRN" : row.str(0);
+            const bool is_strand = kind.rfind("STRN", 0) == 0;
+            const bool is_polyproline = kind.find("_PP_") != std::string::npos;
+            if (!is_strand && (kind.rfind("HELX", 0) != 0 || is_polyproline)) continue;
+            const auto text = [&](std::size_t column) {
+                return row.has2(column) ? row.str(static_cast<int>(column)) : std::string();
+            };
+            const auto place = [&](std::size_t column) {
+                ResiduePlace at;
+                at.chain = text(row.has2(column) ? column : column + 1);
+                at.number = whole_number_in(text(row.has2(column + 2) ? column + 2 : column + 3));
+                if (const std::string letter = text(column + 4); !letter.empty())
+                    at.insertion = letter[0];
+                return at;
+            };
+            ranges.push_back({is_strand, place(1), place(6)});
+        }
+    }
+}
+
 /// Reads the models of a macromolecule's table of atoms. Only the columns of coordinates are
 /// required. gemmi's own function requires others, and takes a time quadratic in the residues of a
 /// chain.
@@ -575,23 +604,24 @@ std::vector<Model> read_pdb(std::string_view text, const std::string& name) {
     }
 }
 
-std::vector<Model> read_cif(std::string_view text, const std::string& name,
-                            std::vector<std::string>& remarks) {
+Models read_cif(std::string_view text, const std::string& name, std::vector<std::string>& remarks) {
     try {
         gemmi::cif::Document document =
             gemmi::cif::read_memory(text.data(), text.size(), name.c_str());
-        std::vector<Model> models;
+        Models result;
+        std::vector<Model>& models = result.models;
         const bool has_small = is_small(document);
         for (gemmi::cif::Block& block : document.blocks) {
             if (!has_small) {
                 std::vector<Model> of_block = models_of(block);
                 std::move(of_block.begin(), of_block.end(), std::back_inserter(models));
+                read_secondary(block, result.secondary);
                 continue;
             }
             const gemmi::SmallStructure structure = crystal_of(block, remarks);
             if (!structure.sites.empty()) models.push_back(model_of(structure));
         }
-        return models;
+        return result;
     } catch (const std::exception& error) {
         throw Refused(error.what());
     }

@@ -34,6 +34,18 @@ struct Chain {
     std::vector<Residue> residues;
 };
 
+struct ResiduePlace {
+    std::string chain;
+    int number = 0;
+    char insertion = ' ';
+};
+
+/// A helix or a strand of a sheet, from its first to its last residue.
+struct SecondaryRange {
+    bool is_strand = false;
+    ResiduePlace first, last;
+};
+
 struct Model {
     std::string title; ///< empty: that of the previous model, except for crystals
     bool has_cell = false;
@@ -41,6 +53,12 @@ struct Model {
     /// A small molecule's crystal has one residue without a name, with all atoms in the cell.
     std::vector<Chain> chains;
     bool is_small = false;
+};
+
+/// The models of a file, and the helices and strands that they share.
+struct Models {
+    std::vector<Model> models;
+    std::vector<SecondaryRange> secondary;
 };
 
 /// A refusal by gemmi. Its message begins with the name of the file, perhaps with a line.
@@ -51,7 +69,6 @@ class Refused : public std::runtime_error {
 
 /// Throw Refused. Omit models without atoms. Add differences from the file to `remarks`.
 std::vector<Model> read_pdb(std::string_view text, const std::string& name);
-std::vector<Model> read_cif(std::string_view text, const std::string& name,
-                            std::vector<std::string>& remarks);
+Models read_cif(std::string_view text, const std::string& name, std::vector<std::string>& remarks);
 
 } // namespace raylane::scenes::gemmi_files

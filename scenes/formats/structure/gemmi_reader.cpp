@@ -8,6 +8,7 @@
 #ifdef RAYLANE_WITH_GEMMI
 
 #include "scenes/formats/structure/gemmi_files.hpp"
+#include "scenes/formats/structure/secondary_records.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,16 +61,17 @@ struct ModelAndBonds {
     std::size_t entry = 0; ///< index
 };
 
-/// Bonds that several models share.
-struct SharedBonds {
-    Directed of_all;
-    std::vector<Directed> of_entry; ///< of each part that END separates
+/// Records that several models share.
+struct SharedRecords {
+    Directed bonds;                       ///< of all models
+    std::vector<Directed> bonds_of_entry; ///< of each part that END separates
+    std::vector<std::vector<gemmi_files::SecondaryRange>> secondary_of_entry;
 };
 
 /// Returns models, one after the other.
 class ModelReader : public FrameReader {
   public:
-    ModelReader(std::string file, std::vector<ModelAndBonds> models, SharedBonds shared)
+    ModelReader(std::string file, std::vector<ModelAndBonds> models, SharedRecords shared)
         : file_(std::move(file)), models_(std::move(models)), shared_(std::move(shared)) {}
 
     bool next(Structure& frame) override {
@@ -97,9 +99,10 @@ class ModelReader : public FrameReader {
             }
         }
         if (!frame.anisotropies.empty()) add_isotropies(frame);
+        assign_secondary(shared_.secondary_of_entry.at(entry), frame);
         if (model.is_small) frame.properties.erase(frame.properties.begin());
-        Directed bonds = shared_.of_all;
-        const Directed& of_entry = shared_.of_entry.at(entry);
+        Directed bonds = shared_.bonds;
+        const Directed& of_entry = shared_.bonds_of_entry.at(entry);
         bonds.insert(bonds.end(), of_entry.begin(), of_entry.end());
         bonds.insert(bonds.end(), own_bonds.begin(), own_bonds.end());
         for (const auto& [serials, order] : orders_of(std::move(bonds))) {
@@ -166,7 +169,7 @@ class ModelReader : public FrameReader {
 
     std::string file_;
     std::vector<ModelAndBonds> models_;
-    SharedBonds shared_;
+    SharedRecords shared_;
     std::string title_; // of the last model that has one
     std::size_t number_ = 0;
 };
@@ -268,7 +271,7 @@ class PdbModels {
     }
 
     const std::vector<ModelText>& models() const { return models_; }
-    const SharedBonds& shared_bonds() const { return shared_; }
+    const SharedRecords& shared_records() const { return shared_; }
 
   private:
     void take(const Lines& lines) {
@@ -284,9 +287,11 @@ class PdbModels {
             if (!is_open_) open(lines.number());
             append_atom(lines);
             return;
+        } else if (line.starts_with("HELIX") || line.starts_with("SHEET")) {
+            read_secondary(line, shared_.secondary_of_entry.back());
         } else if (line.starts_with("CONECT")) {
-            take_bonds(line,
-                       in_model_ && is_open_ ? models_.back().bonds : shared_.of_entry.back());
+            take_bonds(line, in_model_ && is_open_ ? models_.back().bonds
+                                                   : shared_.bonds_of_entry.back());
         } else if (line.starts_with("HEADER") || line.starts_with("TITLE") ||
                    line.starts_with("CRYST1")) {
             if (is_open_)
@@ -306,14 +311,15 @@ class PdbModels {
 
     void end_entry() {
         const bool has_models =
-            !models_.empty() && models_.back().entry + 1 == shared_.of_entry.size();
+            !models_.empty() && models_.back().entry + 1 == shared_.bonds_of_entry.size();
         if (!has_models) {
-            Directed& bonds = shared_.of_entry.back();
-            shared_.of_all.insert(shared_.of_all.end(), bonds.begin(), bonds.end());
+            Directed& bonds = shared_.bonds_of_entry.back();
+            shared_.bonds.insert(shared_.bonds.end(), bonds.begin(), bonds.end());
             bonds.clear();
             return;
         }
-        shared_.of_entry.emplace_back();
+        shared_.bonds_of_entry.emplace_back();
+        shared_.secondary_of_entry.emplace_back();
         is_title_of_last_entry_ = true;
     }
 
@@ -330,7 +336,7 @@ class PdbModels {
         if (is_title_new_) model.text = title_; // the next models share it
         is_title_new_ = false;
         model.text += cell_;
-        model.entry = shared_.of_entry.size() - 1;
+        model.entry = shared_.bonds_of_entry.size() - 1;
         model.lines_of_head =
             static_cast<std::size_t>(std::count(model.text.begin(), model.text.end(), '\n'));
         model.first_line = line;
@@ -390,7 +396,7 @@ class PdbModels {
     bool is_title_of_last_entry_ = false;
     std::string title_, cell_;
     std::vector<ModelText> models_;
-    SharedBonds shared_{.of_all = {}, .of_entry = {{}}};
+    SharedRecords shared_{.bonds = {}, .bonds_of_entry = {{}}, .secondary_of_entry = {{}}};
 };
 
 /// Returns gemmi's message with the line in the file, not in the model's text.
@@ -419,7 +425,7 @@ std::unique_ptr<FrameReader> open_pdb(InputFile& file) {
     }
     if (models.empty())
         throw BadInput(file.name(), "", "must have ATOM or HETATM records, got none");
-    return std::make_unique<ModelReader>(file.name(), std::move(models), texts.shared_bonds());
+    return std::make_unique<ModelReader>(file.name(), std::move(models), texts.shared_records());
 }
 
 std::unique_ptr<FrameReader> open_cif(InputFile& file, const ReaderOptions& options) {
@@ -427,15 +433,19 @@ std::unique_ptr<FrameReader> open_cif(InputFile& file, const ReaderOptions& opti
     try {
         std::vector<ModelAndBonds> models;
         std::vector<std::string> remarks;
-        for (gemmi_files::Model& model : gemmi_files::read_cif(text, file.name(), remarks))
+        gemmi_files::Models read = gemmi_files::read_cif(text, file.name(), remarks);
+        for (gemmi_files::Model& model : read.models)
             models.push_back({std::move(model), {}, 0});
         if (models.empty())
             throw BadInput(file.name(), "", "must have a table _atom_site, got none");
         for (const std::string& remark : remarks)
             if (options.on_remark)
                 options.on_remark(text_of({file.name(), {}, {}, printable(remark, 400)}));
-        return std::make_unique<ModelReader>(file.name(), std::move(models),
-                                             SharedBonds{.of_all = {}, .of_entry = {{}}});
+        return std::make_unique<ModelReader>(
+            file.name(), std::move(models),
+            SharedRecords{.bonds = {},
+                          .bonds_of_entry = {{}},
+                          .secondary_of_entry = {std::move(read.secondary)}});
     } catch (const gemmi_files::Refused& refused) {
         fail(file.name(), refused.what());
     }

@@ -11,8 +11,8 @@ namespace {
 
 using core::Vec3d;
 
-constexpr double half_thickness = 0.25, margin = 0.3;
-constexpr float rod = 0.22F;
+constexpr double half_thickness = 0.25, box_margin = 0.3;
+constexpr float rod_radius = 0.22F;
 
 /// The rings' atoms of a nucleotide. Six are in the ring that all bases have, in its order.
 struct Rings {
@@ -58,7 +58,7 @@ class Bases {
         const Vec3d base = rings ? place(rings->link) : from;
         add_rod(nearest_on_path(from, index), from, atom);
         add_rod(from, base, atom);
-        add_(core::Sphere{core::convert<float>(from), rod}, atom);
+        add_(core::Sphere{core::convert<float>(from), rod_radius}, atom);
         return rings.has_value();
     }
 
@@ -81,7 +81,7 @@ class Bases {
     void add_rod(const Vec3d& from, const Vec3d& to, AtomIndex atom) const {
         const auto axis = core::convert<float>(to - from);
         if (axis != core::Vec3f(0.0F))
-            add_(core::CappedCylinder{core::convert<float>(from), axis, rod}, atom);
+            add_(core::CappedCylinder{core::convert<float>(from), axis, rod_radius}, atom);
     }
 
     /// Adds the box in the plane of the ring of six, with one side along the bond to the sugar.
@@ -113,8 +113,8 @@ class Bases {
         };
         std::for_each(rings.six.begin(), rings.six.end(), include);
         std::for_each(rings.other.begin(), rings.other.end(), include);
-        least -= Vec3d(margin, margin, 0.0);
-        most += Vec3d(margin, margin, 0.0);
+        least -= Vec3d(box_margin, box_margin, 0.0);
+        most += Vec3d(box_margin, box_margin, 0.0);
         const Vec3d corner = middle + least.x * along + least.y * aside + least.z * normal;
         add_(core::Box{core::convert<float>(corner),
                        core::convert<float>((most.x - least.x) * along),

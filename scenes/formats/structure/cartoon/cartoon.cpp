@@ -17,7 +17,7 @@ constexpr double tube_radius = 0.5, trace_radius = 0.25, nucleic_radius = 0.6;
 
 /// Returns the distance of triangles from the surface: an eighth of a pixel if the
 /// structure's diagonal fills 1500 pixels.
-double tolerance_of(const Structure& structure, const Backbone& backbone) {
+double max_error_of(const Structure& structure, const Backbone& backbone) {
     core::Bounds bounds;
     for (const Segment& segment : backbone.segments)
         for (const BackboneResidue& residue : segment) {
@@ -25,7 +25,7 @@ double tolerance_of(const Structure& structure, const Backbone& backbone) {
             bounds.include({at, at});
         }
     const auto size = core::convert<double>(bounds.upper) - core::convert<double>(bounds.lower);
-    return std::clamp(core::length(size) / 12000.0, 0.003, 0.02);
+    return std::clamp(core::length(size) / 12000.0, 0.003, 0.04);
 }
 
 class Chains {
@@ -38,7 +38,7 @@ class Chains {
         const Backbone backbone = backbone_of(structure_);
         if (look_.style == ChainStyle::cartoon) {
             secondary_ = secondary_structure(structure_, backbone);
-            tolerance_ = tolerance_of(structure_, backbone);
+            max_error_ = max_error_of(structure_, backbone);
         } else {
             secondary_.assign(structure_.of_residue.size(), Secondary::coil);
         }
@@ -87,15 +87,15 @@ class Chains {
         RibbonSizes sizes;
         sizes.coil = radius_or(is_peptide ? sizes.coil : nucleic_radius);
         if (!is_peptide) {
-            add_ribbon(path, sizes, tolerance_, is_drawn_, add_);
+            add_ribbon(path, sizes, max_error_, is_drawn_, add_);
             remainder_.without_base += add_bases(structure_, segment, path, is_drawn_, add_);
             return;
         }
         smooth(path);
         if (look_.cylinders)
-            add_with_cylinders(path, sizes, tolerance_, is_drawn_, add_);
+            add_with_cylinders(path, sizes, max_error_, is_drawn_, add_);
         else
-            add_ribbon(path, sizes, tolerance_, is_drawn_, add_);
+            add_ribbon(path, sizes, max_error_, is_drawn_, add_);
     }
 
     const Structure& structure_;
@@ -103,7 +103,7 @@ class Chains {
     const IsDrawn& is_drawn_;
     const AddShape& add_;
     std::vector<Secondary> secondary_; // by residue
-    double tolerance_ = 0.0;
+    double max_error_ = 0.0;
     ChainRemainder remainder_;
 };
 

@@ -8,8 +8,8 @@ namespace {
 
 using core::Vec3d;
 
-constexpr float radius = 2.0F;
-constexpr std::size_t turn = 4; // residues, 3.6 in alpha helices
+constexpr float cylinder_radius = 2.0F;
+constexpr std::size_t residues_per_turn = 4; // residues, 3.6 in alpha helices
 
 /// A point of a helix's axis beside each of its residues.
 struct Helix {
@@ -29,11 +29,13 @@ double distance_from_line(const Vec3d& point, const Vec3d& a, const Vec3d& b) {
 /// Replaces the points from `first` to `last` by a line between them, or by several lines if one is
 /// too far from a point (Ramer, Douglas and Peucker).
 void straighten(std::vector<Vec3d>& points, std::size_t first, std::size_t last) {
+    if (last == first) return;
     constexpr double furthest = 1.0;
-    constexpr std::size_t least = 2 * turn;
+    constexpr std::size_t least = 2 * residues_per_turn;
     std::size_t worst = first;
     double most = furthest;
-    for (std::size_t i = first + turn; i + turn <= last && last - first >= least; ++i)
+    for (std::size_t i = first + residues_per_turn;
+         i + residues_per_turn <= last && last - first >= least; ++i)
         if (const double far = distance_from_line(points[i], points[first], points[last]);
             far > most) {
             most = far;
@@ -52,7 +54,7 @@ void straighten(std::vector<Vec3d>& points, std::size_t first, std::size_t last)
 /// Returns the axis beside each residue: means of four points, continued at the ends.
 Helix helix_of(const Path& path, std::size_t first, std::size_t last) {
     std::vector<Vec3d> means; // beside first + 1.5, first + 2.5, ...
-    for (std::size_t i = first; i + turn - 1 <= last; ++i)
+    for (std::size_t i = first; i + residues_per_turn - 1 <= last; ++i)
         means.push_back(0.25 * (path[i].at + path[i + 1].at + path[i + 2].at + path[i + 3].at));
     straighten(means, 0, means.size() - 1);
     Helix helix{first, last, {}};
@@ -72,16 +74,16 @@ Helix helix_of(const Path& path, std::size_t first, std::size_t last) {
 
 class HelixCylinders {
   public:
-    HelixCylinders(const Path& path, const RibbonSizes& sizes, double tolerance,
+    HelixCylinders(const Path& path, const RibbonSizes& sizes, double max_error,
                    const IsDrawn& is_drawn, const AddShape& add)
-        : path_(path), sizes_(sizes), tolerance_(tolerance), is_drawn_(is_drawn), add_(add) {}
+        : path_(path), sizes_(sizes), max_error_(max_error), is_drawn_(is_drawn), add_(add) {}
 
     void add() {
         for (std::size_t i = 0; i < path_.size();) {
             std::size_t last = i;
             while (last + 1 < path_.size() && path_[last + 1].secondary == path_[i].secondary)
                 ++last;
-            if (path_[i].secondary == Secondary::helix && last - i + 1 >= turn)
+            if (path_[i].secondary == Secondary::helix && last - i + 1 >= residues_per_turn)
                 add_helix(helix_of(path_, i, last));
             else
                 rest_.insert(rest_.end(), path_.begin() + static_cast<std::ptrdiff_t>(i),
@@ -105,7 +107,8 @@ class HelixCylinders {
             add_piece(helix.at(i), middle, path_[i].atom);
             add_piece(middle, helix.at(i + 1), path_[i + 1].atom);
             if (i > helix.first && bends(helix, i) && is_drawn_(path_[i].atom))
-                add_(core::Sphere{core::convert<float>(helix.at(i)), radius}, path_[i].atom);
+                add_(core::Sphere{core::convert<float>(helix.at(i)), cylinder_radius},
+                     path_[i].atom);
         }
     }
 
@@ -116,17 +119,17 @@ class HelixCylinders {
     void add_piece(const Vec3d& from, const Vec3d& to, AtomIndex atom) {
         const auto axis = core::convert<float>(to - from);
         if (is_drawn_(atom) && axis != core::Vec3f(0.0F))
-            add_(core::CappedCylinder{core::convert<float>(from), axis, radius}, atom);
+            add_(core::CappedCylinder{core::convert<float>(from), axis, cylinder_radius}, atom);
     }
 
     void add_rest() {
-        add_ribbon(rest_, sizes_, tolerance_, is_drawn_, add_);
+        add_ribbon(rest_, sizes_, max_error_, is_drawn_, add_);
         rest_.clear();
     }
 
     const Path& path_;
     const RibbonSizes& sizes_;
-    double tolerance_;
+    double max_error_;
     const IsDrawn& is_drawn_;
     const AddShape& add_;
     Path rest_; // residues behind the last helix
@@ -134,9 +137,9 @@ class HelixCylinders {
 
 } // namespace
 
-void add_with_cylinders(const Path& path, const RibbonSizes& sizes, double tolerance,
+void add_with_cylinders(const Path& path, const RibbonSizes& sizes, double max_error,
                         const IsDrawn& is_drawn, const AddShape& add) {
-    HelixCylinders(path, sizes, tolerance, is_drawn, add).add();
+    HelixCylinders(path, sizes, max_error, is_drawn, add).add();
 }
 
 } // namespace raylane::scenes

@@ -58,10 +58,10 @@ Corner corner_of(const Frame& frame, const ProfilePoint& point) {
 
 class RibbonMesh {
   public:
-    RibbonMesh(const Path& path, const RibbonSizes& sizes, double tolerance,
+    RibbonMesh(const Path& path, const RibbonSizes& sizes, double max_error,
                const IsDrawn& is_drawn, const AddShape& add)
         : path_(path), sizes_(sizes), curve_(path), is_drawn_(is_drawn), add_(add) {
-        find_steps(tolerance);
+        find_steps(max_error);
         find_sections();
     }
 
@@ -87,16 +87,18 @@ class RibbonMesh {
   private:
     /// Sets the number of steps along the path, and around it. A chord of an arc of radius r and
     /// angle a is r * a^2 / 8 away from it.
-    void find_steps(double tolerance) {
+    void find_steps(double max_error) {
         constexpr double sharpest = 2.0; // radius of the turns of coils and helices, in angstrom
         constexpr double half_turn = 0x1.921fb54442d18p+1;
         double length = 0.0;
         for (std::size_t i = 1; i < path_.size(); ++i)
             length += core::length(path_[i].at - path_[i - 1].at);
         const double spacing = length / static_cast<double>(path_.size() - 1);
-        const double half_steps = 0.5 * spacing / std::sqrt(8.0 * tolerance * sharpest);
+        const double half_steps = 0.5 * spacing / std::sqrt(8.0 * max_error * sharpest);
         step_ = 0.5 / std::clamp(std::ceil(half_steps), 2.0, 20.0);
-        const double arc = std::sqrt(8.0 * tolerance / sizes_.coil);
+        // Ribbons are bent across their width, too, where they twist.
+        columns_ = max_error < 0.01 ? 4 : max_error < 0.03 ? 2 : 1;
+        const double arc = std::sqrt(8.0 * max_error / sizes_.coil);
         const auto arcs = static_cast<int>(std::clamp(std::ceil(half_turn / arc), 4.0, 24.0));
         for (int k = 0; k <= arcs; ++k) {
             const double angle = half_turn * (static_cast<double>(k) / arcs);
@@ -140,7 +142,7 @@ class RibbonMesh {
     Profile round_profile(const Size& wide, const Size& thick) const {
         Profile profile;
         const Size straight{wide.value - thick.value, wide.by_s - thick.by_s};
-        for (const double side : {1.0, -1.0})
+        for (const double side : {1.0, -1.0}) {
             for (const auto& [cosine, sine] : half_circle_) {
                 const double c = side * cosine, v = side * sine;
                 profile.push_back({{side * straight.value + thick.value * c,
@@ -149,14 +151,23 @@ class RibbonMesh {
                                    -v,
                                    c});
             }
+            for (int k = 1; k < columns_; ++k) {
+                const double x = side * (1.0 - 2.0 * k / columns_);
+                profile.push_back({{x * straight.value, x * straight.by_s},
+                                   {side * thick.value, side * thick.by_s},
+                                   -side,
+                                   0.0});
+            }
+        }
         return profile;
     }
 
-    static Profile square_profile(const Size& wide, const Size& thick) {
+    Profile square_profile(const Size& wide, const Size& thick) const {
         Profile profile;
         // A side's direction (to_x, to_y) is its outward direction turned by a quarter.
         for (const auto& [x, y] : {std::pair(1.0, 0.0), {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}})
-            for (const double end : {-1.0, 1.0}) {
+            for (int k = 0, parts = y == 0.0 ? 1 : columns_; k <= parts; ++k) {
+                const double end = 2.0 * k / parts - 1.0;
                 const double u = x - end * y, v = y + end * x;
                 profile.push_back(
                     {{u * wide.value, u * wide.by_s}, {v * thick.value, v * thick.by_s}, -y, x});
@@ -166,7 +177,7 @@ class RibbonMesh {
 
     /// Returns a helix's profile, which is that of a coil at ends that continue.
     Profile helix_profile(const Section& section, double s) const {
-        constexpr double easing = 0.75; // residues
+        constexpr double easing = 0.5; // residues
         Size part{1.0};
         if (section.begin > 0.0 && s < section.begin + easing)
             part = eased((s - section.begin) / easing, 1.0 / easing);
@@ -209,7 +220,7 @@ class RibbonMesh {
                 next.push_back(corner_of(frame, point));
             if (was_drawn) add_between(before, next, atom_at(s - 0.5 * step_));
             const bool is_seam = (step == 0 || step == steps) && is_seamless(s);
-            if (drawn != was_drawn && !is_seam) add_end(next, frame.along, drawn, s);
+            if (drawn != was_drawn && !is_seam) add_end(next, frame, drawn, s);
             was_drawn = drawn;
             std::swap(before, next);
         }
@@ -243,14 +254,14 @@ class RibbonMesh {
     }
 
     /// Closes a sweep by a flat face, which a drawn piece is behind if `begins`.
-    void add_end(const Ring& ring, const Vec3d& along, bool begins, double s) const {
-        const auto normal = core::convert<float>(begins ? -along : along);
+    void add_end(const Ring& ring, const Frame& frame, bool begins, double s) const {
+        const auto normal = core::convert<float>(begins ? -frame.along : frame.along);
+        const Corner middle{core::convert<float>(frame.at), normal};
         const AtomIndex atom = atom_at(begins ? s + 0.5 * step_ : s - 0.5 * step_);
-        for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
-            const Vec3f &a = ring[0].at, &b = ring[begins ? k + 1 : k].at,
-                        &c = ring[begins ? k : k + 1].at;
-            if (!core::checks::are_collinear(a, b, c))
-                add_(core::SmoothTriangle{a, b, c, normal, normal, normal}, atom);
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            const std::size_t other = k + 1 == ring.size() ? 0 : k + 1;
+            add_triangle(middle, {ring[begins ? other : k].at, normal},
+                         {ring[begins ? k : other].at, normal}, atom);
         }
     }
 
@@ -261,14 +272,15 @@ class RibbonMesh {
     const AddShape& add_;
     std::vector<Section> sections_;
     double step_ = 0.5; // of the parameter; 0.5 is a multiple of it
+    int columns_ = 1;   // across a ribbon
     std::vector<std::pair<double, double>> half_circle_; // from (0, -1) to (0, 1)
 };
 
 } // namespace
 
-void add_ribbon(const Path& path, const RibbonSizes& sizes, double tolerance,
+void add_ribbon(const Path& path, const RibbonSizes& sizes, double max_error,
                 const IsDrawn& is_drawn, const AddShape& add) {
-    if (path.size() > 1) RibbonMesh(path, sizes, tolerance, is_drawn, add).add();
+    if (path.size() > 1) RibbonMesh(path, sizes, max_error, is_drawn, add).add();
 }
 
 } // namespace raylane::scenes

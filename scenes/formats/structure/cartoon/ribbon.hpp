@@ -14,10 +14,10 @@ struct RibbonSizes {
 
 /// Adds a path as triangles: coils as round tubes, helices as ribbons with round edges, strands as
 /// ribbons with square edges and an arrow. Coils and helices are one surface without a seam. The
-/// distance of triangles from the surface is about `tolerance` at most, in angstrom. Their normals
+/// distance of triangles from the surface is about `max_error` at most, in angstrom. Their normals
 /// are those of the surface, from its derivatives, in double. Only pieces whose atoms are drawn are
 /// added, each with closed ends.
-void add_ribbon(const Path& path, const RibbonSizes& sizes, double tolerance,
+void add_ribbon(const Path& path, const RibbonSizes& sizes, double max_error,
                 const IsDrawn& is_drawn, const AddShape& add);
 
 } // namespace raylane::scenes
