@@ -1,8 +1,8 @@
 #!/bin/sh
-# Runs the fuzzers with sanitizers, two at a time: each reader by its format, "picture" for images,
-# "calls", "solids" and "engines" for the library's answers, "c" for its interface for C. Fails and
-# keeps the input if a fuzzer finds anything. Useful inputs stay in build/fuzz/corpus for the next
-# run.
+# Runs the fuzzers with sanitizers, two at a time: each reader by its format, "formula" for patterns,
+# "picture" for images, "calls", "solids" and "engines" for the library's answers, "c" for its
+# interface for C. Fails and keeps the input if a fuzzer finds anything. Useful inputs stay in
+# build/fuzz/corpus for the next run.
 #
 #   tests/fuzz/run.sh [SECONDS [FUZZER...]]    default: ten minutes each, all of them
 #   BUILD=build/asan tests/fuzz/run.sh 30      fuzzers of another build, which has RAYLANE_FUZZERS
@@ -10,7 +10,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 seconds=${1:-600}
 [ $# -eq 0 ] || shift
-formats=${*:-"built cif gro json lammps_data lammps_dump nff pdb picture pov tachyon xyz calls solids engines c"}
+formats=${*:-"built cif formula gro json lammps_data lammps_dump nff pdb picture pov tachyon xyz calls solids engines c"}
 build=${BUILD:-build/fuzz}
 
 mkdir -p build/fuzz/findings
