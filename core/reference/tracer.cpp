@@ -260,15 +260,13 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
     return soft_lights_.empty() ? color : color + lit_softly(path, surface, own);
 }
 
-/// Returns Blinn's highlight of light from a direction.
+/// Returns the highlight of light from a direction.
 template <class Real>
 Real ReferenceTracer<Real>::highlight(const Path& path, const Surface& surface,
                                       const Vector& to_light) const {
     const Vector halfway = to_light - path.ray.direction;
-    if (surface.material.specular == 0.0F || !(squared_length(halfway) > Real(0))) return Real(0);
-    const Real cos_halfway = std::max(dot(surface.normal, normalized(halfway)), Real(0));
-    return Real(surface.material.specular) *
-           core::pow(cos_halfway, Real(surface.material.exponent));
+    if (!(squared_length(halfway) > Real(0))) return Real(0);
+    return power_of(dot(surface.normal, normalized(halfway)));
 }
 
 /// Returns the mean of the samples of each light with a size. The sky makes no highlights.
@@ -276,6 +274,14 @@ template <class Real>
 Vec3<Real> ReferenceTracer<Real>::lit_softly(const Path& path, const Surface& surface,
                                              const Vector& own) {
     const Directed<double> point{static_cast<double>(surface.point.x),
+    const Material& material = surface.material;
+    if (material.specular == 0.0F) return Real(0);
+    const auto power_of = [&](Real cosine) {
+        return Real(material.specular) *
+               core::pow(std::max(cosine, Real(0)), Real(material.exponent));
+    };
+    if (material.highlight == Highlight::phong)
+        return power_of(dot(reflected(path.ray.direction, surface.normal), to_light));
                                  static_cast<double>(surface.point.y),
                                  static_cast<double>(surface.point.z)};
     const Directed<double> normal{static_cast<double>(surface.normal.x),

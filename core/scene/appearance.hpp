@@ -14,6 +14,12 @@ enum class Reflection : std::uint8_t {
     dielectric, ///< Fresnel's equations for an unpolarised ray, from `index`
 };
 
+/// Cosine whose power is the highlight. n: normal, l: to the light, d: the ray's direction.
+enum class Highlight : std::uint8_t {
+    blinn, ///< of n and the direction halfway between l and -d
+    phong, ///< of l and the direction in which n reflects the ray
+};
+
 enum class LightKind : std::uint8_t { point, directional, sky, sphere, disc, rectangle };
 
 /// Returns true for lights that are seen in more than one direction.

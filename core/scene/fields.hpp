@@ -20,6 +20,7 @@ using Words = std::span<const char* const>;
 inline constexpr const char* pattern_words[] = {"solid", "checker", "stripes", "gradient",
                                                 "back-plane"};
 inline constexpr const char* reflection_words[] = {"constant", "schlick", "dielectric"};
+inline constexpr const char* highlight_words[] = {"blinn", "phong"};
 inline constexpr const char* visible_words[] = {"both", "outside", "inside"};
 inline constexpr const char* light_words[] = {"point",  "directional", "sky",
                                               "sphere", "disc",        "rectangle"};
@@ -235,6 +236,8 @@ constexpr void for_each_field(const Visit& visit, Of&... of) {
     visit(Field("reflectivity", fraction, "Reflected fraction, the same at every angle."),
           of.reflectivity...);
     visit(
+    visit(Field("highlight", word(highlight_words), "Cosine whose power is the highlight", sparse),
+          of.highlight...);
         Field("transmission", fraction, "Transmitted fraction of the light that is not reflected"),
         of.transmission...);
     visit(Field("opacity", fraction, "Weight of the surface's color.", sparse), of.opacity...);

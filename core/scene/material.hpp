@@ -36,7 +36,8 @@ struct Pattern {
 enum class Visible : std::uint8_t { both, outside, inside };
 
 /// The colour seen along a ray that hits this material. Symbols: light l of colour L_l; unit
-/// vectors n (normal), l (to the light) and h (halfway between l and the viewer); S the share of
+/// vectors n (normal), l (to the light) and h (halfway between l and the viewer; for Phong's
+/// highlight n.h stands for the cosine between l and the reflected ray); S the share of
 /// the light that the shadow lets through; C the pattern's colour; R the reflected fraction. The
 /// colour is
 ///   C ambient + sum_l S L_l (C diffuse max(n.l, 0) + specular max(n.h, 0)^exponent)
@@ -46,11 +47,12 @@ struct Material {
     Pattern pattern;
     float ambient = 0.1F;   ///< >= 0
     float diffuse = 0.8F;   ///< >= 0
-    float specular = 0.0F;  ///< >= 0, Blinn's highlight, in the light's colour
+    float specular = 0.0F;  ///< >= 0, of the highlight, in the light's colour
     float exponent = 32.0F; ///< >= 0
     Reflection reflection = Reflection::constant;
     float reflectivity = 0.0F; ///< [0, 1]
     float transmission = 0.0F; ///< [0, 1] per surface crossed; 0 is opaque
+    Highlight highlight = Highlight::blinn;
     float index = 1.5F;        ///< index of refraction, > 0; empty space has 1
     Sellmeier glass{}; ///< if set, `index` is its n_d, or its index at each wavelength of a scene
     Vec3f absorption{

@@ -52,6 +52,7 @@ MaterialView view_of(const core::Material& material) {
     view.index = static_cast<double>(material.index);
     view.opacity = static_cast<double>(material.opacity);
     view.reflection = material.reflection;
+    view.highlight = material.highlight;
     view.transmits = material.transmits();
     view.reflects = material.reflects();
 

@@ -15,6 +15,7 @@ struct MaterialView {
     double reflectivity, transmission, index, opacity;
     core::Reflection reflection;
     bool transmits, reflects;
+    core::Highlight highlight;
 
     core::PatternKind pattern;
     std::uint8_t axes;

@@ -35,7 +35,7 @@ def test_what_is_set_is_there():
     )
     stripes = raylane.Material(color=raylane.Pattern("stripes", direction=(0.0, 1.0, 0.0)), visible="inside")
     gradient = raylane.Material(color=raylane.Pattern("gradient", start=(1.0, 2.0, 3.0), end=(4.0, 5.0, 6.0)))
-    materials = [glass, checker, stripes, gradient, raylane.Material(opacity=0.5)]
+    materials = [glass, checker, stripes, gradient, raylane.Material(opacity=0.5), raylane.Material(highlight="phong")]
     for index, material in enumerate(materials):
         assert builder.add_material(material) == index
     lights = [
@@ -89,7 +89,7 @@ def test_classes_have_the_defaults_and_words_of_files():
             words = ", ".join(f'"{word}"' for word in typing.get_args(hint))
             assert error.value.expectation == f"must be one of {words}, got '?'"
             checks += 1
-    assert checks == 9
+    assert checks == 10
 
 
 def test_arrays_of_all_kinds(random):

@@ -188,7 +188,7 @@ struct Shading {
         }
     }
 
-    /// Returns Blinn's highlight for light from a direction.
+    /// Returns the highlight of light from a direction.
     static V highlight(const MaterialView& material, const V& normal, const V& to_light,
                        const V& incident) {
         const F zero(0.0);
@@ -223,6 +223,13 @@ struct Shading {
         const core::SoftLightSampler<F> sampler(light);
         for (std::size_t i = run.begin; i < run.end; i += lanes) {
             const V point = load(surfaces.point, i), normal = load(surfaces.normal, i);
+        if (material.highlight == core::Highlight::phong) {
+            const F cosine =
+                min(max(dot<Arch>(mirrored(incident, normal), to_light), zero), F(1.0));
+            const F share =
+                F(material.specular) * core::Elementary<F>::pow(cosine, F(material.exponent));
+            return {share, share, share};
+        }
             const core::LightSample<F> sample =
                 sampler.sample({point.x, point.y, point.z}, {normal.x, normal.y, normal.z},
                                load(us + i), load(vs + i));

@@ -203,6 +203,7 @@ TEST_CASE("each enumerator of the library equals core's of that name") {
     CHECK(same(PatternKind::stripes, core::PatternKind::stripes));
     CHECK(same(PatternKind::gradient, core::PatternKind::gradient));
     CHECK(same(PatternKind::back_plane, core::PatternKind::back_plane));
+    CHECK(same(Highlight::phong, core::Highlight::phong));
     CHECK(same(Reflection::schlick, core::Reflection::schlick));
     CHECK(same(Reflection::dielectric, core::Reflection::dielectric));
     CHECK(same(Visible::outside, core::Visible::outside));
@@ -390,6 +391,7 @@ TEST_CASE("a number that matches no enumerator is refused") {
     CHECK(built([](SceneBuilder& b) {
               b.settings.quality = 5;
           }).starts_with("settings/quality: must be"));
+    CHECK(material({.highlight = static_cast<Highlight>(2)}).starts_with("highlight: must be"));
     CHECK(built([](SceneBuilder& b) {
               b.settings.transfer = static_cast<Transfer>(2);
           }).starts_with("settings/transfer: must be"));

@@ -121,6 +121,7 @@ TEST_CASE("JSON export writes every value of a scene") {
                               "from": [0, 1, 0], "to": [1, 1, 1]}, "reflection": "schlick"},
             "w": {"ambient": 0.3, "diffuse": 0.4, "specular": 0.5, "exponent": 7,
                   "reflection": "dielectric", "transmission": 0.9, "index": 1.7, "opacity": 0.6,
+                  "highlight": "phong",
                   "absorption": [0.1, 0.2, 0.3]}},
         "objects": [
             {"type": "triangle", "material": "s", "a": [0, 0, 0], "b": [1, 0, 0], "c": [0, 1, 0],
@@ -154,6 +155,7 @@ TEST_CASE("JSON export writes every value of a scene") {
                              R"("ground": [0.1, 0.2, 0.3])",
                              R"("edge_v": [0, 2.5, 0])",
                              R"("axes": "yz")",
+                             R"("highlight": "phong")",
                              R"("visible": "inside")",
                              R"("visible": "outside")",
                              R"("reflection": "schlick")",

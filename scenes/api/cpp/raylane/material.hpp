@@ -35,6 +35,12 @@ struct Pattern {
     Vec3 to{0.0F, 1.0F, 0.0F};
 };
 
+/// Shape of the highlight.
+enum class Highlight : std::uint8_t {
+    blinn, ///< Blinn's (1977): max(n.h, 0)^exponent
+    phong, ///< Phong's (1975): max(r.l, 0)^exponent
+};
+
 enum class Reflection : std::uint8_t {
     constant,   ///< `reflectivity` at every angle
     schlick,    ///< Schlick's approximation (1994), computed from `index`
@@ -56,14 +62,15 @@ struct Sellmeier {
 ///   C ambient + sum_l S L_l (C diffuse max(n.l, 0) + specular max(n.h, 0)^exponent)
 ///   + R (colour reflected) + (1 - R) transmission (colour transmitted),
 /// times `opacity`, plus 1 - opacity times the colour straight behind the surface. The unit vectors
-/// are n (normal), l (to the light) and h (halfway between l and the direction to the viewer). L_l
+/// are n (normal), l (to the light) and h (halfway between l and the direction to the viewer); for
+/// Phong's highlight, n.h stands for r.l with the reflected ray r. L_l
 /// is the colour of light l, S the fraction of it that reaches the point, C the pattern's colour
 /// and R the reflected fraction.
 struct Material {
     Pattern pattern{};
     float ambient = 0.1F;   ///< >= 0
     float diffuse = 0.8F;   ///< >= 0
-    float specular = 0.0F;  ///< >= 0, Blinn's highlight (1977), in the light's colour
+    float specular = 0.0F;  ///< >= 0, of the highlight, in the light's colour
     float exponent = 32.0F; ///< >= 0
     Reflection reflection = Reflection::constant;
     float reflectivity = 0.0F; ///< [0, 1]
@@ -76,6 +83,7 @@ struct Material {
     Vec3 absorption{};
     Visible visible = Visible::both;
     /// [0, 1]: the weight of the surface's colour, as of paint on a pane. The scene straight behind
+    Highlight highlight = Highlight::blinn;
     /// it has the weight 1 - opacity. Unlike transmitted light, it is not refracted, absorbed or
     /// weakened by reflection.
     float opacity = 1.0F;

@@ -137,6 +137,7 @@ typedef struct raylane_double_ellipsoid {
 /** Enumerators of the C++ headers, in the same order. */
 enum { RAYLANE_SOLID, RAYLANE_CHECKER, RAYLANE_STRIPES, RAYLANE_GRADIENT, RAYLANE_BACK_PLANE };
 enum { RAYLANE_CONSTANT, RAYLANE_SCHLICK, RAYLANE_DIELECTRIC };
+enum { RAYLANE_BLINN, RAYLANE_PHONG };
 enum { RAYLANE_BOTH_SIDES, RAYLANE_OUTSIDE, RAYLANE_INSIDE };
 enum {
     RAYLANE_POINT_LIGHT,
@@ -164,6 +165,7 @@ typedef struct raylane_material {
     } pattern;
     float ambient, diffuse, specular, exponent;
     uint8_t reflection;
+    uint8_t highlight;
     float reflectivity, transmission, index;
     struct {
         double B[3], C[3];

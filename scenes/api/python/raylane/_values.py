@@ -115,6 +115,8 @@ class Material(Fields):
 
 
 @dataclass
+    highlight: Literal["blinn", "phong"] = "blinn"
+    """Shape of the highlight. phong: n.h stands for the cosine between l and the reflected ray."""
 class Light(Fields):
     """A light source. It casts shadows and is invisible itself.
 
