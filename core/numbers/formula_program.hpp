@@ -57,7 +57,7 @@ template <class Number>
 struct FormulaOperations {
     /// Calls run(f) with the function f(a, b, c) of an operation.
     template <class Run>
-    static void with(FormulaOperation operation, const Run& run);
+    [[gnu::always_inline]] static inline void with(FormulaOperation operation, const Run& run);
 
     /// Returns a channel: the number from 0 to 1e10 that is nearest to a result, or 0 for an
     /// undefined one.

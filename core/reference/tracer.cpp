@@ -7,6 +7,7 @@
 #include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
 #include "core/scene/pattern.hpp"
+#include "core/scene/shape_coordinates.hpp"
 #include "core/shapes/shapes.hpp"
 
 #include <algorithm>
@@ -228,11 +229,22 @@ Vec3<Real> ReferenceTracer<Real>::shade(const Path& path, const Surface& surface
     return light;
 }
 
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::own_color(const Surface& surface) const {
+    const Pattern& pattern = surface.material.pattern;
+    if (pattern.kind != PatternKind::formula || !pattern.formula.program().needs_shape)
+        return color_at(pattern, surface.point);
+    const Hit<Real>& hit = surface.hit;
+    return color_at(pattern, surface.point,
+                    coordinates_on(scene_.shapes(), hit.kind, hit.place, hit.face,
+                                   convert<double>(surface.point)));
+}
+
 /// Returns the ambient light, and that of each light on this side of the surface.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) {
     const Material& material = surface.material;
-    const Vector own = color_at(material.pattern, surface.point);
+    const Vector own = own_color(surface);
     Vector color = Real(material.ambient) * own;
     if (material.diffuse == 0.0F && material.specular == 0.0F) return color;
 
@@ -264,6 +276,14 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
 template <class Real>
 Real ReferenceTracer<Real>::highlight(const Path& path, const Surface& surface,
                                       const Vector& to_light) const {
+    const Material& material = surface.material;
+    if (material.specular == 0.0F) return Real(0);
+    const auto power_of = [&](Real cosine) {
+        return Real(material.specular) *
+               core::pow(std::max(cosine, Real(0)), Real(material.exponent));
+    };
+    if (material.highlight == Highlight::phong)
+        return power_of(dot(reflected(path.ray.direction, surface.normal), to_light));
     const Vector halfway = to_light - path.ray.direction;
     if (!(squared_length(halfway) > Real(0))) return Real(0);
     return power_of(dot(surface.normal, normalized(halfway)));
@@ -274,14 +294,6 @@ template <class Real>
 Vec3<Real> ReferenceTracer<Real>::lit_softly(const Path& path, const Surface& surface,
                                              const Vector& own) {
     const Directed<double> point{static_cast<double>(surface.point.x),
-    const Material& material = surface.material;
-    if (material.specular == 0.0F) return Real(0);
-    const auto power_of = [&](Real cosine) {
-        return Real(material.specular) *
-               core::pow(std::max(cosine, Real(0)), Real(material.exponent));
-    };
-    if (material.highlight == Highlight::phong)
-        return power_of(dot(reflected(path.ray.direction, surface.normal), to_light));
                                  static_cast<double>(surface.point.y),
                                  static_cast<double>(surface.point.z)};
     const Directed<double> normal{static_cast<double>(surface.normal.x),

@@ -118,6 +118,7 @@ class ReferenceTracer {
     Real transmittance_to_infinity(const Path& path) const;
     Surface surface_at(const Path& path, const Encounter<Real>& encounter) const;
     Vector shade(const Path& path, const Surface& surface, const Vector& throughput);
+    Vector own_color(const Surface& surface) const;
     Vector lit(const Path& path, const Surface& surface);
     Vector lit_softly(const Path& path, const Surface& surface, const Vector& own);
     Real highlight(const Path& path, const Surface& surface, const Vector& to_light) const;

@@ -6,7 +6,7 @@
 /// one of them has no default, so that a new enumerator does not compile until it is implemented.
 namespace raylane::core {
 
-enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, back_plane };
+enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, formula };
 
 enum class Reflection : std::uint8_t {
     constant,   ///< `reflectivity`, whatever the angle

@@ -18,7 +18,7 @@ namespace raylane::core::fields {
 using Words = std::span<const char* const>;
 
 inline constexpr const char* pattern_words[] = {"solid", "checker", "stripes", "gradient",
-                                                "back-plane"};
+                                                "formula"};
 inline constexpr const char* reflection_words[] = {"constant", "schlick", "dielectric"};
 inline constexpr const char* highlight_words[] = {"blinn", "phong"};
 inline constexpr const char* visible_words[] = {"both", "outside", "inside"};
@@ -40,7 +40,8 @@ enum class Rule : std::uint8_t {
     positive,    ///< above 0, at most `most`
     direction,   ///< three numbers from `least` to `most` that are not all 0
     axes,        ///< a bit for each axis
-    several,     ///< a struct with its own list, or a formula's numbers
+    formula,     ///< three texts, for red, green and blue
+    several,     ///< a struct with its own list, or several numbers
 };
 
 /// The values of a field that are valid, and their unit. A vector, or each of several vectors, has
@@ -55,8 +56,8 @@ struct Valid {
 };
 
 inline constexpr double limit = 1e30; ///< of coordinates and lengths
-inline constexpr Valid flag{Rule::flag}, axes{Rule::axes}, several{Rule::several},
-    fraction{Rule::number, 0.0, 1.0}, brightness{Rule::number, 0.0, 1e10},
+inline constexpr Valid flag{Rule::flag}, axes{Rule::axes}, formula{Rule::formula},
+    several{Rule::several}, fraction{Rule::number, 0.0, 1.0}, brightness{Rule::number, 0.0, 1e10},
     not_negative{Rule::number, 0.0, limit}, positive{Rule::positive, 0.0, limit},
     coordinate{Rule::number, -limit, limit, "length"}, distance{Rule::number, 0.0, limit, "length"},
     length{Rule::positive, 0.0, limit, "length"},
@@ -192,7 +193,8 @@ template <class Visit, PatternLike... Of>
 constexpr void for_each_field(const Visit& visit, Of&... of) {
     constexpr Kinds checker = kinds(pattern_words, "checker"),
                     stripes = kinds(pattern_words, "stripes"),
-                    gradient = kinds(pattern_words, "gradient");
+                    gradient = kinds(pattern_words, "gradient"),
+                    formulas = kinds(pattern_words, "formula");
     visit(Field("kind", pattern_kind, "Kind of pattern.", selects_kind, key("type")), of.kind...);
     visit(Field("colors", color, "The two colors", must(checker | stripes | gradient)),
           of.colors...);
@@ -211,6 +213,9 @@ constexpr void for_each_field(const Visit& visit, Of&... of) {
           of.from...);
     visit(Field("to", coordinate, "End of the transition;", must(gradient), in_python("end")),
           of.to...);
+    visit(
+        Field("formula", formula, "Formulas of red, green and blue", must(formulas), key("color")),
+        of.formula...);
 }
 
 template <class Visit, GlassLike... Of>
@@ -231,13 +236,13 @@ constexpr void for_each_field(const Visit& visit, Of&... of) {
     visit(Field("specular", brightness, "Weight of the light's color at the center of a highlight"),
           of.specular...);
     visit(Field("exponent", not_negative, "Sharpness of the highlight."), of.exponent...);
+    visit(Field("highlight", word(highlight_words), "Cosine whose power is the highlight", sparse),
+          of.highlight...);
     visit(Field("reflection", word(reflection_words, 1), "Computes the reflected fraction"),
           of.reflection...);
     visit(Field("reflectivity", fraction, "Reflected fraction, the same at every angle."),
           of.reflectivity...);
     visit(
-    visit(Field("highlight", word(highlight_words), "Cosine whose power is the highlight", sparse),
-          of.highlight...);
         Field("transmission", fraction, "Transmitted fraction of the light that is not reflected"),
         of.transmission...);
     visit(Field("opacity", fraction, "Weight of the surface's color.", sparse), of.opacity...);

@@ -2,6 +2,7 @@
 
 #include "core/numbers/vector.hpp"
 #include "core/scene/appearance.hpp"
+#include "core/scene/formula.hpp"
 #include "core/scene/glass.hpp"
 
 #include <array>
@@ -16,7 +17,7 @@ using Color = Vec3f;
 struct Pattern {
     PatternKind kind = PatternKind::solid;
     /// solid: the first. checker, stripes: alternating, the first in the cell that begins at the
-    /// origin. gradient: at `from` and at `to`. back_plane: not used.
+    /// origin. gradient: at `from` and at `to`. formula: not used.
     std::array<Color, 2> colors = {Color(1.0F), Color(1.0F)};
     /// checker: the cells' edge; stripes: their width. > 0
     float size = 1.0F;
@@ -29,6 +30,8 @@ struct Pattern {
     /// gradient: runs from one point to the other, constant beyond them.
     Vec3f from{0.0F};
     Vec3f to{0.0F, 1.0F, 0.0F};
+    /// formula: the colour of a point in world coordinates.
+    Formula formula{};
 };
 
 /// Sides from which a surface is visible. Rays pass the other side as if nothing were there. A
@@ -49,10 +52,10 @@ struct Material {
     float diffuse = 0.8F;   ///< >= 0
     float specular = 0.0F;  ///< >= 0, of the highlight, in the light's colour
     float exponent = 32.0F; ///< >= 0
+    Highlight highlight = Highlight::blinn;
     Reflection reflection = Reflection::constant;
     float reflectivity = 0.0F; ///< [0, 1]
     float transmission = 0.0F; ///< [0, 1] per surface crossed; 0 is opaque
-    Highlight highlight = Highlight::blinn;
     float index = 1.5F;        ///< index of refraction, > 0; empty space has 1
     Sellmeier glass{}; ///< if set, `index` is its n_d, or its index at each wavelength of a scene
     Vec3f absorption{

@@ -32,26 +32,12 @@ int parity(Real value) {
     return cell == Real(2) * std::floor(cell / Real(2)) ? 0 : 1;
 }
 
-/// Returns the colour of a sun over water: an orange disc, brighter above the horizon y = 0, in
-/// front of coloured bands.
-template <class Real>
-Vec3<Real> back_plane(Real x, Real y) {
-    if (x * x + y * y < Real(150)) {
-        if (y > Real(0)) return {Real(1), Real(0.2), Real(0)};
-        if (y < Real(0)) return {Real(0.7), Real(0.2), Real(0)};
-    }
-    if (y >= Real(0)) {
-        const Real root = std::sqrt(y);
-        return {std::abs(core::cos(x)), std::abs(core::sin(root)), std::abs(core::cos(root))};
-    }
-    return {Real(0), Real(0), std::abs(core::cos(y))};
-}
-
 } // namespace detail
 
-/// Returns the pattern's colour at a point in world coordinates.
+/// Returns the pattern's colour at a point in world coordinates. `on_shape`: used by some formulas.
 template <class Real>
-Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point) {
+Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point,
+                    const ShapeCoordinates& on_shape = {}) {
     const Vec3<Real> first = convert<Real>(pattern.colors[0]),
                      second = convert<Real>(pattern.colors[1]);
     switch (pattern.kind) {
@@ -79,8 +65,8 @@ Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point) {
             static_cast<Real>(std::clamp(dot(offset, run) / squared_length(run), 0.0, 1.0));
         return mul_add(s, Vec3<Real>(second - first), first);
     }
-    case PatternKind::back_plane:
-        return detail::back_plane(point.x, point.y);
+    case PatternKind::formula:
+        return convert<Real>(color_of(pattern.formula.program(), convert<double>(point), on_shape));
     }
     return first;
 }

@@ -57,6 +57,12 @@ void check(const Field& place, const Valid& valid, const Vec3f& vector) {
         check(place.at(i), valid, vector[i]);
 }
 
+void require_no_mistake(const Field& place, const Formula& formula) {
+    if (!formula.any() || !formula.mistake()) return;
+    throw InvalidValue(place.at(formula.mistake()->channel).text(),
+                       "must be a formula: " + formula.mistake()->message);
+}
+
 /// Compares floats, so that the float nearest to a decimal limit is valid.
 void require_between(const Field& place, float value, float least, float most) {
     if (!(value >= least && value <= most))
@@ -73,6 +79,8 @@ void check_fields(const Of& of, Kinds kinds) {
             else if constexpr (std::is_same_v<Value, std::array<Color, 2>>)
                 for (int i = 0; i < 2; ++i)
                     check(Field(field.name).at(i), field.valid, value[i]);
+            else if constexpr (std::is_same_v<Value, Formula>)
+                require_no_mistake(field.name, value);
             else if constexpr (std::is_same_v<Value, int>)
                 require_count(field.name, value, static_cast<int>(field.valid.least),
                               static_cast<int>(field.valid.most));
@@ -93,6 +101,8 @@ void validate_color(const char* field, const Color& color) {
 
 void validate(const Pattern& pattern) {
     check_fields(pattern, fields::every);
+    if (pattern.kind == PatternKind::formula && !pattern.formula.any())
+        throw InvalidValue("formula", "must be three formulas, got none");
     if (pattern.kind == PatternKind::gradient && pattern.from == pattern.to)
         throw InvalidValue("to", "must differ from \"from\", got " + text_of(pattern.to));
     if ((pattern.axes & 7) == 0 || pattern.axes > 63)

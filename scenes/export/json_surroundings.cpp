@@ -47,6 +47,8 @@ void write_field(JsonObject& object, const Field& field, const Value& value) {
         object.key(field.key()) << (value ? "true" : "false");
     } else if constexpr (std::is_same_v<Value, core::Vec3f>) {
         object.vector(field.key(), value);
+    } else if constexpr (std::is_same_v<Value, core::Formula>) {
+        object.key(field.key()) << nlohmann::json(value.texts()).dump();
     } else if constexpr (std::is_same_v<Value, std::array<core::Color, 2>>) {
         object.vectors(field.key(), {value[0], value[1]});
     } else if constexpr (std::is_same_v<Value, std::array<double, 3>>) {

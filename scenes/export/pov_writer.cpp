@@ -286,8 +286,8 @@ class PovWriter {
         const core::Pattern& pattern = material.pattern;
         file_ << "pigment { ";
         switch (pattern.kind) {
-        case core::PatternKind::back_plane:
-            differences_.insert("back-plane patterns");
+        case core::PatternKind::formula:
+            differences_.insert("formula patterns");
             [[fallthrough]];
         case core::PatternKind::solid:
             color(pattern.colors[0]);

@@ -60,6 +60,7 @@ MaterialView view_of(const core::Material& material) {
     view.pattern = pattern.kind;
     view.axes = pattern.axes;
     view.size = static_cast<double>(pattern.size);
+    if (pattern.kind == core::PatternKind::formula) view.formula = &pattern.formula.program();
     const core::Vec3d direction = core::normalized(core::convert<double>(pattern.direction));
     const core::Vec3d run = core::convert<double>(pattern.to) - core::convert<double>(pattern.from);
     for (int axis = 0; axis < 3; ++axis) {

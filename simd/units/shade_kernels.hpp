@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/numbers/formula_program.hpp"
 #include "core/optics/soft_light.hpp"
 
 #include <cstddef>
@@ -14,8 +15,8 @@ struct MaterialView {
     double ambient, diffuse, specular, exponent;
     double reflectivity, transmission, index, opacity;
     core::Reflection reflection;
-    bool transmits, reflects;
     core::Highlight highlight;
+    bool transmits, reflects;
 
     core::PatternKind pattern;
     std::uint8_t axes;
@@ -24,6 +25,7 @@ struct MaterialView {
     double direction[3]; ///< stripes, a unit vector
     double from[3];      ///< gradient
     double run[3];       ///< gradient: from `from` to `to`, divided by its squared length
+    const core::FormulaProgram* formula; ///< null for other patterns
 };
 
 struct LightView {
@@ -50,7 +52,8 @@ struct HitPaths {
         way; ///< from the origin to the hit point: t, or 0 where the origin is the hit point
     const double* normal[3]; ///< unit, outward
     const double* shading_normal[3];
-    const std::uint32_t* hit; ///< Found::hit's bits
+    const std::uint32_t* hit;  ///< Found::hit's bits
+    const double* on_shape[2]; ///< core::coordinates_on(); null if no formula needs them
 };
 
 /// Columns for paths inside of transmissive materials, by position in the sorted wave. Absent in

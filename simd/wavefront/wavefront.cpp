@@ -4,6 +4,7 @@
 #include "core/optics/fog.hpp"
 #include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
+#include "core/scene/shape_coordinates.hpp"
 #include "simd/query/as_core.hpp"
 #include "simd/wavefront/camera_view.hpp"
 #include "simd/wavefront/coherence.hpp"
@@ -87,6 +88,12 @@ void Wavefront::take_from(Arena& arena) {
     take_paths(next_, max_spawned);
     finder_.take_from(arena, wave_rays);
     way_ = arena.take<double>(wave_rays);
+    const auto needs_shape = [](const MaterialView& material) {
+        return material.formula != nullptr && material.formula->needs_shape;
+    };
+    if (std::any_of(scene_.materials().begin(), scene_.materials().end(), needs_shape))
+        for (double*& column : on_shape_)
+            column = arena.take<double>(wave_rays);
     across_ = arena.take<double>(chunk_samples);
     upward_ = arena.take<double>(chunk_samples);
     if (camera_rays_.has_lens()) {
@@ -447,6 +454,28 @@ void Wavefront::fill_media() {
     }
 }
 
+/// Computes the coordinates on their shapes of the points that formulas need.
+void Wavefront::fill_coordinates(HitPaths& hit_paths) {
+    for (int i = 0; i < 2; ++i)
+        hit_paths.on_shape[i] = on_shape_[i];
+    for (const Run& run : sorted_.runs()) {
+        if (run.material->formula == nullptr || !run.material->formula->needs_shape) continue;
+        for (std::size_t i = run.begin; i < run.end; ++i) {
+            const std::uint32_t lane = sorted_.order()[i];
+            const std::uint32_t slot = finder_.hits().slot[lane];
+            core::Vec3d point;
+            for (int axis = 0; axis < 3; ++axis)
+                point[axis] = hit_paths.way[lane] * hit_paths.direction[axis][lane] +
+                              hit_paths.origin[axis][lane];
+            const core::ShapeCoordinates on_shape = core::coordinates_on(
+                scene_.scene().shapes(), scene_.record_of(slot).kind, scene_.place_of(slot),
+                static_cast<core::Face>(hit_paths.hit[lane] & hit_face), point);
+            on_shape_[0][lane] = on_shape.u;
+            on_shape_[1][lane] = on_shape.v;
+        }
+    }
+}
+
 void Wavefront::shade(int depth) {
     if (sorted_.runs().empty()) return;
     if (with_media_) fill_media();
@@ -471,6 +500,7 @@ void Wavefront::shade(int depth) {
         hit_paths.way = way_;
     }
     hit_paths.hit = hits.hit;
+    if (on_shape_[0] != nullptr) fill_coordinates(hit_paths);
     for (const Run& run : sorted_.runs())
         shade_.surfaces(run, sorted_.order(), hit_paths, scene_.fog(),
                         with_media_ ? &media_ : nullptr, surfaces_);

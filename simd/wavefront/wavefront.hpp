@@ -91,6 +91,7 @@ class Wavefront {
     void see_background(int depth);
     void shade(int depth);
     void fill_media();
+    void fill_coordinates(HitPaths& hit_paths);
     void look_at_lights();
     void add_lights();
     void add_soft_lights(int depth);
@@ -131,6 +132,7 @@ class Wavefront {
     std::vector<Samples> samples_;                         // of the chunk
     std::vector<core::CameraRays<double>::InPixel> cells_; // by sample, if regular
     double* way_ = nullptr;                                // HitPaths::way, where it differs from t
+    double* on_shape_[2] = {};                             // by lane, if a formula needs them
     double* across_ = nullptr;
     double* upward_ = nullptr;
     double* lens_right_ = nullptr; // if there is a lens

@@ -92,17 +92,3 @@ TEST_CASE("a gradient is constant beyond its ends") {
     CHECK(at(gradient, {7, 5, 7}) == 1.0);
     CHECK(at(gradient, {7, 6, 7}) == 1.0);
 }
-
-TEST_CASE("the back plane has the colours of its source") {
-    Pattern plane;
-    plane.kind = PatternKind::back_plane;
-    const auto color = [&](double x, double y) { return color_at(plane, Vec3d(x, y, -42)); };
-    CHECK(color(3, 4) == Vec3d(1, 0.2, 0));
-    CHECK(color(3, -4) == Vec3d(0.7, 0.2, 0));
-    CHECK(color(12, 2.4) == Vec3d(1, 0.2, 0)); // 144 + 5.76 < 150
-    // 144 + 6.25 >= 150
-    CHECK(color(12, 2.5) == Vec3d(std::abs(std::cos(12.0)), std::abs(std::sin(std::sqrt(2.5))),
-                                  std::abs(std::cos(std::sqrt(2.5)))));
-    CHECK(color(12, -2.5) == Vec3d(0, 0, std::abs(std::cos(2.5))));
-    CHECK(color(3, 0) == Vec3d(std::abs(std::cos(3.0)), 0, 1)); // on the horizon: neither half
-}

@@ -218,6 +218,9 @@ void add_material(raylane_builder* builder, Bytes& bytes) {
     raylane_material material = raylane_default_material();
     const int changes = bytes.byte();
     if ((changes & 1) != 0) material.pattern.kind = enumerator(bytes, 5);
+    if (material.pattern.kind == RAYLANE_FORMULA)
+        for (const char*& text : material.pattern.formula)
+            text = bytes.below(4) == 0 ? "cos(" : "abs(sin(u)) / noise(x, y, z) ^ v";
     if ((changes & 2) != 0) material.pattern.colors[bytes.below(2)] = vector_of(bytes);
     if ((changes & 4) != 0) material.pattern.direction = vector_of(bytes);
     if ((changes & 8) != 0) material.reflection = enumerator(bytes, 3);

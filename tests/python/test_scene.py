@@ -35,7 +35,8 @@ def test_what_is_set_is_there():
     )
     stripes = raylane.Material(color=raylane.Pattern("stripes", direction=(0.0, 1.0, 0.0)), visible="inside")
     gradient = raylane.Material(color=raylane.Pattern("gradient", start=(1.0, 2.0, 3.0), end=(4.0, 5.0, 6.0)))
-    materials = [glass, checker, stripes, gradient, raylane.Material(opacity=0.5), raylane.Material(highlight="phong")]
+    formula = raylane.Material(color=raylane.Pattern("formula", formula=("abs(cos(x))", "v", "0.5")), highlight="phong")
+    materials = [glass, checker, stripes, gradient, formula, raylane.Material(opacity=0.5)]
     for index, material in enumerate(materials):
         assert builder.add_material(material) == index
     lights = [
@@ -209,6 +210,9 @@ def test_what_is_not_valid_says_where():
         (lambda: builder.add_material(color=checker), "color/colors/1/1"),
         (lambda: builder.add_material(color=raylane.Pattern("gradient", start=(1, 2, 3), end=(1, 2, 3))), "color/end"),
         (lambda: builder.add_material(color=raylane.Pattern("gradient", start=(0, np.nan, 0))), "color/start/1"),
+        (lambda: builder.add_material(color=raylane.Pattern("formula", formula=("x", "y +", "0"))), "color/formula/1"),
+        (lambda: builder.add_material(color=raylane.Pattern("formula")), "color/formula"),
+        (lambda: builder.add_material(color=raylane.Pattern("formula", formula=("x", "y"))), "color/formula"),
         (lambda: builder.add_spheres([[None, 0, 0]], 1, material=material), "centers"),
         (lambda: builder.add_spheres([[0, 0, 0], [1]], 1, material=material), "centers"),
         (lambda: builder.add_spheres(np.zeros((4, 3)), 1, material=[0, 0, 0]), "material"),

@@ -245,10 +245,8 @@ TEST_CASE("the schema has the keys, ranges, words, defaults and descriptions of 
                                {"sphereLight", kind(3)},
                                {"discLight", kind(4)},
                                {"rectangleLight", kind(5)}});
-    check_schema<core::Pattern>({{"checker", kind(1)},
-                                 {"stripes", kind(2)},
-                                 {"gradient", kind(3)},
-                                 {"backPlane", kind(4)}});
+    check_schema<core::Pattern>(
+        {{"checker", kind(1)}, {"stripes", kind(2)}, {"gradient", kind(3)}, {"formula", kind(4)}});
     check_schema<core::Material>({{"material", core::fields::every, "", {"preset", "color"}}});
 }
 

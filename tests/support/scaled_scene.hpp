@@ -8,8 +8,8 @@
 
 namespace raylane::tests {
 
-/// A copy of a scene whose lengths are all multiplied by `factor`, a power of two. A back plane's
-/// pattern has no scale, so its material becomes a plain one for any factor.
+/// A copy of a scene whose lengths are all multiplied by `factor`, a power of two. A formula has
+/// no scale, so its material becomes a plain one for any factor.
 class ScaledScene {
   public:
     ScaledScene(const core::Scene& scene, float factor)
@@ -48,7 +48,7 @@ class ScaledScene {
   private:
     core::Material scaled(core::Material material) const {
         core::Pattern& pattern = material.pattern;
-        if (pattern.kind == core::PatternKind::back_plane) pattern.kind = core::PatternKind::solid;
+        if (pattern.kind == core::PatternKind::formula) pattern.kind = core::PatternKind::solid;
         pattern.size *= factor_;
         pattern.from *= factor_;
         pattern.to *= factor_;

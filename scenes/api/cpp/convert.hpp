@@ -17,6 +17,14 @@ void copy(const From& from, To& to) {
         to = from;
     else if constexpr (std::is_enum_v<From> || std::is_enum_v<To>)
         to = static_cast<To>(from);
+    else if constexpr (std::is_same_v<From, const char*>)
+        to = from != nullptr ? from : "";
+    else if constexpr (std::is_same_v<To, const char*>)
+        to = from.empty() ? nullptr : from.c_str(); // valid as long as `from`
+    else if constexpr (requires { from.texts(); })
+        to = from.texts();
+    else if constexpr (requires { to.texts(); })
+        to = from == From{} ? To{} : To(from);
     else if constexpr (requires { from.x; })
         to = {from.x, from.y, from.z};
     else if constexpr (requires { from[0]; })

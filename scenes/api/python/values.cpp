@@ -149,6 +149,9 @@ void take(const py::handle& from, const std::string& field, Color (&to)[2]) {
     take_color(both[0], field + "/0", to[0]);
     take_color(both[1], field + "/1", to[1]);
 }
+void take(const py::handle& from, const std::string& field, std::array<std::string, 3>& to) {
+    to = cast<std::array<std::string, 3>>(from, field, "three formulas");
+}
 /// Reads a material's colour: a single colour or a pattern.
 void take(const py::handle& from, const std::string& field, Pattern& to) {
     if (py::hasattr(from, "kind"))
@@ -216,6 +219,9 @@ py::object give(const Vec3& v) {
 }
 py::object give(const std::array<double, 3>& v) {
     return py::make_tuple(v[0], v[1], v[2]);
+}
+py::object give(const std::array<std::string, 3>& texts) {
+    return py::make_tuple(texts[0], texts[1], texts[2]);
 }
 py::object give(const Color (&colors)[2]) {
     return py::make_tuple(to_python(colors[0]), to_python(colors[1]));

@@ -40,6 +40,17 @@ void read_field(const JsonValue& value, const Field&, std::array<double, 3>& to)
     to = {numbers[0].real(), numbers[1].real(), numbers[2].real()};
 }
 
+void read_field(const JsonValue& value, const Field&, core::Formula& to) {
+    const std::vector<JsonValue> channels = value.array(3, "formulas");
+    core::FormulaTexts texts;
+    for (int i = 0; i < 3; ++i)
+        texts[i] = channels[i].type() == JsonType::number ? channels[i].quoted()
+                                                          : std::string(channels[i].string());
+    to = core::Formula(texts, [&](int channel, std::string_view name) {
+        return channels[channel].parameter("$" + std::string(name));
+    });
+}
+
 void read_field(const JsonValue& value, const Field& field, std::uint8_t& to) {
     static constexpr std::uint8_t x = 1, y = 2, z = 4;
     const auto axes = value.choice<std::uint8_t>({{"x", x},

@@ -27,6 +27,8 @@ void read_field(const JsonValue& value, const core::fields::Field& field,
                 std::array<core::Color, 2>& to);
 void read_field(const JsonValue& value, const core::fields::Field& field,
                 std::array<double, 3>& to);
+/// Reads three formulas, or numbers in place of some of them.
+void read_field(const JsonValue& value, const core::fields::Field& field, core::Formula& to);
 /// Reads a checker's axes.
 void read_field(const JsonValue& value, const core::fields::Field& field, std::uint8_t& to);
 void read_field(const JsonValue& value, const core::fields::Field& field, core::Pattern& to);

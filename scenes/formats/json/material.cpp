@@ -3,6 +3,9 @@
 #include "core/scene/presets.hpp"
 #include "scenes/formats/json/fields.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <span>
 
 namespace raylane::scenes {
@@ -21,8 +24,18 @@ Value named(const JsonValue& value, std::span<const Named> all, Value Named::*me
 } // namespace
 
 void read_field(const JsonValue& value, const core::fields::Field&, core::Pattern& to) {
-    to = {.kind = static_cast<core::PatternKind>(
-              read_word(value.at("type"), core::fields::pattern_kind))};
+    // Old files have a word for the formula of the wall in birthday.json.
+    const std::size_t kind = read_word(value.at("type"), core::fields::pattern_kind, "back-plane");
+    to = {};
+    if (kind == std::size(core::fields::pattern_words)) {
+        value.allow_only({"type"});
+        to.kind = core::PatternKind::formula;
+        to.formula = core::Formula({"x^2 + y^2 < 150 ? (y > 0 ? 1 : 0.7) : y < 0 ? 0 : abs(cos(x))",
+                                    "x^2 + y^2 < 150 ? 0.2 : y < 0 ? 0 : abs(sin(sqrt(y)))",
+                                    "x^2 + y^2 < 150 ? 0 : abs(cos(y < 0 ? y : sqrt(y)))"});
+        return;
+    }
+    to.kind = static_cast<core::PatternKind>(kind);
     read_only_fields(value, to);
 }
 
@@ -57,6 +70,8 @@ std::string key_of_material_field(const std::string& field, core::PatternKind pa
     if (pattern == core::PatternKind::solid && field.starts_with(first_color))
         return "color" + field.substr(first_color.size());
     if (pattern == core::PatternKind::stripes && field == "pattern/size") return "pattern/width";
+    static constexpr std::string_view formula = "pattern/formula";
+    if (field.starts_with(formula)) return "pattern/color" + field.substr(formula.size());
     return field;
 }
 

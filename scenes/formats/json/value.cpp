@@ -166,15 +166,18 @@ auto JsonValue::with_number(const Use& use) const {
 
 Parameters::Number JsonValue::referred() const {
     if (!is_number()) fail_expecting("a number");
-    const std::string_view text = document_->get(node().text);
+    return number_of(document_->get(node().text));
+}
+
+Parameters::Number JsonValue::number_of(std::string_view text) const {
     Parameters& parameters = document_->parameters_;
     if (auto number = parameters.find(text)) return *std::move(number);
     if (parameters.is_wrong(text)) throw consequence();
     const std::string_view name = text.substr(text.find('$') + 1);
     if (!is_parameter_name(name))
         fail_expecting("a number, or $ and a name of letters, digits and underscores");
-    const BadInput missing({error("must have a value, by \"parameters\" or --set, got " + quoted() +
-                                  suggestion(name, parameters.names(), "$"))});
+    const BadInput missing({error("must have a value, by \"parameters\" or --set, got " +
+                                  in_quotes(text) + suggestion(name, parameters.names(), "$"))});
     if (parameters.may_lack_some) throw consequence();
     if (parameters.expects_more) throw LateParameter{missing};
     if (parameters.note_missing(name)) throw consequence();

@@ -154,6 +154,8 @@ class JsonValue {
     int integer() const;
     bool boolean() const;
     std::string_view string() const;
+    /// Returns the number that "$name" inside of a text stands for.
+    double parameter(std::string_view reference) const { return number_of(reference).value; }
     core::Vec3f vector() const;
     core::Vec3d real_vector() const;
     /// Reads [r, g, b], linear, or "#rrggbb", sRGB.
@@ -185,6 +187,7 @@ class JsonValue {
     auto with_number(const Use& use) const;
     /// Returns the number that "$name" stands for. Throws BadInput if the value is not a number.
     Parameters::Number referred() const;
+    Parameters::Number number_of(std::string_view reference) const;
     void require(JsonType type) const;
     std::vector<JsonValue> children() const;
     [[noreturn]] void fail_choice(const std::vector<std::string_view>& names) const;

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "simd/kernel/lanes/elementary.hpp"
 #include "simd/kernel/lanes/vectors.hpp"
 #include "simd/units/shade_kernels.hpp"
 
-/// Same patterns as core/scene/pattern.hpp, per lane.
+/// Same patterns as core/scene/pattern.hpp, per lane, except formulas.
 namespace raylane::simd {
 
 template <class Arch>
@@ -15,8 +14,6 @@ Vectors<Arch> broadcast_vector(const double (&v)[3]) {
 template <class Arch>
 struct Patterns {
     using F = Floats<Arch>;
-    using M = Mask<Arch>;
-    using Elementary = core::Elementary<F>;
 
     static F parity(const F& value) {
         const F to_round(0x1.8p24);
@@ -55,25 +52,10 @@ struct Patterns {
             return {fraction * second.x + rest * first.x, fraction * second.y + rest * first.y,
                     fraction * second.z + rest * first.z};
         }
-        case core::PatternKind::back_plane:
-            return back_plane(point.x, point.y);
+        case core::PatternKind::formula: // see Formulas
+            return first;
         }
         __builtin_unreachable();
-    }
-
-    static Vectors<Arch> back_plane(const F& x, const F& y) {
-        const F zero(0.0);
-        const M above = y > zero, below = y < zero;
-        const M sun = (x * x + y * y < F(150.0)) & (above | below);
-        const F root = sqrt(max(y, zero));
-        const M sky = y >= zero;
-        const Vectors<Arch> bands = select<Arch>(
-            sky,
-            Vectors<Arch>{abs(Elementary::sin_cos(x).cosine), abs(Elementary::sin_cos(root).sine),
-                          abs(Elementary::sin_cos(root).cosine)},
-            Vectors<Arch>{zero, zero, abs(Elementary::sin_cos(y).cosine)});
-        const Vectors<Arch> orange{select(above, F(1.0), F(0.7)), F(0.2), zero};
-        return select<Arch>(sun, orange, bands);
     }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/numbers/sample_sequence.hpp"
+#include "simd/kernel/shade/formulas.hpp"
 #include "simd/kernel/shade/optics.hpp"
 #include "simd/kernel/shade/patterns.hpp"
 #include "simd/units/kernels.hpp"
@@ -49,16 +50,45 @@ struct Shading {
         }
     };
 
+    static V point_of(const Gather& gather, const HitPaths& paths, const V& direction, const F& t) {
+        const F way = paths.way == paths.t ? t : gather(paths.way);
+        return mul_add<Arch>(way, direction, gather(paths.origin));
+    }
+
+    /// Writes the colours of a run whose pattern is a formula.
+    [[gnu::noinline]] static void formula_colors(const Run& run, const std::uint32_t* numbers,
+                                                 const HitPaths& paths, double* const (&own)[3]) {
+        const core::FormulaProgram& program = *run.material->formula;
+        Formulas<Arch> formulas(program);
+        constexpr std::size_t chunk = Formulas<Arch>::chunk;
+        for (std::size_t first = run.begin; first < run.end; first += chunk) {
+            const std::size_t count = run.end - first < chunk ? run.end - first : chunk;
+            for (std::size_t k = 0; k < count; k += lanes) {
+                const Gather gather(numbers + first + k, count - k);
+                const V point = point_of(gather, paths, gather(paths.direction), gather(paths.t));
+                formulas.set(0, k, point.x);
+                formulas.set(1, k, point.y);
+                formulas.set(2, k, point.z);
+                for (int i = 0; i < 2 && program.needs_shape; ++i)
+                    formulas.set(3 + i, k, gather(paths.on_shape[i]));
+            }
+            formulas.run(count);
+            for (std::size_t k = 0; k < count; k += lanes)
+                for (int i = 0; i < 3; ++i)
+                    formulas.channel(i, k).store_unaligned(own[i] + first + k);
+        }
+    }
+
     static void surfaces(const Run& run, const std::uint32_t* numbers, const HitPaths& paths,
                          [[maybe_unused]] const FogView& fog,
                          [[maybe_unused]] const MediumColumns* media, const Surfaces& surfaces) {
         const MaterialView& material = *run.material;
+        if (material.formula != nullptr) formula_colors(run, numbers, paths, surfaces.own);
         for (std::size_t i = run.begin; i < run.end; i += lanes) {
             const Gather gather(numbers + i, run.end - i);
             const V direction = gather(paths.direction);
             const F t = gather(paths.t);
-            const F way = paths.way == paths.t ? t : gather(paths.way);
-            const V point = mul_add<Arch>(way, direction, gather(paths.origin));
+            const V point = point_of(gather, paths, direction, t);
 
             double sides[lanes];
             for (std::size_t k = 0; k < lanes; ++k)
@@ -82,7 +112,8 @@ struct Shading {
                 store(scaled(F(1.0 - material.opacity), throughput), surfaces.behind, i);
                 throughput = scaled(F(material.opacity), throughput);
             }
-            const V own = Patterns<Arch>::color_at(material, point);
+            const V own = material.formula != nullptr ? load(surfaces.own, i)
+                                                      : Patterns<Arch>::color_at(material, point);
             V radiance = scaled(F(material.ambient), own);
             if constexpr (with_fog) {
                 const F distance = paths.travelled != nullptr ? gather(paths.travelled) + t : t;
@@ -192,6 +223,13 @@ struct Shading {
     static V highlight(const MaterialView& material, const V& normal, const V& to_light,
                        const V& incident) {
         const F zero(0.0);
+        if (material.highlight == core::Highlight::phong) {
+            const F cosine =
+                min(max(dot<Arch>(mirrored(incident, normal), to_light), zero), F(1.0));
+            const F share =
+                F(material.specular) * core::Elementary<F>::pow(cosine, F(material.exponent));
+            return {share, share, share};
+        }
         const V halfway = to_light - incident;
         const F squared = squared_length<Arch>(halfway);
         const F cosine = max(dot<Arch>(normal, halfway) / sqrt(squared), zero);
@@ -223,13 +261,6 @@ struct Shading {
         const core::SoftLightSampler<F> sampler(light);
         for (std::size_t i = run.begin; i < run.end; i += lanes) {
             const V point = load(surfaces.point, i), normal = load(surfaces.normal, i);
-        if (material.highlight == core::Highlight::phong) {
-            const F cosine =
-                min(max(dot<Arch>(mirrored(incident, normal), to_light), zero), F(1.0));
-            const F share =
-                F(material.specular) * core::Elementary<F>::pow(cosine, F(material.exponent));
-            return {share, share, share};
-        }
             const core::LightSample<F> sample =
                 sampler.sample({point.x, point.y, point.z}, {normal.x, normal.y, normal.z},
                                load(us + i), load(vs + i));

@@ -152,11 +152,29 @@ TEST_CASE("C renders a scene with alpha over black with or without explicit sett
     CHECK(images[0][0] == 0.0F); // the background is black
 }
 
+TEST_CASE("C copies the texts of a formula, and reports its mistake") {
+    const Builder builder = builder_in_c();
+    raylane_material material = raylane_default_material();
+    material.pattern.kind = RAYLANE_FORMULA;
+    CHECK(raylane_add_material(builder.get(), &material, nullptr) == RAYLANE_INVALID_VALUE);
+    std::string red = "abs(cos(x))";
+    material.pattern.formula[0] = red.c_str();
+    material.pattern.formula[1] = "y +";
+    material.pattern.formula[2] = "0.5";
+    CHECK(raylane_add_material(builder.get(), &material, nullptr) == RAYLANE_INVALID_VALUE);
+    CHECK(std::string(raylane_error_text())
+              .find("pattern/formula/1: must be a formula: line 1, "
+                    "column 4") != std::string::npos);
+    material.pattern.formula[1] = "y";
+    CHECK(raylane_add_material(builder.get(), &material, nullptr) == RAYLANE_OK);
+}
+
 TEST_CASE("C has the defaults of C++") {
     const raylane_material material = raylane_default_material();
     CHECK(material.diffuse == Material{}.diffuse);
     CHECK(material.pattern.axes == Pattern{}.axes);
     CHECK(material.pattern.to.y == Pattern{}.to.y);
+    CHECK(material.pattern.formula[2] == nullptr);
     CHECK(raylane_default_camera().field_of_view == Camera{}.field_of_view);
     CHECK(raylane_default_fog().end == Fog{}.end);
     CHECK(raylane_default_light().direction.y == Light{}.direction.y);

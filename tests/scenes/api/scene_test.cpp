@@ -202,7 +202,7 @@ TEST_CASE("each enumerator of the library equals core's of that name") {
     CHECK(same(PatternKind::checker, core::PatternKind::checker));
     CHECK(same(PatternKind::stripes, core::PatternKind::stripes));
     CHECK(same(PatternKind::gradient, core::PatternKind::gradient));
-    CHECK(same(PatternKind::back_plane, core::PatternKind::back_plane));
+    CHECK(same(PatternKind::formula, core::PatternKind::formula));
     CHECK(same(Highlight::phong, core::Highlight::phong));
     CHECK(same(Reflection::schlick, core::Reflection::schlick));
     CHECK(same(Reflection::dielectric, core::Reflection::dielectric));
@@ -358,6 +358,30 @@ TEST_CASE("a moved-from builder is empty and can be reused") {
     CHECK(scene.camera().from == Vec3{1, 2, 3});
 }
 
+TEST_CASE("a material has the formula that it was given, and a mistake is refused") {
+    const auto material = [](const std::array<std::string, 3>& texts) {
+        return Material{.pattern = {.kind = PatternKind::formula, .formula = texts}};
+    };
+    SceneBuilder builder;
+    builder.camera.from = {0, 0, 9};
+    const std::array<std::string, 3> texts = {"abs(cos(x))", "y < 0 ? 0 : 1", "0.5"};
+    const MaterialIndex index = builder.add_material(material(texts));
+    builder.add_material({});
+    CHECK(message_of<InvalidValue>([&] {
+              builder.add_material(material({"x", "y +", "0"}));
+          }) ==
+          "pattern/formula/1: must be a formula: line 1, column 4: expected a number, a name or "
+          "\"(\", got the end");
+    CHECK(message_of<InvalidValue>([&] { builder.add_material(material({})); }) ==
+          "pattern/formula: must be three formulas, got none");
+    builder.add(Sphere{{0, 0, 0}, 1}, index);
+    builder.add_light({.position = {9, 9, 9}});
+    const Scene scene = std::move(builder).build();
+    CHECK(scene.material(0).pattern.kind == PatternKind::formula);
+    CHECK(scene.material(0).pattern.formula == texts);
+    CHECK(scene.material(1).pattern.formula == std::array<std::string, 3>{});
+}
+
 TEST_CASE("a number that matches no enumerator is refused") {
     SceneBuilder builder;
     const auto message = [](const auto& call) { return message_of<InvalidValue>(call); };
@@ -366,6 +390,7 @@ TEST_CASE("a number that matches no enumerator is refused") {
     };
     CHECK(material({.pattern = {.kind = static_cast<PatternKind>(5)}}) ==
           "pattern/kind: must be one of its enumerators, 0 to 4, got 5");
+    CHECK(material({.highlight = static_cast<Highlight>(2)}).starts_with("highlight: must be"));
     CHECK(material({.reflection = static_cast<Reflection>(3)}).starts_with("reflection: must be"));
     CHECK(material({.visible = static_cast<Visible>(255)}).starts_with("visible: must be"));
     CHECK(message([&] {
@@ -391,7 +416,6 @@ TEST_CASE("a number that matches no enumerator is refused") {
     CHECK(built([](SceneBuilder& b) {
               b.settings.quality = 5;
           }).starts_with("settings/quality: must be"));
-    CHECK(material({.highlight = static_cast<Highlight>(2)}).starts_with("highlight: must be"));
     CHECK(built([](SceneBuilder& b) {
               b.settings.transfer = static_cast<Transfer>(2);
           }).starts_with("settings/transfer: must be"));

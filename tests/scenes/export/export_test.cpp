@@ -119,9 +119,10 @@ TEST_CASE("JSON export writes every value of a scene") {
                               "axes": "yz", "upper_edges": "z"}, "visible": "outside"},
             "g": {"pattern": {"type": "gradient", "colors": [[1, 0, 0], [0, 1, 0]],
                               "from": [0, 1, 0], "to": [1, 1, 1]}, "reflection": "schlick"},
+            "f": {"pattern": {"type": "formula", "color": ["x < 0.1 ? \u0079 : 1", "u\n+ v", "2e-1"]}},
             "w": {"ambient": 0.3, "diffuse": 0.4, "specular": 0.5, "exponent": 7,
-                  "reflection": "dielectric", "transmission": 0.9, "index": 1.7, "opacity": 0.6,
                   "highlight": "phong",
+                  "reflection": "dielectric", "transmission": 0.9, "index": 1.7, "opacity": 0.6,
                   "absorption": [0.1, 0.2, 0.3]}},
         "objects": [
             {"type": "triangle", "material": "s", "a": [0, 0, 0], "b": [1, 0, 0], "c": [0, 1, 0],
@@ -155,6 +156,7 @@ TEST_CASE("JSON export writes every value of a scene") {
                              R"("ground": [0.1, 0.2, 0.3])",
                              R"("edge_v": [0, 2.5, 0])",
                              R"("axes": "yz")",
+                             R"("color": ["x < 0.1 ? y : 1","u\n+ v","2e-1"])",
                              R"("highlight": "phong")",
                              R"("visible": "inside")",
                              R"("visible": "outside")",
@@ -305,7 +307,7 @@ TEST_CASE("POV-Ray export writes every shape and reports the approximated featur
     CHECK(export_scene(path, load_scene(shipped("birthday"))) ==
           std::vector<std::string>{"Schlick reflection (written as Fresnel)",
                                    "ambient and diffuse light of fully transmissive materials",
-                                   "back-plane patterns", "linear fog"});
+                                   "formula patterns", "linear fog"});
     const std::string text = text_of(path);
     const auto count = [&](const std::string& part) {
         int times = 0;

@@ -6,17 +6,18 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <string_view>
 
 namespace RAYLANE_API raylane {
 
-enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, back_plane };
+enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, formula };
 
 /// Colour as a function of the point in space, in world coordinates.
 struct Pattern {
     PatternKind kind = PatternKind::solid;
     /// >= 0. solid: the first colour only. checker, stripes: alternating, with the first colour in
-    /// the cell that begins at the origin. gradient: the colours at `from` and at `to`. back_plane:
+    /// the cell that begins at the origin. gradient: the colours at `from` and at `to`. formula:
     /// unused.
     Color colors[2] = {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}};
     /// > 0. checker: edge length of a cell; stripes: width of a band. A point nearer to an edge
@@ -33,6 +34,10 @@ struct Pattern {
     /// gradient: start and end points, which differ; the colour is constant beyond them.
     Vec3 from{};
     Vec3 to{0.0F, 1.0F, 0.0F};
+    /// formula: the texts of red, green and blue, such as "abs(cos(x))", at most 10,000 bytes each,
+    /// in the language that scenes/README.md describes. Together they may have 64 different
+    /// operations. A result that is undefined or below 0 counts as 0, above 1e10 as 1e10.
+    std::array<std::string, 3> formula{};
 };
 
 /// Shape of the highlight.
@@ -72,6 +77,7 @@ struct Material {
     float diffuse = 0.8F;   ///< >= 0
     float specular = 0.0F;  ///< >= 0, of the highlight, in the light's colour
     float exponent = 32.0F; ///< >= 0
+    Highlight highlight = Highlight::blinn;
     Reflection reflection = Reflection::constant;
     float reflectivity = 0.0F; ///< [0, 1]
     float transmission = 0.0F; ///< [0, 1] per crossed surface; 0 is opaque
@@ -83,7 +89,6 @@ struct Material {
     Vec3 absorption{};
     Visible visible = Visible::both;
     /// [0, 1]: the weight of the surface's colour, as of paint on a pane. The scene straight behind
-    Highlight highlight = Highlight::blinn;
     /// it has the weight 1 - opacity. Unlike transmitted light, it is not refracted, absorbed or
     /// weakened by reflection.
     float opacity = 1.0F;

@@ -135,7 +135,7 @@ typedef struct raylane_double_ellipsoid {
 } raylane_double_ellipsoid;
 
 /** Enumerators of the C++ headers, in the same order. */
-enum { RAYLANE_SOLID, RAYLANE_CHECKER, RAYLANE_STRIPES, RAYLANE_GRADIENT, RAYLANE_BACK_PLANE };
+enum { RAYLANE_SOLID, RAYLANE_CHECKER, RAYLANE_STRIPES, RAYLANE_GRADIENT, RAYLANE_FORMULA };
 enum { RAYLANE_CONSTANT, RAYLANE_SCHLICK, RAYLANE_DIELECTRIC };
 enum { RAYLANE_BLINN, RAYLANE_PHONG };
 enum { RAYLANE_BOTH_SIDES, RAYLANE_OUTSIDE, RAYLANE_INSIDE };
@@ -162,10 +162,11 @@ typedef struct raylane_material {
         float size;
         uint8_t axes;
         raylane_vec3 direction, from, to;
+        const char* formula[3]; /**< copied; NULL: none */
     } pattern;
     float ambient, diffuse, specular, exponent;
-    uint8_t reflection;
     uint8_t highlight;
+    uint8_t reflection;
     float reflectivity, transmission, index;
     struct {
         double B[3], C[3];

@@ -30,7 +30,7 @@ _BLACK: Vector = (0.0, 0.0, 0.0)
 class Pattern(Fields):
     """A colour as a function of the point in space, in world coordinates."""
 
-    kind: Literal["solid", "checker", "stripes", "gradient", "back_plane"] = "solid"
+    kind: Literal["solid", "checker", "stripes", "gradient", "formula"] = "solid"
     colors: Tuple[Color, Color] = (_WHITE, _WHITE)
     """Linear RGB, >= 0. solid: the first only. checker, stripes: alternating. gradient: at ``start`` and at ``end``."""
     size: float = 1.0
@@ -43,6 +43,9 @@ class Pattern(Fields):
     end: Vector = (0.0, 1.0, 0.0)
     upper_edges: str = ""
     """checker: the axes along which a cell contains its upper edge instead of its lower one."""
+    formula: Tuple[str, str, str] = ("", "", "")
+    """formula: the texts of red, green and blue, such as ``"abs(cos(x))"``, in the language of the JSON format. Together
+    they may have 64 different operations. A result that is undefined or below 0 counts as 0, above 1e10 as 1e10."""
 
 
 @dataclass
@@ -98,6 +101,8 @@ class Material(Fields):
     """Sides from which the surface is visible. Rays pass through the other side without a hit."""
     opacity: float = 1.0
     """0 to 1: weight of the surface's colour. The scene straight behind the surface has the weight 1 - opacity."""
+    highlight: Literal["blinn", "phong"] = "blinn"
+    """Shape of the highlight. phong: n.h stands for the cosine between l and the reflected ray."""
 
     @classmethod
     def preset(cls, name: str, **fields: Any) -> Material:
@@ -115,8 +120,6 @@ class Material(Fields):
 
 
 @dataclass
-    highlight: Literal["blinn", "phong"] = "blinn"
-    """Shape of the highlight. phong: n.h stands for the cosine between l and the reflected ray."""
 class Light(Fields):
     """A light source. It casts shadows and is invisible itself.
 

@@ -106,6 +106,20 @@ TEST_CASE("unknown and missing and repeated keys are reported") {
          R"(/materials/a~1b~0: must not have both "color" and "pattern")"},
         {material(R"("reflectivity": 1, "reflection": "schlick")"),
          R"(/materials/a~1b~0: must not have both "reflectivity" and "reflection")"},
+        {pattern(R"("type": "formula")"),
+         R"(/materials/a~1b~0/pattern: must have the key "color")"},
+        {pattern(R"("type": "formula", "color": ["x", "y"])"),
+         "/materials/a~1b~0/pattern/color: must be an array of 3 formulas, got 2"},
+        {pattern(R"("type": "formula", "color": ["x", "y", []])"),
+         "/materials/a~1b~0/pattern/color/2: must be a string, got an array"},
+        {pattern(R"("type": "formula", "color": ["x", "y", "\n z +"])"),
+         "/materials/a~1b~0/pattern/color/2: must be a formula: line 2, column 5: expected a "
+         "number, a name or \"(\", got the end"},
+        {pattern(R"("type": "formula", "color": ["x", "$low + 1", "0"])"),
+         "/materials/a~1b~0/pattern/color/1: must have a value, by \"parameters\" or --set, got "
+         "\"$low\""},
+        {pattern(R"("type": "back-plane", "color": "#ffffff")"),
+         R"(/materials/a~1b~0/pattern: unknown key "color", must be "type")"},
         {with(R"("camera\u0000\n": 1)"), R"(unknown key "camera\x00\x0A", did you mean "camera"?)"},
     });
 }
@@ -219,7 +233,7 @@ TEST_CASE("unknown words are reported with the known ones") {
         {with(R"("lights": [{"type": "sun"}])"),
          R"(/lights/0/type: must be "point", "directional", "sky", "sphere", "disc", "rectangle" or "camera", got "sun")"},
         {pattern(R"("type": "chekcer")"),
-         R"(/materials/a~1b~0/pattern/type: must be "checker", "stripes", "gradient" or "back-plane", got "chekcer", did you mean "checker"?)"},
+         R"(/materials/a~1b~0/pattern/type: must be "checker", "stripes", "gradient", "formula" or "back-plane", got "chekcer", did you mean "checker"?)"},
         {pattern(R"("type": "checker", "colors": ["#000000", "#ffffff"], "size": 1, "axes": "zx")"),
          R"(/materials/a~1b~0/pattern/axes: must be "x", "y", "z", "xy", "xz", "yz" or "xyz", got "zx", did you mean "x"?)"},
         {material(R"("reflection": "constant")"),

@@ -1,12 +1,15 @@
+#include "core/scene/pattern.hpp"
 #include "tests/scenes/formats/json/json_scenes.hpp"
 #include "tests/shapes/shapes.hpp"
 #include "tests/support/catch.hpp"
 
+#include <cmath>
 #include <limits>
 
 using namespace raylane;
 using namespace raylane::tests;
 using core::Color;
+using core::Vec3d;
 using core::Vec3f;
 
 namespace {
@@ -153,6 +156,28 @@ TEST_CASE("a material has the pattern of its file") {
     CHECK(gradient.from == Vec3f(0, 1, 2));
     CHECK(gradient.to == Vec3f(3, 4, 5));
 
-    CHECK(material_of(R"({"pattern": {"type": "back-plane"}})").pattern.kind ==
-          core::PatternKind::back_plane);
+    const core::Pattern formula =
+        material_of(R"({"pattern": {"type": "formula", "color": ["x ^ 2", "y", 0.5]}})").pattern;
+    CHECK(formula.kind == core::PatternKind::formula);
+    CHECK(formula.formula.texts() == core::FormulaTexts{"x ^ 2", "y", "0.5"});
+    CHECK(core::color_at(formula, Vec3d(3, 1, 9)) == Vec3d(9, 1, 0.5));
+}
+
+TEST_CASE("a back plane is the formula of the birthday scene's wall") {
+    const core::Pattern wall = material_of(R"({"pattern": {"type": "back-plane"}})").pattern;
+    REQUIRE(wall.kind == core::PatternKind::formula);
+    scenes::InputFile file(std::filesystem::path(RAYLANE_SOURCE_DIR "/scenes/birthday.json"));
+    const core::Scene birthday = scenes::read_json(file);
+    CHECK(wall.formula == birthday.materials()[0].pattern.formula);
+    const auto color = [&](double x, double y) { return core::color_at(wall, Vec3d(x, y, -42)); };
+    const auto is_near = [](const Vec3d& a, double r, double g, double b) {
+        return core::length(a - Vec3d(r, g, b)) < 1e-15;
+    };
+    CHECK(is_near(color(3, 4), 1, 0.2, 0));
+    CHECK(is_near(color(3, -4), 0.7, 0.2, 0));
+    CHECK(is_near(color(12, 2.4), 1, 0.2, 0)); // 144 + 5.76 < 150
+    // 144 + 6.25 >= 150
+    CHECK(is_near(color(12, 2.5), std::abs(std::cos(12.0)), std::abs(std::sin(std::sqrt(2.5))),
+                  std::abs(std::cos(std::sqrt(2.5)))));
+    CHECK(is_near(color(12, -2.5), 0, 0, std::abs(std::cos(2.5))));
 }

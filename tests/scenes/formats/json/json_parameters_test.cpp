@@ -58,6 +58,18 @@ TEST_CASE("a parameter has its value from the command line or the default of the
     CHECK(ball(set(text, {{"r", 1.0 / 3.0}})).radius == 1.0 / 3.0);
 }
 
+TEST_CASE("a formula's parameters have their values, also from later in the file") {
+    const auto texts = [](const std::map<std::string, double>& parameters) {
+        const core::Scene scene = set(R"({"camera": {"from": [0, 0, 9], "at": [0, 0, 0]},
+            "materials": {"a": {"pattern": {"type": "formula", "color": ["$low * x", "y", "$high_2"]}}},
+            "lights": [], "objects": [], "parameters": {"low": -0.25, "high_2": 0.1}})",
+                                      parameters);
+        return scene.materials()[0].pattern.formula.texts();
+    };
+    CHECK(texts({}) == core::FormulaTexts{"(-0.25) * x", "y", "0.1"});
+    CHECK(texts({{"low", 1.0 / 3.0}}) == core::FormulaTexts{"0.3333333333333333 * x", "y", "0.1"});
+}
+
 TEST_CASE("a parameter without a value or without a use is an error") {
     CHECK(
         complaint(ball_of_radius("1"), {}) ==
