@@ -18,7 +18,7 @@ enum class FormulaOperation : std::uint8_t {
     not_more, ///< <=
     equal,
     unequal, ///< 1 if a side is undefined
-    choose,  ///< b where a is neither 0 nor undefined, otherwise c
+    choose,  ///< c where a is 0 or undefined, otherwise b
     min,
     max,
     abs,
@@ -103,7 +103,7 @@ Number FormulaOperations<Number>::power(const Number& x, const Number& y) {
     const Number of_odd = P::select(floor(half) == half, of_positive, Number(0.0) - of_positive);
     const Number of_negative = P::select(floor(y) == y, of_odd, undefined());
     const Number result = P::select(x < Number(0.0), of_negative, of_positive);
-    return P::select(is_finite(x) & is_finite(y), result, undefined());
+    return P::select(is_finite(x), P::select(is_finite(y), result, undefined()), undefined());
 }
 
 template <class Number>

@@ -40,39 +40,49 @@ bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
+using Term = FormulaValues::Value;
+
+/// Meaning of the names in a text.
+struct Names {
+    int channel;
+    const Formula::ParameterOf& parameter_of;
+    const FormulaTexts& point; ///< empty, or the texts that x, y and z stand for
+    std::array<Term, 3> point_values;
+};
+
 /// Compiles the text of a channel, by recursive descent.
 class Parser {
   public:
-    using Value = FormulaValues::Value;
-
-    Parser(const FormulaTexts& texts, int channel, FormulaValues& values,
-           const Formula::ParameterOf& parameter_of)
-        : text_(texts[channel]), channel_(channel), values_(values), parameter_of_(parameter_of) {}
+    Parser(std::string_view text, FormulaValues& values, const Names& names)
+        : text_(text), values_(values), names_(names) {}
 
     /// Returns the value of the whole text. Throws Wrong.
-    Value value() {
+    Term value() {
         if (text_.size() > Formula::max_length)
             throw Wrong{0, "expected at most " + std::to_string(Formula::max_length) +
                                " bytes, got " + std::to_string(text_.size())};
         skip_spaces();
-        const Value value = conditional();
+        const Term value = conditional();
         if (at_ < text_.size()) expected("an operator or the end");
+        resolved_.append(text_.substr(copied_));
+        if (resolved_.size() > Formula::max_length)
+            throw Wrong{0, "expected at most " + std::to_string(Formula::max_length) +
+                               " bytes with all parameters and transforms"};
         return value;
     }
 
-    /// Returns the text with numbers in place of parameters.
-    std::string with_numbers() const { return resolved_ + std::string(text_.substr(copied_)); }
+    /// Returns the text with numbers and formulas in place of names.
+    const std::string& resolved() const { return resolved_; }
 
   private:
     static constexpr int max_depth = 100;
+    static constexpr int depth_of_replaced = 8; ///< at most, of the texts that replace names
 
-    /// Counts what a part of the text is nested in.
+    /// Counts the parts around a part of the text.
     class Nested {
       public:
         explicit Nested(Parser& parser) : parser_(parser) {
-            if (++parser_.depth_ > max_depth)
-                throw Wrong{parser_.at_,
-                            "expected at most " + std::to_string(max_depth) + " nested parts"};
+            parser_.require_depth(++parser_.depth_);
         }
         ~Nested() { --parser_.depth_; }
         Nested(const Nested&) = delete;
@@ -82,6 +92,10 @@ class Parser {
         Parser& parser_;
     };
 
+    void require_depth(int depth) const {
+        if (depth > max_depth)
+            throw Wrong{at_, "expected at most " + std::to_string(max_depth) + " nested parts"};
+    }
     [[noreturn]] void expected(const std::string& what) const { expected(what, at_); }
     [[noreturn]] void expected(const std::string& what, std::size_t at) const {
         throw Wrong{at, "expected " + what + ", got " + quoted(at)};
@@ -122,13 +136,13 @@ class Parser {
         return text_.substr(begin, at_ - begin);
     }
 
-    Value conditional() {
+    Term conditional() {
         const Nested nested(*this);
-        const Value condition = comparison();
+        const Term condition = comparison();
         if (!take("?")) return condition;
-        const Value one = conditional();
+        const Term one = conditional();
         require(":");
-        const Value other = conditional();
+        const Term other = conditional();
         return values_.result(Operation::choose, condition, one, other);
     }
 
@@ -145,19 +159,19 @@ class Parser {
         if (take(">")) return Comparison{Operation::less, true};
         return std::nullopt;
     }
-    Value comparison() {
-        const Value left = sum();
+    Term comparison() {
+        const Term left = sum();
         const auto comparison = take_comparison();
         if (!comparison) return left;
-        const Value right = sum();
+        const Term right = sum();
         const std::size_t end = at_;
         if (take_comparison()) expected("no second comparison", end);
         return comparison->is_swapped ? values_.result(comparison->operation, right, left)
                                       : values_.result(comparison->operation, left, right);
     }
 
-    Value sum() {
-        Value value = product();
+    Term sum() {
+        Term value = product();
         for (;;) {
             if (take("+"))
                 value = values_.result(Operation::add, value, product());
@@ -167,8 +181,8 @@ class Parser {
                 return value;
         }
     }
-    Value product() {
-        Value value = with_sign();
+    Term product() {
+        Term value = with_sign();
         for (;;) {
             if (take("*"))
                 value = values_.result(Operation::multiply, value, with_sign());
@@ -178,15 +192,15 @@ class Parser {
                 return value;
         }
     }
-    Value with_sign() {
+    Term with_sign() {
         const Nested nested(*this);
         if (!take("-")) return power();
         return values_.result(Operation::subtract, values_.constant(0.0), with_sign());
     }
-    Value power() {
-        const Value base = operand();
+    Term power() {
+        const Term base = operand();
         if (!take("^")) return base;
-        const Value exponent = with_sign();
+        const Term exponent = with_sign();
         const double n = values_.number_of(exponent).value_or(0.0);
         constexpr double most_products = 16.0;
         if (n >= 1.0 && n <= most_products && n == static_cast<int>(n))
@@ -194,7 +208,7 @@ class Parser {
         return values_.result(Operation::power, base, exponent);
     }
 
-    Value operand() {
+    Term operand() {
         if (at_ < text_.size()) {
             const char c = text_[at_];
             if (is_digit(c) || c == '.') return number();
@@ -202,11 +216,11 @@ class Parser {
             if (c == '$') return parameter();
         }
         if (!take("(")) expected("a number, a name or \"(\"");
-        const Value value = conditional();
+        const Term value = conditional();
         require(")");
         return value;
     }
-    Value number() {
+    Term number() {
         double number = 0.0;
         const char* const begin = text_.data() + at_;
         const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), number);
@@ -216,12 +230,12 @@ class Parser {
         skip_spaces();
         return values_.constant(number);
     }
-    Value named() {
+    Term named() {
         const std::size_t begin = at_;
         const std::string_view name = word();
         skip_spaces();
         for (int i = 0; i < FormulaProgram::inputs; ++i)
-            if (name == variables[i]) return i;
+            if (name == variables[i]) return i < 3 ? coordinate(i, begin, name.size()) : i;
         if (name == "pi") return values_.constant(std::numbers::pi);
         for (const Function& function : functions)
             if (name == function.name) return call(function);
@@ -230,9 +244,9 @@ class Parser {
             known.append(", ").append(function.name);
         expected("x, y, z, u, v, pi" + known, begin);
     }
-    Value call(const Function& function) {
+    Term call(const Function& function) {
         require("(");
-        std::array<Value, 3> arguments{};
+        std::array<Term, 3> arguments{};
         for (int i = 0; i < function.arguments; ++i) {
             if (i > 0) require(",");
             arguments[i] = conditional();
@@ -242,27 +256,35 @@ class Parser {
         require(")");
         return values_.result(function.operation, arguments[0], arguments[1], arguments[2]);
     }
-    Value parameter() {
+    Term coordinate(int axis, std::size_t begin, std::size_t length) {
+        if (!names_.point[axis].empty())
+            replace(begin, begin + length, "(" + names_.point[axis] + ")");
+        return names_.point_values[axis];
+    }
+    Term parameter() {
         const std::size_t begin = at_++;
         const std::string_view name = word();
-        if (name.empty() || is_digit(name[0]) || !parameter_of_)
+        if (name.empty() || is_digit(name[0]) || !names_.parameter_of)
             expected("a number, a name or \"(\"", begin);
-        const double number = parameter_of_(channel_, name);
+        const double number = names_.parameter_of(names_.channel, name);
         const std::string text = checks::text_of(number);
-        resolved_.append(text_.substr(copied_, begin - copied_))
-            .append(number < 0.0 ? "(" + text + ")" : text);
-        copied_ = at_;
+        replace(begin, at_, number < 0.0 ? "(" + text + ")" : text);
         skip_spaces();
         return values_.constant(number);
     }
+    /// Replaces a part of the text in the resolved one.
+    void replace(std::size_t begin, std::size_t end, const std::string& by) {
+        require_depth(depth_ + depth_of_replaced);
+        resolved_.append(text_.substr(copied_, begin - copied_)).append(by);
+        copied_ = end;
+    }
 
     std::string_view text_;
-    int channel_;
     FormulaValues& values_;
-    const Formula::ParameterOf& parameter_of_;
+    const Names& names_;
     std::size_t at_ = 0;
     int depth_ = 0;
-    std::string resolved_; // the text up to copied_
+    std::string resolved_; // the text up to copied_, in the end all of it
     std::size_t copied_ = 0;
 };
 
@@ -270,24 +292,32 @@ class Parser {
 std::string message_of(std::string_view text, const Wrong& wrong) {
     const std::string_view before = text.substr(0, wrong.at);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    const std::size_t line_start = before.rfind('\n') + 1; // 0 if there is none
+    const std::size_t line_start = before.rfind('\n') + 1;
     return "line " + std::to_string(line) + ", column " +
            std::to_string(wrong.at - line_start + 1) + ": " + wrong.message;
 }
 
 } // namespace
 
-Formula::Formula(const FormulaTexts& texts, const ParameterOf& parameter_of) {
+Formula::Formula(const FormulaTexts& texts, const ParameterOf& parameter_of,
+                 const FormulaTexts& point) {
     auto parts = std::make_shared<Parts>();
     parts->texts = texts;
     FormulaValues values;
-    std::array<FormulaValues::Value, 3> channels{};
+    std::array<Term, 3> channels{};
     int channel = 0;
     try {
+        Names names{0, parameter_of, point, {0, 1, 2}};
+        const FormulaTexts themselves;
+        for (int axis = 0; axis < 3; ++axis)
+            if (!point[axis].empty())
+                names.point_values[axis] =
+                    Parser(point[axis], values, {0, {}, themselves, {0, 1, 2}}).value();
         for (; channel < 3; ++channel) {
-            Parser parser(texts, channel, values, parameter_of);
+            names.channel = channel;
+            Parser parser(texts[channel], values, names);
             channels[channel] = parser.value();
-            parts->texts[channel] = parser.with_numbers();
+            parts->texts[channel] = parser.resolved();
         }
         const FormulaValues::Size size = values.write(channels, parts->program);
         const auto require = [&](int count, int most, const char* what) {

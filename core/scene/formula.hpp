@@ -38,11 +38,13 @@ class Formula {
 
     Formula() = default;
     /// Compiles texts. A text with a mistake is kept, see mistake(). By default a parameter is a
-    /// mistake.
-    explicit Formula(const FormulaTexts& texts, const ParameterOf& parameter_of = {});
+    /// mistake. `point`: formulas that x, y and z stand for, without parameters; empty: themselves.
+    explicit Formula(const FormulaTexts& texts, const ParameterOf& parameter_of = {},
+                     const FormulaTexts& point = {});
 
     bool any() const { return parts_ != nullptr; }
-    /// Returns the texts, with numbers in place of parameters; empty ones if the formula is unset.
+    /// Returns the texts, with numbers in place of parameters, and with the formulas that x, y and
+    /// z stand for; empty ones if the formula is unset.
     const FormulaTexts& texts() const;
     const std::optional<Mistake>& mistake() const { return parts_->mistake; }
     /// Returns the program of a formula without mistakes.

@@ -6,8 +6,8 @@
 
 namespace raylane::core {
 
-/// Returns the coordinates of a point on the surface of a shape. Turns are from 0 to 1,
-/// counter-clockwise seen from the end of the axis; they begin at +x if the axis is +y.
+/// Returns the coordinates of a point on the surface of a shape. Turns are from 0 to 1. They are
+/// counter-clockwise seen from the end of the axis, and begin at +x if the axis is +y. They are:
 ///   sphere, ellipsoid   u: turn about +y (an ellipsoid's axis_v), v: latitude, 0 to 1
 ///   cylinder, cone      u: turn about the axis, v: 0 at the base, 1 at the top
 ///   plane               lengths: v upwards (+y; on floors -z), u to the right of it

@@ -88,7 +88,7 @@ TEST_CASE("each channel is a number from 0 to 1e10, whatever the formula") {
         CHECK(at(negative) == 0.0);
     for (const char* huge : {"1 / (x - 2)", "exp(1e3 * x)", "1e11 * x", "1e300 * x * 1e300"})
         CHECK(at(huge) == 1e10);
-    // An undefined number is neither less, more nor equal; as a condition it is false.
+    // Comparisons with an undefined number are false, except !=. As a condition it is false.
     CHECK(at("sqrt(z) < 1 ? 2 : 3") == 3.0);
     CHECK(at("sqrt(z) > 1 ? 2 : 3") == 3.0);
     CHECK(at("sqrt(z) != sqrt(z) ? 2 : 3") == 2.0);
@@ -207,6 +207,26 @@ TEST_CASE("parameters become numbers of the text") {
     CHECK(red(formula.texts()[0]) == formula);
     CHECK(color_of(formula.program(), {2, 0, 0}, {}).x ==
           Approx(std::cos(-1.0) + 0.1).epsilon(1e-15));
+}
+
+TEST_CASE("x, y and z may stand for formulas, which become parts of the text") {
+    const Formula moved({"x ^ 2 + u", "y", "cos(z)"}, {}, {"x - 1", "", "2 * (z + 3)"});
+    REQUIRE(!moved.mistake());
+    CHECK(moved.texts() == FormulaTexts{"(x - 1) ^ 2 + u", "y", "cos((2 * (z + 3)))"});
+    CHECK(color_of(moved.program(), {4, 5, -3}, {0.25, 0}) == Vec3d(9.25, 5, 1));
+    CHECK(Formula(moved.texts()) == moved);
+    // The text that is written can be read.
+    const std::string nested = std::string(45, '(') + "x" + std::string(45, ')');
+    CHECK(!Formula({nested, "0", "0"}).mistake());
+    CHECK(!Formula(Formula({nested, "0", "0"}, {}, {"1 * (y + -2)", "", ""}).texts()).mistake());
+    const std::string deep = std::string(49, '(') + "x" + std::string(49, ')');
+    CHECK(Formula({deep, "0", "0"}, {}, {"x - 1", "", ""}).mistake());
+    std::string wide = "x";
+    while (wide.size() < 9000)
+        wide += "+x";
+    CHECK(Formula({wide, "0", "0"}, {}, {"x - 1", "", ""})
+              .mistake()
+              ->message.find("at most 10000 bytes") != std::string::npos);
 }
 
 TEST_CASE("a formula that is not set takes two pointers, and copies share one that is") {

@@ -246,7 +246,10 @@ TEST_CASE("the schema has the keys, ranges, words, defaults and descriptions of 
                                {"discLight", kind(4)},
                                {"rectangleLight", kind(5)}});
     check_schema<core::Pattern>(
-        {{"checker", kind(1)}, {"stripes", kind(2)}, {"gradient", kind(3)}, {"formula", kind(4)}});
+        {{"checker", kind(1)},
+         {"stripes", kind(2)},
+         {"gradient", kind(3)},
+         {"formula", kind(4), "", {"scale", "rotate", "translate", "transform"}}});
     check_schema<core::Material>({{"material", core::fields::every, "", {"preset", "color"}}});
 }
 

@@ -22,10 +22,12 @@ void copy(const From& from, To& to) {
     else if constexpr (std::is_same_v<To, const char*>)
         to = from.empty() ? nullptr : from.c_str(); // valid as long as `from`
     else if constexpr (requires { from.texts(); })
-        to = from.texts();
-    else if constexpr (requires { to.texts(); })
-        to = from == From{} ? To{} : To(from);
-    else if constexpr (requires { from.x; })
+        copy(from.texts(), to);
+    else if constexpr (requires { to.texts(); }) {
+        std::remove_cvref_t<decltype(to.texts())> texts;
+        copy(from, texts);
+        to = from == From{} ? To{} : To(texts);
+    } else if constexpr (requires { from.x; })
         to = {from.x, from.y, from.z};
     else if constexpr (requires { from[0]; })
         for (std::size_t i = 0; i < std::size(from); ++i)

@@ -149,8 +149,9 @@ void take(const py::handle& from, const std::string& field, Color (&to)[2]) {
     take_color(both[0], field + "/0", to[0]);
     take_color(both[1], field + "/1", to[1]);
 }
-void take(const py::handle& from, const std::string& field, std::array<std::string, 3>& to) {
-    to = cast<std::array<std::string, 3>>(from, field, "three formulas");
+void take(const py::handle& from, const std::string& field, ChannelTexts& to) {
+    const auto texts = cast<std::array<std::string, 3>>(from, field, "three formulas");
+    to = {texts[0], texts[1], texts[2]};
 }
 /// Reads a material's colour: a single colour or a pattern.
 void take(const py::handle& from, const std::string& field, Pattern& to) {
@@ -220,7 +221,7 @@ py::object give(const Vec3& v) {
 py::object give(const std::array<double, 3>& v) {
     return py::make_tuple(v[0], v[1], v[2]);
 }
-py::object give(const std::array<std::string, 3>& texts) {
+py::object give(const ChannelTexts& texts) {
     return py::make_tuple(texts[0], texts[1], texts[2]);
 }
 py::object give(const Color (&colors)[2]) {

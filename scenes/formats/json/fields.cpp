@@ -40,15 +40,16 @@ void read_field(const JsonValue& value, const Field&, std::array<double, 3>& to)
     to = {numbers[0].real(), numbers[1].real(), numbers[2].real()};
 }
 
-void read_field(const JsonValue& value, const Field&, core::Formula& to) {
+core::Formula formula_of(const JsonValue& value, const core::FormulaTexts& point) {
     const std::vector<JsonValue> channels = value.array(3, "formulas");
     core::FormulaTexts texts;
     for (int i = 0; i < 3; ++i)
         texts[i] = channels[i].type() == JsonType::number ? channels[i].quoted()
                                                           : std::string(channels[i].string());
-    to = core::Formula(texts, [&](int channel, std::string_view name) {
+    const auto parameter_of = [&](int channel, std::string_view name) {
         return channels[channel].parameter("$" + std::string(name));
-    });
+    };
+    return core::Formula(texts, parameter_of, point);
 }
 
 void read_field(const JsonValue& value, const Field& field, std::uint8_t& to) {

@@ -27,8 +27,11 @@ void read_field(const JsonValue& value, const core::fields::Field& field,
                 std::array<core::Color, 2>& to);
 void read_field(const JsonValue& value, const core::fields::Field& field,
                 std::array<double, 3>& to);
-/// Reads three formulas, or numbers in place of some of them.
-void read_field(const JsonValue& value, const core::fields::Field& field, core::Formula& to);
+/// Reads three formulas, or numbers in place of some of them. `point`: see core::Formula.
+core::Formula formula_of(const JsonValue& value, const core::FormulaTexts& point = {});
+inline void read_field(const JsonValue& value, const core::fields::Field&, core::Formula& to) {
+    to = formula_of(value);
+}
 /// Reads a checker's axes.
 void read_field(const JsonValue& value, const core::fields::Field& field, std::uint8_t& to);
 void read_field(const JsonValue& value, const core::fields::Field& field, core::Pattern& to);

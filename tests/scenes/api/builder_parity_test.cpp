@@ -360,14 +360,17 @@ Case looks() {
                         R"({"reflection": "schlick", "transmission": 0.9, "index": 1.3,
                          "absorption": [0.1, 0.2, 0.3]})",
                         R"({"reflection": "dielectric", "visible": "outside"})",
-                        R"({"visible": "inside"})", R"({"visible": "both"})",
+                        R"({"visible": "inside"})", R"({"visible": "both", "highlight": "blinn"})",
                         R"({"pattern": {"type": "checker", "colors": ["#000000", "#ffffff"],
                          "size": 0.3, "axes": "xyz", "upper_edges": "y"}})",
                         R"({"pattern": {"type": "stripes", "colors": [[0, 0, 0], [1, 1, 1]],
                          "width": 0.2, "direction": [1, 1, 0]}})",
                         R"({"pattern": {"type": "gradient", "colors": [[0, 0, 0], [1, 1, 1]],
                          "from": [0, -1, 0], "to": [0, 1, 0]}})",
-                        R"({"pattern": {"type": "back-plane"}})"}),
+                        R"({"pattern": {"type": "formula", "color": ["x > 0 ? u : v", "y * y", 0.5],
+                         "translate": [1, 0, 0]}})",
+                        R"({"pattern": {"type": "back-plane"}})",
+                        R"({"specular": 0.5, "highlight": "phong"})"}),
             [](SceneBuilder& to) {
                 const Color black{}, white{1, 1, 1};
                 add_spheres(to,
@@ -397,7 +400,16 @@ Case looks() {
                                           .colors = {black, white},
                                           .from = {0, -1, 0},
                                           .to = {0, 1, 0}}},
-                             {.pattern = {.kind = PatternKind::back_plane}}});
+                             {.pattern = {.kind = PatternKind::formula,
+                                          .formula = {"x - 1 > 0 ? u : v", "y * y", "0.5"}}},
+                             {.pattern = {.kind = PatternKind::formula,
+                                          .formula = {"x^2 + y^2 < 150 ? (y > 0 ? 1 : 0.7) : "
+                                                      "y < 0 ? 0 : abs(cos(x))",
+                                                      "x^2 + y^2 < 150 ? 0.2 : y < 0 ? 0 : "
+                                                      "abs(sin(sqrt(y)))",
+                                                      "x^2 + y^2 < 150 ? 0 : "
+                                                      "abs(cos(y < 0 ? y : sqrt(y)))"}}},
+                             {.specular = 0.5F, .highlight = Highlight::phong}});
             }};
 }
 

@@ -165,7 +165,7 @@ TEST_CASE("C makes solids of every kind of shape as C++ does") {
         const Builder in_c = builder_in_c();
         SceneBuilder builder;
         const std::uint32_t material = add_material_in_c(in_c);
-        builder.add_material({});
+        builder.add_material(Material{});
         const SolidHandle whole = solid_in_c<typename InC<Shape>::Type>(InC<Shape>::solid, shape);
         const SolidHandle by = solid_in_c(raylane_solid_sphere, everything);
         const raylane_solid* const all_by[] = {by.get()};

@@ -359,12 +359,12 @@ TEST_CASE("a moved-from builder is empty and can be reused") {
 }
 
 TEST_CASE("a material has the formula that it was given, and a mistake is refused") {
-    const auto material = [](const std::array<std::string, 3>& texts) {
+    const auto material = [](const ChannelTexts& texts) {
         return Material{.pattern = {.kind = PatternKind::formula, .formula = texts}};
     };
     SceneBuilder builder;
     builder.camera.from = {0, 0, 9};
-    const std::array<std::string, 3> texts = {"abs(cos(x))", "y < 0 ? 0 : 1", "0.5"};
+    const ChannelTexts texts = {"abs(cos(x))", "y < 0 ? 0 : 1", "0.5"};
     const MaterialIndex index = builder.add_material(material(texts));
     builder.add_material({});
     CHECK(message_of<InvalidValue>([&] {
@@ -379,7 +379,7 @@ TEST_CASE("a material has the formula that it was given, and a mistake is refuse
     const Scene scene = std::move(builder).build();
     CHECK(scene.material(0).pattern.kind == PatternKind::formula);
     CHECK(scene.material(0).pattern.formula == texts);
-    CHECK(scene.material(1).pattern.formula == std::array<std::string, 3>{});
+    CHECK(scene.material(1).pattern.formula == ChannelTexts{});
 }
 
 TEST_CASE("a number that matches no enumerator is refused") {

@@ -173,15 +173,15 @@ TEST_CASE("an invalid shape gives an error of one line") {
         in_scene("unknown pattern", R"("materials": {"a": {"pattern": {"type": "chekcer"}}})",
                  R"(/materials/a/pattern/type: must be "checker", "stripes", "gradient", )"
                  R"("formula" or "back-plane", got "chekcer", did you mean "checker"?)"),
-        in_scene("mistake in a formula",
-                 R"("materials": {"a": {"pattern": {"type": "formula", "color": ["x", "2 * sine(x)", "0"]}
-}
-})",
-                 R"(/materials/a/pattern/color/1: must be a formula: line 1, column 5: expected x, y, )"
-                 R"(z, u, v, pi, min, max, abs, floor, mod, sqrt, sin, cos, exp, log, noise, got "sine")"),
+        in_scene(
+            "mistake in a formula",
+            R"~("materials": {"a": {"pattern": {"type": "formula", "color": ["x", "2 * sine(x)", "0"]}}})~",
+            "/materials/a/pattern/color/1: must be a formula: line 1, column 5: expected x, y, "
+            "z, u, v, pi, min, max, abs, floor, mod, sqrt, sin, cos, exp, log, noise, got "
+            "\"sine\""),
         in_scene("index of refraction 0", R"("materials": {"a": {"index": 0}})",
                  "/materials/a/index: must be positive, got 0"),
-});
+    });
 }
 
 TEST_CASE("an invalid camera or fog or light or setting gives an error of one line") {

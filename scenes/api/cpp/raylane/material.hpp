@@ -13,6 +13,21 @@ namespace RAYLANE_API raylane {
 
 enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, formula };
 
+/// A text for each channel of a colour. Not an array: with one as a member, g++ 12 stops in
+/// templates that write Material{}.
+struct ChannelTexts {
+    std::string red, green, blue;
+
+    static constexpr std::size_t size() { return 3; }
+    std::string& operator[](std::size_t channel) {
+        return channel == 0 ? red : channel == 1 ? green : blue;
+    }
+    const std::string& operator[](std::size_t channel) const {
+        return channel == 0 ? red : channel == 1 ? green : blue;
+    }
+    friend bool operator==(const ChannelTexts&, const ChannelTexts&) = default;
+};
+
 /// Colour as a function of the point in space, in world coordinates.
 struct Pattern {
     PatternKind kind = PatternKind::solid;
@@ -37,7 +52,7 @@ struct Pattern {
     /// formula: the texts of red, green and blue, such as "abs(cos(x))", at most 10,000 bytes each,
     /// in the language that scenes/README.md describes. Together they may have 64 different
     /// operations. A result that is undefined or below 0 counts as 0, above 1e10 as 1e10.
-    std::array<std::string, 3> formula{};
+    ChannelTexts formula{};
 };
 
 /// Shape of the highlight.

@@ -1,4 +1,5 @@
 #include "core/scene/pattern.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/formats/json/json_scenes.hpp"
 #include "tests/shapes/shapes.hpp"
 #include "tests/support/catch.hpp"
@@ -161,6 +162,26 @@ TEST_CASE("a material has the pattern of its file") {
     CHECK(formula.kind == core::PatternKind::formula);
     CHECK(formula.formula.texts() == core::FormulaTexts{"x ^ 2", "y", "0.5"});
     CHECK(core::color_at(formula, Vec3d(3, 1, 9)) == Vec3d(9, 1, 0.5));
+}
+
+TEST_CASE("a formula's transform moves it as it moves an object") {
+    const auto formula = [](const std::string& keys) {
+        return material_of(R"({"pattern": {"type": "formula", "color": ["x", "y", "z"], )" + keys +
+                           "}}")
+            .pattern;
+    };
+    const core::Pattern moved =
+        formula(R"("scale": 2, "rotate": [0, 90, 0], "translate": [5, -6, 7])");
+    CHECK(moved.formula.texts() ==
+          core::FormulaTexts{"(-0.5 * (z - 7))", "(0.5 * (y + 6))", "(0.5 * (x - 5))"});
+    // (1, 2, 3) becomes (2, 4, 6), then (6, 4, -2), then (11, -2, 5).
+    CHECK(core::color_at(moved, Vec3d(11, -2, 5)) == Vec3d(1, 2, 3));
+    CHECK(formula(R"("translate": [0, 0, 1])").formula.texts() ==
+          core::FormulaTexts{"x", "y", "((z - 1))"});
+    const core::Pattern turned =
+        formula(R"("transform": [[1, 2, 0, 1], [0, 1, 3, -2], [1, 0, 1, 4]])");
+    const Vec3d color = core::color_at(turned, Vec3d(1 + 4 + 1, 2 + 9 - 2, 1 + 3 + 4));
+    CHECK(core::length(color - Vec3d(1, 2, 3)) < 1e-14);
 }
 
 TEST_CASE("a back plane is the formula of the birthday scene's wall") {

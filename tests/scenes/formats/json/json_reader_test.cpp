@@ -173,5 +173,5 @@ TEST_CASE("scene examples of the pages parse") {
         scenes::InputFile file(directory.write("my.json", text));
         shapes.push_back(scenes::read_json(file).shape_count());
     }
-    CHECK(shapes == std::vector<std::size_t>{2, 4});
+    CHECK(shapes == std::vector<std::size_t>{2, 4, 3});
 }
