@@ -85,11 +85,23 @@ def _texts(representations: Optional[Sequence[str]]) -> List[str]:
     return list(representations)
 
 
+def _looks(representations: Optional[Sequence[str]], style: Optional[str]) -> Optional[Sequence[str]]:
+    """Returns the representations, or those of a style."""
+    if style is None:
+        return representations
+    if representations is not None:
+        raise InvalidValue("style", "must not be given with representations, which have styles of their own")
+    if not isinstance(style, str):
+        raise InvalidValue("style", f"must be a text, got {style!r:.40}")
+    return [f"all: {style}"]
+
+
 def from_atoms(
     symbols: Sequence[Union[str, int]],
     positions: ArrayLike,
     cell: Optional[ArrayLike] = None,
     *,
+    style: Optional[str] = None,
     representations: Optional[Sequence[str]] = None,
     names: Optional[Sequence[str]] = None,
     residue_names: Optional[Sequence[str]] = None,
@@ -104,7 +116,8 @@ def from_atoms(
     the cell's vectors as rows, in angstrom; the scene includes its edges unless a vector is zero. Coordinates are
     finite, from -1e30 to 1e30.
 
-    ``representations``: texts such as ``"ligand: sticks carbons orange"`` or ``"protein: spheres white opacity 0.3 +
+    ``style``: the look of all atoms, such as ``"sticks"`` or ``"cartoon rainbow"``. Cartoons, tubes and traces need
+    names and residues. ``representations``: texts such as ``"ligand: sticks carbons orange"`` or ``"protein: spheres white opacity 0.3 +
     sticks"``, in the words of the option ``--show`` of ``raylane render``. Only the atoms that they select are visible.
     Later ones replace earlier ones of the same atoms. Default: all atoms in one look.
 
@@ -122,7 +135,7 @@ def from_atoms(
         raise InvalidValue("symbols", "must have at least one atom, got none")
     count = len(words)
     places = _numbers(positions, (count, 3), "positions")
-    texts = _texts(representations)
+    texts = _texts(_looks(representations, style))
     columns = [("species:S:1", words), ("pos:R:3", [f"{x!r} {y!r} {z!r}" for x, y, z in places.tolist()])]
     for column, values, field in (
         ("name:S:1", names, "names"),
@@ -147,12 +160,15 @@ def from_atoms(
     return Scene(_raylane.parse_atoms(text.getvalue().encode(), "atoms.xyz", show_cell, texts, on_remark))
 
 
-def from_ase(atoms: Any, representations: Optional[Sequence[str]] = None) -> Scene:
+def from_ase(
+    atoms: Any, representations: Optional[Sequence[str]] = None, *, style: Optional[str] = None
+) -> Scene:
     """Returns a scene of ``ase.Atoms``, with their cell if they have one.
 
-    ``representations``: as in :func:`from_atoms`. Selections know the names, residues and numbers that ASE reads from
+    ``representations`` and ``style``: as in :func:`from_atoms`. Selections know the names, residues and numbers that ASE reads from
     PDB files, and arrays of one number per atom.
     """
+    representations = _looks(representations, style)
     cell = np.asarray(atoms.get_cell())
     arrays = atoms.arrays if representations is not None else {}
     known = ("numbers", "positions", "atomtypes", "residuenames", "residuenumbers")
@@ -179,12 +195,15 @@ def _element(name: str) -> str:
     return letters[:1].upper() or "X"
 
 
-def from_mdanalysis(atoms: Any, representations: Optional[Sequence[str]] = None) -> Scene:
+def from_mdanalysis(
+    atoms: Any, representations: Optional[Sequence[str]] = None, *, style: Optional[str] = None
+) -> Scene:
     """Returns a scene of an ``AtomGroup`` or ``Universe`` of MDAnalysis, in its current frame.
 
-    ``representations``: as in :func:`from_atoms`. Selections and colours know names, residues, chains (``chainIDs``, or
+    ``representations`` and ``style``: as in :func:`from_atoms`. Selections and colours know names, residues, chains (``chainIDs``, or
     ``segids`` without them), ``b_factor`` (``tempfactors``), ``occupancy`` and ``charge``.
     """
+    representations = _looks(representations, style)
     group = atoms.atoms
     if hasattr(group, "elements"):
         symbols = [str(e).strip().capitalize() or _element(n) for e, n in zip(group.elements, group.names)]
@@ -208,12 +227,15 @@ def from_mdanalysis(atoms: Any, representations: Optional[Sequence[str]] = None)
     )
 
 
-def from_mdtraj(trajectory: Any, frame: int = 0, representations: Optional[Sequence[str]] = None) -> Scene:
+def from_mdtraj(
+    trajectory: Any, frame: int = 0, representations: Optional[Sequence[str]] = None, *, style: Optional[str] = None
+) -> Scene:
     """Returns a scene of one frame of a ``Trajectory`` of mdtraj. Converts nanometres to angstrom.
 
-    ``representations``: as in :func:`from_atoms`. Selections know names, residues, and chains by their letters, or by
+    ``representations`` and ``style``: as in :func:`from_atoms`. Selections know names, residues, and chains by their letters, or by
     their numbers from 0 if the letters are unknown.
     """
+    representations = _looks(representations, style)
     atoms = list(trajectory.topology.atoms)
     symbols = [atom.element.symbol if atom.element is not None else _element(atom.name) for atom in atoms]
     positions = 10.0 * trajectory.xyz[frame].astype(np.float64)
