@@ -98,6 +98,17 @@ TEST_CASE("atoms are read with or without the edges of their cell") {
           "--cell: must have a cell to show, but a.xyz has none");
 }
 
+TEST_CASE("atoms are read in the representations that select them") {
+    const std::string atoms = "2\n\nC 0 0 0\nO 1.2 0 0\n";
+    CHECK(
+        parse_atoms(atoms, "a.xyz", false, {"all: points", "element O: licorice"}).shape_count() ==
+        2);
+    CHECK(parse_atoms(atoms, "a.xyz", false, {"element O: spheres"}).shape_count() == 1);
+    CHECK(refusal_of([&] {
+              parse_atoms(atoms, "a.xyz", false, {"all", "all: opacity 2"});
+          }) == "representations/1: column 14: opacity must be above 0 and at most 1, got \"2\"");
+}
+
 TEST_CASE("the pages contain the example program that is tested") {
     const std::string program =
         tests::content_of(RAYLANE_SOURCE_DIR "/scenes/api/examples/hits.cpp");
