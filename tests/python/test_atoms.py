@@ -211,3 +211,16 @@ def test_mdtraj(pdb):
     assert np.allclose(places[0], [11.104, 6.134, -6.504], atol=1e-4)
     assert colors_and_places(raylane.from_mdtraj(trajectory)) == colors_and_places(raylane.from_atoms(SYMBOLS, places))
     assert len(list(raylane.frames(trajectory))) == 1
+
+
+def test_style_draws_chains():
+    chain = dict(names=["CA"] * 6, residue_names=["ALA"] * 6, residue_numbers=range(1, 7), chains=["A"] * 6)
+    places = [[3.8 * i, 0, 0] for i in range(6)]
+    trace = raylane.from_atoms(["C"] * 6, places, style="trace", **chain)
+    assert (len(trace.spheres()), trace.shape_count) == (11, 21)
+    cartoon = raylane.from_atoms(["C"] * 6, places, style="cartoon rainbow", **chain)
+    assert cartoon.shape_count > 100 and cartoon.material_count == 6
+    with pytest.raises(raylane.BadInput, match="has no proteins or nucleic acids"):
+        raylane.from_atoms(["C"], [[0, 0, 0]], style="cartoon")
+    with pytest.raises(raylane.InvalidValue, match="must not be given with representations"):
+        raylane.from_atoms(["C"], [[0, 0, 0]], style="sticks", representations=["all"])

@@ -2,6 +2,7 @@
 
 #include "scenes/files/errors.hpp"
 #include "scenes/files/number.hpp"
+#include "scenes/formats/structure/cartoon/chain_colors.hpp"
 #include "scenes/formats/structure/colors.hpp"
 #include "scenes/formats/structure/lines.hpp"
 
@@ -129,8 +130,8 @@ void take_color_of_kind(WordList& words, const std::string& kind, ColorWords& co
     std::vector<std::string_view> known = {"opacity", "radius", "scale", "palette", "range"};
     for (const auto& [name, style] : named_styles())
         known.push_back(name);
-    const bool is_color =
-        color_named(first) || first == "element" || first == "chain" || first == "residue";
+    const bool is_color = color_named(first) || first == "element" || first == "chain" ||
+                          first == "residue" || is_chain_color(first);
     words.fail("must be one colour, got \"" + printable(first) + "\" and " + words.got() +
                suggestion(is_color ? words.word() : first, known));
 }

@@ -117,9 +117,9 @@ def from_atoms(
     finite, from -1e30 to 1e30.
 
     ``style``: the look of all atoms, such as ``"sticks"`` or ``"cartoon rainbow"``. Cartoons, tubes and traces need
-    names and residues. ``representations``: texts such as ``"ligand: sticks carbons orange"`` or ``"protein: spheres white opacity 0.3 +
-    sticks"``, in the words of the option ``--show`` of ``raylane render``. Only the atoms that they select are visible.
-    Later ones replace earlier ones of the same atoms. Default: all atoms in one look.
+    names and residues. ``representations``: texts such as ``"ligand: sticks carbons orange"`` or ``"protein: spheres
+    white opacity 0.3 + sticks"``, in the words of the option ``--show`` of ``raylane render``. Only the atoms that they
+    select are visible. Later ones replace earlier ones of the same atoms. Default: all atoms in one look.
 
     The others, each of length n, are for selections and colours: the atoms' ``names``, the names and numbers of their
     residues, their ``chains``, and ``properties``, which maps names such as ``"charge"`` to numbers.
@@ -165,8 +165,8 @@ def from_ase(
 ) -> Scene:
     """Returns a scene of ``ase.Atoms``, with their cell if they have one.
 
-    ``representations`` and ``style``: as in :func:`from_atoms`. Selections know the names, residues and numbers that ASE reads from
-    PDB files, and arrays of one number per atom.
+    ``representations`` and ``style``: as in :func:`from_atoms`. Selections know the names, residues and numbers that
+    ASE reads from PDB files, and arrays of one number per atom.
     """
     representations = _looks(representations, style)
     cell = np.asarray(atoms.get_cell())
@@ -200,8 +200,8 @@ def from_mdanalysis(
 ) -> Scene:
     """Returns a scene of an ``AtomGroup`` or ``Universe`` of MDAnalysis, in its current frame.
 
-    ``representations`` and ``style``: as in :func:`from_atoms`. Selections and colours know names, residues, chains (``chainIDs``, or
-    ``segids`` without them), ``b_factor`` (``tempfactors``), ``occupancy`` and ``charge``.
+    ``representations`` and ``style``: as in :func:`from_atoms`. Selections and colours know names, residues, chains
+    (``chainIDs``, or ``segids`` without them), ``b_factor`` (``tempfactors``), ``occupancy`` and ``charge``.
     """
     representations = _looks(representations, style)
     group = atoms.atoms
@@ -232,8 +232,8 @@ def from_mdtraj(
 ) -> Scene:
     """Returns a scene of one frame of a ``Trajectory`` of mdtraj. Converts nanometres to angstrom.
 
-    ``representations`` and ``style``: as in :func:`from_atoms`. Selections know names, residues, and chains by their letters, or by
-    their numbers from 0 if the letters are unknown.
+    ``representations`` and ``style``: as in :func:`from_atoms`. Selections know names, residues, and chains by their
+    letters, or by their numbers from 0 if the letters are unknown.
     """
     representations = _looks(representations, style)
     atoms = list(trajectory.topology.atoms)

@@ -122,7 +122,7 @@ std::string ChainRemainder::remark(const Structure& structure) const {
     if (!broken.empty()) {
         text = broken.size() == 1 ? "1 residue could not be drawn"
                                   : std::to_string(broken.size()) + " residues could not be drawn";
-        text += ", because its CA, its P or its neighbours are missing: ";
+        text += ", because CA, P or neighbours are missing: ";
         constexpr std::size_t most = 3;
         for (std::size_t i = 0; i < std::min(most, broken.size()); ++i)
             text += (i == 0 ? "" : ", ") + name_of(structure, broken[i]);
@@ -130,7 +130,8 @@ std::string ChainRemainder::remark(const Structure& structure) const {
     }
     if (without_base != 0)
         text += (text.empty() ? "" : "; ") + std::to_string(without_base) +
-                " nucleotides lack atoms of their bases, which are not drawn";
+                (without_base == 1 ? " nucleotide lacks atoms of its base, which is not drawn"
+                                   : " nucleotides lack atoms of their bases, which are not drawn");
     return text;
 }
 

@@ -13,9 +13,11 @@ namespace {
 
 using core::Vec3d;
 
-/// Returns the pairs of residues whose CA are near each other, ascending.
+/// Returns the pairs of residues whose CA are near each other, ascending. A residue in a crowd, as
+/// in no protein, has none as the first of a pair: the time must not be quadratic.
 std::vector<std::pair<AtomIndex, AtomIndex>> near_pairs(const std::vector<PeptideAtoms>& residues) {
     constexpr double reach = 9.0;
+    constexpr std::size_t crowd = 1000; // in 27 cells of 9 angstrom; 150 in proteins
     std::vector<core::Vec3f> places;
     for (const PeptideAtoms& residue : residues)
         places.push_back(core::convert<float>(residue.ca));
@@ -24,11 +26,14 @@ std::vector<std::pair<AtomIndex, AtomIndex>> near_pairs(const std::vector<Peptid
     std::vector<std::pair<AtomIndex, AtomIndex>> pairs;
     AtomGrid(places, all, static_cast<float>(reach))
         .for_each([&](AtomIndex a, const AtomGrid::Near& near) {
-            near.each([&](AtomIndex b) {
+            const std::size_t before = pairs.size();
+            std::size_t visited = 0;
+            const bool is_usual = near.each([&](AtomIndex b) {
                 const Vec3d between = residues[b].ca - residues[a].ca;
                 if (a < b && core::dot(between, between) < reach * reach) pairs.emplace_back(a, b);
-                return true;
+                return ++visited < crowd;
             });
+            if (!is_usual) pairs.resize(before);
         });
     std::sort(pairs.begin(), pairs.end());
     return pairs;

@@ -1,7 +1,5 @@
 #include "scenes/formats/structure/cartoon/tube.hpp"
 
-#include "core/numbers/elementary.hpp"
-
 #include <algorithm>
 #include <cmath>
 

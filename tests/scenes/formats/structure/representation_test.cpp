@@ -255,7 +255,8 @@ TEST_CASE("an invalid representation gives an error with its column") {
     CHECK(refusal("a: range 5 1") == "--show: column 10: a range must have its lower end first");
     CHECK(refusal(": sticks") == "--show: must be SELECTION: STYLE, got \": sticks\"");
     CHECK(complaint(peptide(), {{"chain A: stiks"}}) ==
-          "--show: must be a style, element, chain, residue, b_factor or a colour such as red or "
+          "--show: must be a style, element, chain, residue, secondary, rainbow, b_factor or a "
+          "colour such as red or "
           "#ff8000, got \"stiks\", did you mean \"sticks\"?");
     CHECK(complaint(peptide(), {{"chain B: sticks"}}) ==
           "--show: \"chain B\" selects none of 5 atoms");

@@ -230,7 +230,7 @@ TEST_CASE("residues that cannot be drawn are counted and named") {
     drawn(structure, {}, everything, &rest);
     CHECK(rest.drawn == 9);
     CHECK(rest.remark(structure) ==
-          "3 residues could not be drawn, because its CA, its P or its neighbours are missing: "
+          "3 residues could not be drawn, because CA, P or neighbours are missing: "
           "ALA 3 in chain A, ALA 4 in chain A, ALA 5 in chain A");
     CHECK(drawn(peptide_of(chain_of(alpha(5))), {}, everything, &rest).count() > 0);
     CHECK(rest.remark(structure).empty());

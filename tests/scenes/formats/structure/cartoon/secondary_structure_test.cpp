@@ -85,6 +85,11 @@ TEST_CASE("CA alone give helices and strands") {
     CHECK(classes_of(strand) == "EEEEEEEE");
 }
 
+TEST_CASE("the time for crowded residues is not quadratic") {
+    Structure structure = peptide_of(std::vector<BackbonePlaces>(100'000, BackbonePlaces{}));
+    CHECK(classes_of(structure) == std::string(100'000, '-')); // 5e9 pairs
+}
+
 TEST_CASE("ions of calcium and free amino acids are not chains") {
     Structure structure = peptide_of(chain_of(alpha(1)));
     structure.of_residue[0].is_hetero = true;
