@@ -7,12 +7,13 @@
 namespace raylane::core {
 
 /// Returns the coordinates of a point on the surface of a shape. Turns are from 0 to 1. They are
-/// counter-clockwise seen from the end of the axis, and begin at +x if the axis is +y. They are:
-///   sphere, ellipsoid   u: turn about +y (an ellipsoid's axis_v), v: latitude, 0 to 1
-///   cylinder, cone      u: turn about the axis, v: 0 at the base, 1 at the top
-///   plane               lengths: v upwards (+y; on floors -z), u to the right of it
-///   disc                the same in radii, from the center
-///   triangle            weights of the corners b and c
+/// counter-clockwise seen from the end of the axis, and begin at +x if the axis is +y.
+///
+///   sphere, ellipsoid   u: turn about +y (an ellipsoid's axis_v), v: latitude, 0 to 1.
+///   cylinder, cone      u: turn about the axis, v: 0 at the base, 1 at the top.
+///   plane               lengths: v upwards (+y; on floors -z), u to the right of it.
+///   disc                the same in radii, from the center.
+///   triangle            weights of the corners b and c.
 ///   box                 fractions of the two edges of the face, in the cyclic order of the edges
 ///   quadric             0
 ShapeCoordinates coordinates_on(const Tables& shapes, Kind kind, Place place, Face face,

@@ -88,7 +88,7 @@ TEST_CASE("each channel is a number from 0 to 1e10, whatever the formula") {
         CHECK(at(negative) == 0.0);
     for (const char* huge : {"1 / (x - 2)", "exp(1e3 * x)", "1e11 * x", "1e300 * x * 1e300"})
         CHECK(at(huge) == 1e10);
-    // Comparisons with an undefined number are false, except !=. As a condition it is false.
+    // Comparisons with an undefined number are false, except !=. It is a false condition.
     CHECK(at("sqrt(z) < 1 ? 2 : 3") == 3.0);
     CHECK(at("sqrt(z) > 1 ? 2 : 3") == 3.0);
     CHECK(at("sqrt(z) != sqrt(z) ? 2 : 3") == 2.0);
