@@ -9,6 +9,9 @@ namespace raylane::simd {
 ///   s = C / (sqrt(D) - B) if C > 0, and -C / (sqrt(D) + B) if C < 0.
 /// There is no crossing where the divisor is not positive. This holds for either sign of A, and for
 /// A = 0.
+///
+/// C and D are squares of lengths, and overflow before the errors that are computed from lengths.
+/// Then their own errors are unknown.
 template <class Arch>
 struct FirstCrossing {
     Floats<Arch> low, high; ///< `high` is valid where `definite`
@@ -18,10 +21,13 @@ struct FirstCrossing {
     Mask<Arch> inside;      ///< certainly C < 0
 
     [[gnu::always_inline]] FirstCrossing(const Floats<Arch>& B, const Floats<Arch>& B_error,
-                                         const Floats<Arch>& C, const Floats<Arch>& C_error,
-                                         const Floats<Arch>& D, const Floats<Arch>& D_error) {
+                                         const Floats<Arch>& C, const Floats<Arch>& error_of_C,
+                                         const Floats<Arch>& D, const Floats<Arch>& error_of_D) {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
+        // NaN, which decides nothing, if the value is infinite.
+        const F C_error = fast_mul_add<Arch>(o, C, error_of_C);
+        const F D_error = fast_mul_add<Arch>(o, D, error_of_D);
         const F size = abs(C), away = B ^ sign_bit<Arch>(C);
         const F most = D + D_error, least = D - D_error;
         const F divisor = sqrt(most) * F(1 + 4 * half_ulp) - away + B_error;
@@ -32,7 +38,8 @@ struct FirstCrossing {
         low = select(apart, (size - C_error) / divisor * F(1 - 4 * half_ulp), o);
 
         const F min_divisor = sqrt(least) * F(1 - 4 * half_ulp) - away - B_error;
-        definite = apart & (least > o) & (min_divisor > o);
+        // If B overflows, so does the divisor, and `high` would be 0.
+        definite = apart & (least > o) & (min_divisor > o) & (min_divisor < F(__builtin_inff()));
         high = (size + C_error) / min_divisor * F(1 + 4 * half_ulp);
     }
 };

@@ -441,3 +441,17 @@ TEST_CASE("ellipsoids of denormal size are hit", "[known]") {
         CHECK(answer(shapes, {{0, 0, 0}, {0, 1, 0}}).shape == 0);
     }
 }
+
+/// In float, the square of such a cone's width overflows along the ray.
+TEST_CASE("a ray hits cones whose radii differ by a factor of 2^59", "[known]") {
+    const Ray ray{{-4, -0x1.000006p+3F, 32768}, {12, 0x1.000018p+1F, -0x1.ffdcp+14F}};
+    const core::OpenCone open{{0, -2, 5}, {8, -4, 4}, 3, 0x1.4p+59F};
+    const core::OpenCone turned{{8, -6, 9}, {-8, 4, -4}, 0x1.4p+59F, 3};
+    for (const core::OpenCone& cone : {open, turned}) {
+        const Answer hit = answer({cone}, ray);
+        CHECK(hit.shape == 0);
+        CHECK(hit.t == 0x1.00300cp+0F);
+        CHECK(hit.occluded);
+    }
+    CHECK(answer({core::CappedCone{open.base, open.axis, 3, open.top_radius}}, ray).entering);
+}

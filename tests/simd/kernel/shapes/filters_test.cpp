@@ -1,9 +1,11 @@
 #include "tests/simd/kernel/shapes/filter_trial.hpp"
 #include "tests/simd/kernel/shapes/hard_cases.hpp"
+#include "tests/simd/kernel/shapes/mutations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/rounds.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -33,10 +35,11 @@ struct Round {
     std::vector<Doubled> rays;
     std::vector<First> truth; ///< of all rays with shape 0, then with shape 1, ...
 
-    explicit Round(Random& random) : count(random.integer(1, 3)) {
+    explicit Round(Random& random, Shape (*make)(Random&, bool) = make_shape<Shape>)
+        : count(random.integer(1, 3)) {
         const bool lattice = random.integer(0, 5) == 0;
         for (int lane = 0; lane < count; ++lane)
-            block.set(lane, make_shape<Shape>(random, lattice), static_cast<ShapeId>(lane));
+            block.set(lane, make(random, lattice), static_cast<ShapeId>(lane));
         for (int i = 0; i < 100; ++i)
             rays.emplace_back(with_unit_direction(
                 attack(block.get(random.integer(0, count - 1)), lattice, random)));
@@ -49,6 +52,20 @@ struct Round {
         return truth[static_cast<std::size_t>(lane) * rays.size() + i];
     }
 };
+
+/// Returns a cylinder or cone with radii up to 1e30. Squares of their numbers overflow in float.
+template <class Shape>
+Shape with_huge_radii(Random& random, bool lattice) {
+    constexpr std::size_t first_radius = 6;
+    while (true) {
+        Numbers<Shape> numbers = numbers_of(make_shape<Shape>(random, lattice));
+        for (std::size_t i = first_radius; i < numbers.size(); ++i)
+            if (random.integer(0, 2) > 0)
+                numbers[i] = std::ldexp(numbers[i], random.integer(20, 99));
+        const Shape shape = shape_of<Shape>(numbers);
+        if (mutations::is_valid(shape)) return shape;
+    }
+}
 
 template <class Shape>
 void check_answer(const Answer& answer, const Round<Shape>& round, int lane, std::size_t i) {
@@ -101,6 +118,53 @@ TEMPLATE_TEST_CASE("what the filters say of a ray is so", "", RAYLANE_ALL_SHAPES
             check_round(checks_of(isa), trial);
         }
     }
+}
+
+TEMPLATE_TEST_CASE("filters of cylinders and cones with huge radii are right", "", OpenCylinder,
+                   CappedCylinder, OpenCone, CappedCone) {
+    Random random(24);
+    for (int round = 0; round < rounds(); ++round) {
+        const Round<TestType> trial(random, with_huge_radii<TestType>);
+        for (const Isa isa : available_isas()) {
+            CAPTURE(static_cast<int>(isa), round);
+            check_round(checks_of(isa), trial);
+        }
+    }
+}
+
+namespace {
+
+template <class Shape>
+void check_ray(const Shape& shape, const Ray<double>& ray) {
+    Block<Shape> block;
+    block.set(0, shape, 0);
+    const First truth = first_crossing(shape, ray);
+    for (const Isa isa : available_isas()) {
+        Stream stream;
+        stream.add(Doubled(ray));
+        checks_of(isa).bound_rays(kind_of<Shape>, view_of(block), 0, stream.view());
+        const char* const wrong = lie(stream.answer(0), truth);
+        INFO(static_cast<int>(isa) << ": " << (wrong == nullptr ? "" : wrong));
+        CHECK(wrong == nullptr);
+    }
+}
+
+} // namespace
+
+/// A random search found these rays. The square of a length overflows, its error does not.
+TEST_CASE("filters of cylinders and cones with a radius above 2^64 are right") {
+    const Vec3f base(0x1.a03064p+62F, 0x1.2fc9aep+60F, 0x1.1115f8p+63F),
+        axis(0x1.2751bcp+53F, 0x1.60545cp+55F, 0x1.f1a028p+52F);
+    const Ray<double> ray = {{0x1.ef40ec0000002p+63, 0x1.106d8e0000003p+60, -0x1.639f260000008p+60},
+                             {-0x1.dd55b67e09152p-2, 0x1.5ba2dc5bca33bp-2, 0x1.a24b0a6e72347p-1}};
+    check_ray(OpenCylinder{base, axis, 0x1.216d72p+64F}, ray);
+    check_ray(CappedCylinder{base, axis, 0x1.216d72p+64F}, ray);
+    check_ray(CappedCone{{0x1.1e847cp+65F, -0x1.6bab64p+65F, 0x1.03140ap+66F},
+                         {-0x1.f75e5ep+58F, -0x1.d32264p+56F, 0x1.de7656p+57F},
+                         0x1.3ff5bap+64F,
+                         0},
+              {{0x1.1098be71c3503p+65, -0x1.5854371a29efdp+65, 0x1.f401433789ef7p+65},
+               {0x1.56f2b78f52de7p-2, -0x1.4a2accaeb6472p-1, 0x1.5fc0ce543d6bdp-1}});
 }
 
 TEST_CASE("a plane may be met beyond the largest float") {
