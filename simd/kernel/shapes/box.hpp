@@ -29,8 +29,9 @@ struct BoxNumbers {
 /// A normal is off by 2 u of absolute_cross(), n . f by 6 u of the sum of the absolute products,
 /// and half the volume by 5 u of its sum. The last counts twice: in the position and in the width.
 /// The roundings that cross_slab() leaves to `error`, and that of the sum, add 3 u of n . f and 5 u
-/// of half the volume. n . d is off by 6 u. Sums are computed doubled or eightfold, so that they
-/// overflow before the values that they bound.
+/// of half the volume. n . d is off by 6 u. Subnormal components of d were rounded by 2^-150, which
+/// is u 2^-126. Sums are computed doubled or eightfold, so that they overflow before the values
+/// that they bound.
 template <class Arch>
 struct BoxFilter {
     static constexpr bool is_costly = true;
@@ -73,7 +74,7 @@ struct BoxFilter {
         const F o = zero<Arch>();
         const Vectors<Arch> from_corner = rays.origin - corner;
         const Vectors<Arch> doubled = absolute(from_corner + from_corner),
-                            d = absolute(rays.direction);
+                            d = error_of<Arch>(1.0F, rays.direction, F(0x1p-126F));
         const F middle_size = abs(middle);
         const auto stay_between = [&](int i) __attribute__((always_inline)) {
             const Vectors<Arch>& size = normal_sizes[i];

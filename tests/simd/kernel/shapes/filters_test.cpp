@@ -167,6 +167,15 @@ TEST_CASE("filters of cylinders and cones with a radius above 2^64 are right") {
                {0x1.56f2b78f52de7p-2, -0x1.4a2accaeb6472p-1, 0x1.5fc0ce543d6bdp-1}});
 }
 
+TEST_CASE("the filter of a box is right for a direction with a subnormal component") {
+    const Box box{{0x1.317b2p+0F, 0x1.20fc24p+3F, 0x1.9ee324p-1F},
+                  {0x1.f15464p-2F, 0, 0},
+                  {0, 0x1.294e34p+50F, 0},
+                  {0, 0, 0x1.4a021p-43F}};
+    check_ray(
+        box, {{-0x1.e33de4p+97, 0x1.20fc24p+3, 0x1.9ee324p-1}, {1.0, 0.0, 0x1.5da37f044dd56p-141}});
+}
+
 TEST_CASE("a plane may be met beyond the largest float") {
     const Plane ground{{0, 0, 0}, {0, 1, 0}};
     const Ray<double> ray{{0, 1e10, 0}, {1, -1e-30, 0}};
