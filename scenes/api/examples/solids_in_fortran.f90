@@ -26,6 +26,7 @@ module raylane
         real(c_float) :: size
         integer(c_int8_t) :: axes
         type(vec3) :: direction, from, to
+        type(c_ptr) :: formula(3)
     end type
     type, bind(c) :: sellmeier
         real(c_double) :: B(3), C(3)
@@ -33,7 +34,7 @@ module raylane
     type, bind(c) :: material
         type(pattern) :: pattern
         real(c_float) :: ambient, diffuse, specular, exponent
-        integer(c_int8_t) :: reflection
+        integer(c_int8_t) :: highlight, reflection
         real(c_float) :: reflectivity, transmission, index
         type(sellmeier) :: glass
         type(vec3) :: absorption
