@@ -35,7 +35,7 @@ def test_what_is_set_is_there():
     )
     stripes = raylane.Material(color=raylane.Pattern("stripes", direction=(0.0, 1.0, 0.0)), visible="inside")
     gradient = raylane.Material(color=raylane.Pattern("gradient", start=(1.0, 2.0, 3.0), end=(4.0, 5.0, 6.0)))
-    formula = raylane.Material(color=raylane.Pattern("formula", formula=("abs(cos(x))", "v", "0.5")), highlight="phong")
+    formula = raylane.Material(color=raylane.Pattern(formula=("abs(cos(x))", "v", "0.5")), highlight="phong")
     materials = [glass, checker, stripes, gradient, formula, raylane.Material(opacity=0.5)]
     for index, material in enumerate(materials):
         assert builder.add_material(material) == index
@@ -213,6 +213,7 @@ def test_what_is_not_valid_says_where():
         (lambda: builder.add_material(color=raylane.Pattern("formula", formula=("x", "y +", "0"))), "color/formula/1"),
         (lambda: builder.add_material(color=raylane.Pattern("formula")), "color/formula"),
         (lambda: builder.add_material(color=raylane.Pattern("formula", formula=("x", "y"))), "color/formula"),
+        (lambda: builder.add_material(color=raylane.Pattern(formula="xyz")), "color/formula"),
         (lambda: builder.add_spheres([[None, 0, 0]], 1, material=material), "centers"),
         (lambda: builder.add_spheres([[0, 0, 0], [1]], 1, material=material), "centers"),
         (lambda: builder.add_spheres(np.zeros((4, 3)), 1, material=[0, 0, 0]), "material"),

@@ -150,6 +150,8 @@ void take(const py::handle& from, const std::string& field, Color (&to)[2]) {
     take_color(both[1], field + "/1", to[1]);
 }
 void take(const py::handle& from, const std::string& field, ChannelTexts& to) {
+    if (py::isinstance<py::str>(from)) // its letters would be formulas
+        throw InvalidValue(field, "must be three formulas");
     const auto texts = cast<std::array<std::string, 3>>(from, field, "three formulas");
     to = {texts[0], texts[1], texts[2]};
 }

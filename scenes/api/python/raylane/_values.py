@@ -45,7 +45,12 @@ class Pattern(Fields):
     """checker: the axes along which a cell contains its upper edge instead of its lower one."""
     formula: Tuple[str, str, str] = ("", "", "")
     """formula: the texts of red, green and blue, such as ``"abs(cos(x))"``, in the language of the JSON format. Together
-    they may have 64 different operations. A result that is undefined or below 0 counts as 0, above 1e10 as 1e10."""
+    they may have 64 different operations. A result that is undefined or below 0 counts as 0, above 1e10 as 1e10.
+    A pattern that is made with formulas has this kind."""
+
+    def __post_init__(self) -> None:
+        if self.kind == "solid" and any(self.formula):
+            self.kind = "formula"
 
 
 @dataclass
