@@ -57,6 +57,7 @@ struct CornerNormals {
 /// the absolute products. s x d is off by 4 * u * absolute_cross(s, d), and its products with edges
 /// by 8 * u times the sum of theirs. If the origin is off by slack, the products with an edge are
 /// off by at most slack * |edge|. Taking 11 * u instead of 8 * u also covers the sum 1 - v - w.
+/// Subnormal components of d were rounded by 2^-150, which is u * 2^-126.
 template <class Arch>
 struct TriangleFilter {
     Vectors<Arch> a, edge_e, edge_g, normal, normal_size;
@@ -83,18 +84,18 @@ struct TriangleFilter {
         const F tiny(underflow);
         const Vectors<Arch> to_a = a - rays.origin;
         const F relative(11 * half_ulp);
+        const Vectors<Arch> d_size = error_of<Arch>(1.0F, rays.direction, F(0x1p-126F));
         const F height = fast_dot(normal, to_a);
         const F height_error = fast_mul_add<Arch>(
             relative, fast_dot(normal_size, absolute(to_a)),
             fast_mul_add<Arch>(normal_size.x + normal_size.y + normal_size.z, rays.slack, tiny));
         const F approach = fast_dot(normal, rays.direction);
-        const F approach_error =
-            fast_mul_add<Arch>(relative, fast_dot(normal_size, absolute(rays.direction)), tiny);
+        const F approach_error = fast_mul_add<Arch>(relative, fast_dot(normal_size, d_size), tiny);
         const FlatCrossing<Arch> crossing(height, height_error, approach, approach_error);
 
         // v, w and -(1 - v - w), times |approach| = |n . d|.
         const Vectors<Arch> moment = fast_cross(to_a, rays.direction);
-        const Vectors<Arch> moment_size = absolute_cross(to_a, rays.direction, zero<Arch>());
+        const Vectors<Arch> moment_size = absolute_cross(to_a, d_size, zero<Arch>());
         const auto error_along = [&](const Vectors<Arch>& edge) __attribute__((always_inline)) {
             const Vectors<Arch> e = absolute(edge);
             return fast_mul_add<Arch>(relative, fast_dot(e, moment_size),

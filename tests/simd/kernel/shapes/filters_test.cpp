@@ -176,6 +176,14 @@ TEST_CASE("the filter of a box is right for a direction with a subnormal compone
         box, {{-0x1.e33de4p+97, 0x1.20fc24p+3, 0x1.9ee324p-1}, {1.0, 0.0, 0x1.5da37f044dd56p-141}});
 }
 
+TEST_CASE("the filter of a triangle is right for a direction with a subnormal component") {
+    const Triangle triangle{{-0x1.5d0958p-48F, 0x1.1a3774p-52F, -0x1.46c9a2p-49F},
+                            {-0x1.5d066p-48F, 0x1.19922cp-52F, -0x1.46e998p-49F},
+                            {0x1.1a029cp-48F, -0x1.01f7dcp-47F, -0x1.cf3e66p-48F}};
+    check_ray(triangle, {{-0x1.3a892ap-48, -0x1.cfd25ep-54, -0x1.7ab918p+91},
+                         {0.0, -0x1.74b918ebb63c6p-146, 1.0}});
+}
+
 TEST_CASE("a plane may be met beyond the largest float") {
     const Plane ground{{0, 0, 0}, {0, 1, 0}};
     const Ray<double> ray{{0, 1e10, 0}, {1, -1e-30, 0}};
