@@ -2,6 +2,7 @@
 
 #include "core/numbers/infinity.hpp"
 #include "core/reference/rounding.hpp"
+#include "simd/stream/starts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +86,7 @@ bool FewRays::take(const RayStream<Real>& rays, std::size_t i) {
         if (!take_limits(t_min, t_max)) return false;
     }
     if (rays.origin_shape != nullptr)
-        start_on(paths_, 0, scene_, shapes_.slots(), rays, i);
+        Starts(scene_, shapes_.slots()).start(paths_, 0, rays, i);
     else
         paths_.start_nowhere(0, 1);
     if ((ray_.origin_bits[0] & origin_may_return) != 0) return false;

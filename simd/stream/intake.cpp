@@ -1,14 +1,12 @@
 #include "simd/stream/intake.hpp"
 
-#include "core/shapes/departure.hpp"
 #include "simd/query/as_core.hpp"
+#include "simd/stream/starts.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <span>
-#include <string>
 #include <type_traits>
 
 namespace raylane::simd {
@@ -41,64 +39,6 @@ float float_below(double number) {
     if (!(number < static_cast<double>(largest))) return largest;
     const auto nearest = static_cast<float>(number);
     return static_cast<double>(nearest) <= number ? nearest : std::nextafter(nearest, 0.0F);
-}
-
-template <class Real>
-core::Ray<double> ray_in_double(const RayStream<Real>& rays, std::size_t i) {
-    const auto vector = [i](const Real* const(&columns)[3]) {
-        return core::convert<double>(core::Vec3<Real>(columns[0][i], columns[1][i], columns[2][i]));
-    };
-    return {vector(rays.origin), vector(rays.direction)};
-}
-
-/// How far the origin of a ray may be from the shape that it leaves, as a share of the shape's
-/// size.
-template <class Real>
-constexpr double rounding_in = std::is_same_v<Real, float> ? 0x1p-6 : 0x1p-10;
-
-/// The start of a ray on a face of a shape, as the caller gives it.
-struct GivenStart {
-    core::Ray<double> ray;
-    core::Face face;
-    const std::uint8_t* inward; ///< to the inside of the solid; null: the direction tells
-    bool reversed;              ///< the shape is a reversed part of the solid
-    double rounding;            ///< share of the shape's size
-};
-
-/// Returns true if a ray goes to the inside of the shape that it starts on. Throws InvalidValue if
-/// it cannot start there, or clearly goes to the other side than it says.
-template <class Shape>
-bool goes_inside(const Shape& shape, const GivenStart& start) {
-    constexpr int faces = core::face_count<Shape>();
-    if (start.face >= faces)
-        throw core::InvalidValue("origin_face", "must be less than the shape's number of faces, " +
-                                                    std::to_string(faces) + ", got " +
-                                                    std::to_string(start.face));
-    const bool inward = start.inward != nullptr && (*start.inward != 0) != start.reversed;
-    const int clear_side =
-        core::clear_side_of_departure(shape, start.ray, start.face, start.rounding);
-    if (clear_side != 0 && (start.inward == nullptr || inward == (clear_side < 0)))
-        return clear_side < 0;
-    if (!core::may_start_on(shape, start.ray.origin, start.face, start.rounding))
-        throw core::InvalidValue("origin_shape",
-                                 "must be a shape that the origin is on, within rounding");
-    const int side = core::side_of_departure(shape, start.ray, start.face);
-    if (start.inward == nullptr) return side < 0;
-    if (side == (inward ? 1 : -1) &&
-        core::departs_clearly(shape, start.ray, start.face, start.rounding))
-        throw core::InvalidValue(
-            "origin_inward", *start.inward != 0 ? "must be 0 for a direction to the outside, got 1"
-                                                : "must be 1 for a direction to the inside, got 0");
-    return inward;
-}
-
-bool goes_inside(const core::Scene& scene, core::Kind kind, core::Place place,
-                 const GivenStart& start) {
-    if (kind == core::Kind::sphere) // the most frequent one
-        return goes_inside(std::get<core::Table<core::Sphere>>(scene.shapes()).get(place), start);
-    return core::with_table(scene.shapes(), kind, [&](const auto& table) {
-        return goes_inside(table.get(place), start);
-    });
 }
 
 /// Returns a ray with its largest direction component in [1, 2), if scaling the direction by
@@ -263,103 +203,18 @@ void StreamIntake::sort_out(const RayStream<Real>& rays, std::size_t count, std:
 }
 
 template <class Real>
-void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,
-              std::span<const std::uint32_t> slots, const RayStream<Real>& rays, std::size_t i) {
-    const core::ShapeId shape = rays.origin_shape[i];
-    const std::uint32_t slot = shape < slots.size() ? slots[shape] : no_slot;
-    if (slot == no_slot) return paths.start_nowhere(lane, lane + 1);
-    const SceneData::NamedShape named = scene.shape_named(shape, slot);
-    const std::uint8_t* const inward = from(rays.origin_inward, i);
-    constexpr std::uint8_t by_direction = 2;
-    const GivenStart start{ray_in_double(rays, i),
-                           rays.origin_face != nullptr ? rays.origin_face[i] : core::body,
-                           inward != nullptr && *inward != by_direction ? inward : nullptr,
-                           scene.scene().solids().is_reversed(shape), rounding_in<Real>};
-    try {
-        const bool is_inward = goes_inside(scene.scene(), named.kind, scene.place_of(slot), start);
-        paths.start_on(lane, slot, named,
-                       std::uint32_t{start.face} | (is_inward ? hit_entering : 0),
-                       /*through=*/true);
-    } catch (const core::InvalidValue& invalid) {
-        throw InvalidStart(invalid, &rays.origin_shape[i]);
-    }
-}
-
-/// Starts rays on spheres that are no parts of solids, as start_on() does, if few operations decide
-/// the side to which they go.
-class StartsOnSpheres {
-  public:
-    explicit StartsOnSpheres(const SceneData& scene)
-        : spheres_(std::get<core::Table<core::Sphere>>(scene.scene().shapes())),
-          solids_(scene.scene().solids()), first_slot_(scene.slot_of(core::Kind::sphere, {0, 0})),
-          slots_(spheres_.block_count() * core::block_size) {}
-
-    /// Fetches the block of a sphere into the cache.
-    void prefetch(std::uint32_t slot) const {
-        const std::uint32_t place = slot - first_slot_;
-        if (place >= slots_) return;
-        const std::size_t block = place / core::block_size;
-        if (spheres_.is_packed())
-            fetch(spheres_.packed()->blocks[block]);
-        else
-            fetch(spheres_.plain_blocks()[block].values);
-    }
-
-    /// Returns false, and does nothing, if this ray needs start_on().
-    template <class Real>
-    bool start(const Paths& paths, std::size_t lane, std::uint32_t slot,
-               const RayStream<Real>& rays, std::size_t i) const {
-        const std::uint32_t place = slot - first_slot_;
-        if (place >= slots_ || solids_.has(rays.origin_shape[i]) ||
-            (rays.origin_face != nullptr && rays.origin_face[i] != core::body))
-            return false;
-        const int side = core::clear_side_of_departure(
-            spheres_.get(
-                {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)}),
-            ray_in_double(rays, i), core::body, rounding_in<Real>);
-        if (side == 0 ||
-            (rays.origin_inward != nullptr && (rays.origin_inward[i] != 0) != (side < 0)))
-            return false;
-        const core::ShapeId id = rays.origin_shape[i];
-        const SceneData::NamedShape sphere{{id, id}, core::Kind::sphere, /*flat=*/false};
-        paths.start_on(lane, slot, sphere, core::body | (side < 0 ? hit_entering : 0U),
-                       /*through=*/true);
-        return true;
-    }
-
-  private:
-    template <class Numbers>
-    static void fetch(const Numbers& numbers) {
-        constexpr std::size_t line = 64;
-        for (std::size_t byte = 0; byte < sizeof(numbers); byte += line)
-            __builtin_prefetch(reinterpret_cast<const char*>(&numbers) + byte);
-    }
-
-    const core::Table<core::Sphere>& spheres_;
-    const core::Solids& solids_;
-    std::uint32_t first_slot_;
-    std::size_t slots_;
-};
-
-template <class Real>
 void StreamIntake::start_on(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
-    const std::span<const std::uint32_t> slots = shapes_.slots();
-    const StartsOnSpheres on_spheres(scene_);
-    const auto slot_of = [&](std::size_t i) {
-        const core::ShapeId shape = rays.origin_shape[i];
-        return shape < slots.size() ? slots[shape] : no_slot;
-    };
+    const Starts starts(scene_, shapes_.slots());
     constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < count; ++i) {
-        if (i + 2 * ahead < count && rays.origin_shape[i + 2 * ahead] < slots.size())
-            __builtin_prefetch(&slots[rays.origin_shape[i + 2 * ahead]]);
-        if (i + ahead < count) on_spheres.prefetch(slot_of(i + ahead));
+        if (i + 2 * ahead < count) starts.prefetch_slot(rays.origin_shape[i + 2 * ahead]);
+        if (i + ahead < count) starts.prefetch_sphere(rays.origin_shape[i + ahead]);
         const std::size_t lane = to + i;
         const std::uint32_t of_limits = paths_.origin_bits[lane];
         if (!is_ray(lane) && is_refused(rays, i))
             paths_.start_nowhere(lane, lane + 1);
-        else if (!on_spheres.start(paths_, lane, slot_of(i), rays, i))
-            simd::start_on(paths_, lane, scene_, slots, rays, i);
+        else
+            starts.start(paths_, lane, rays, i);
         paths_.origin_bits[lane] |= of_limits;
     }
 }
@@ -396,7 +251,7 @@ LoneRay StreamIntake::lone(const RayStream<Real>& rays, std::size_t i, std::size
 template <class Real>
 LoneRay StreamIntake::alone(const RayStream<Real>& rays, std::size_t i, std::size_t lane) {
     if (rays.origin_shape != nullptr)
-        simd::start_on(paths_, lane, scene_, shapes_.slots(), rays, i);
+        Starts(scene_, shapes_.slots()).start(paths_, lane, rays, i);
     else
         paths_.start_nowhere(lane, lane + 1);
     int exponent = 0;
@@ -423,10 +278,6 @@ LoneRay StreamIntake::limited(const RayStream<Real>& rays, std::size_t i, std::s
                 : std::numeric_limits<double>::infinity()};
 }
 
-template void start_on(const Paths&, std::size_t, const SceneData&, std::span<const std::uint32_t>,
-                       const RayStream<float>&, std::size_t);
-template void start_on(const Paths&, std::size_t, const SceneData&, std::span<const std::uint32_t>,
-                       const RayStream<double>&, std::size_t);
 template RayStream<float> StreamIntake::take(const RayStream<float>&, std::size_t);
 template RayStream<double> StreamIntake::take(const RayStream<double>&, std::size_t);
 template LoneRay StreamIntake::lone(const RayStream<float>&, std::size_t, std::size_t);

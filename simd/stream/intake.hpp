@@ -81,12 +81,6 @@ struct LoneRay {
     }
 };
 
-/// Starts a lane on the shape that ray i names, if it is a shape of the scene. The ray must not be
-/// refused. `slots`: of the shapes, by id. Throws InvalidStart if the ray cannot start there.
-template <class Real>
-void start_on(const Paths& paths, std::size_t lane, const SceneData& scene,
-              std::span<const std::uint32_t> slots, const RayStream<Real>& rays, std::size_t i);
-
 /// Takes a caller's rays into lanes, with the shapes that they leave and their limits: as many as
 /// are best answered together.
 class StreamIntake {

@@ -1,0 +1,105 @@
+#pragma once
+
+#include "core/shapes/departure.hpp"
+#include "simd/query/paths.hpp"
+#include "simd/stream/streams.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <type_traits>
+
+namespace raylane::simd {
+
+template <class Real>
+core::Ray<double> ray_in_double(const RayStream<Real>& rays, std::size_t i) {
+    const auto vector = [i](const Real* const(&columns)[3]) {
+        return core::convert<double>(core::Vec3<Real>(columns[0][i], columns[1][i], columns[2][i]));
+    };
+    return {vector(rays.origin), vector(rays.direction)};
+}
+
+/// Starts lanes on the shapes that rays name. Most rays name spheres that are no parts of solids:
+/// few operations decide to which side of these they go. To be made for the rays of one call.
+class Starts {
+  public:
+    /// `slots`: of the shapes, by id.
+    Starts(const SceneData& scene, std::span<const std::uint32_t> slots)
+        : scene_(scene), slots_(slots),
+          spheres_(std::get<core::Table<core::Sphere>>(scene.scene().shapes())),
+          solids_(scene.scene().solids()), first_sphere_(scene.slot_of(core::Kind::sphere, {0, 0})),
+          sphere_slots_(spheres_.block_count() * core::block_size) {}
+
+    /// Fetches the slot of a shape into the cache.
+    void prefetch_slot(core::ShapeId shape) const {
+        if (shape < slots_.size()) __builtin_prefetch(&slots_[shape]);
+    }
+    /// Fetches the block of a sphere into the cache.
+    void prefetch_sphere(core::ShapeId shape) const {
+        const std::uint32_t place = slot_of(shape) - first_sphere_;
+        if (place >= sphere_slots_) return;
+        const std::size_t block = place / core::block_size;
+        if (spheres_.is_packed())
+            prefetch(spheres_.packed()->blocks[block]);
+        else
+            prefetch(spheres_.plain_blocks()[block].values);
+    }
+
+    /// Starts a lane on the shape that ray i names, if it is a shape of the scene. The ray must not
+    /// be refused. Throws InvalidStart if the ray cannot start there.
+    template <class Real>
+    void start(const Paths& paths, std::size_t lane, const RayStream<Real>& rays,
+               std::size_t i) const {
+        if (!start_on_sphere(paths, lane, rays, i)) start_on_any(paths, lane, rays, i);
+    }
+
+  private:
+    /// How far the origin of a ray may be from the shape that it leaves, as a share of the shape's
+    /// size.
+    template <class Real>
+    static constexpr double rounding_in = std::is_same_v<Real, float> ? 0x1p-6 : 0x1p-10;
+
+    std::uint32_t slot_of(core::ShapeId shape) const {
+        return shape < slots_.size() ? slots_[shape] : no_slot;
+    }
+    template <class Numbers>
+    static void prefetch(const Numbers& numbers) {
+        constexpr std::size_t line = 64;
+        for (std::size_t byte = 0; byte < sizeof(numbers); byte += line)
+            __builtin_prefetch(reinterpret_cast<const char*>(&numbers) + byte);
+    }
+    /// Returns false, and does nothing, if few operations do not decide the ray's start.
+    template <class Real>
+    bool start_on_sphere(const Paths& paths, std::size_t lane, const RayStream<Real>& rays,
+                         std::size_t i) const {
+        const core::ShapeId id = rays.origin_shape[i];
+        const std::uint32_t slot = slot_of(id), place = slot - first_sphere_;
+        if (place >= sphere_slots_ || solids_.has(id) ||
+            (rays.origin_face != nullptr && rays.origin_face[i] != core::body))
+            return false;
+        const int side = core::clear_side_of_departure(
+            spheres_.get(
+                {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)}),
+            ray_in_double(rays, i), core::body, rounding_in<Real>);
+        if (side == 0 ||
+            (rays.origin_inward != nullptr && (rays.origin_inward[i] != 0) != (side < 0)))
+            return false;
+        const SceneData::NamedShape sphere{{id, id}, core::Kind::sphere, /*flat=*/false};
+        paths.start_on(lane, slot, sphere, core::body | (side < 0 ? hit_entering : 0U),
+                       /*through=*/true);
+        return true;
+    }
+    template <class Real>
+    void start_on_any(const Paths& paths, std::size_t lane, const RayStream<Real>& rays,
+                      std::size_t i) const;
+
+    const SceneData& scene_;
+    std::span<const std::uint32_t> slots_;
+    const core::Table<core::Sphere>& spheres_;
+    const core::Solids& solids_;
+    std::uint32_t first_sphere_; // slot
+    std::size_t sphere_slots_;
+};
+
+} // namespace raylane::simd
