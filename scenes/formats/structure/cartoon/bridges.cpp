@@ -101,20 +101,21 @@ class Ladders {
         return (across < 6 && b.first - a.last < 3) || across < 3;
     }
 
+    /// Joins ladders that bulges separate. Those that others have taken have no bridges meanwhile.
     void join() {
         for (std::size_t a = 0; a < ladders_.size(); ++a)
             for (std::size_t b = a + 1; b < ladders_.size(); ++b) {
-                if (ladders_[b].first >= ladders_[a].last + 6) break; // as all behind
-                if (!has_bulge(ladders_[a], ladders_[b])) continue;
-                const Ladder& other = ladders_[b];
-                Ladder& whole = ladders_[a];
+                Ladder &whole = ladders_[a], &other = ladders_[b];
+                if (whole.bridges == 0) break;
+                if (other.bridges == 0) continue;
+                if (other.first >= whole.last + 6) break; // as all behind
+                if (!has_bulge(whole, other)) continue;
                 whole.last = other.last;
                 whole.other_first = std::min(whole.other_first, other.other_first);
                 whole.other_last = std::max(whole.other_last, other.other_last);
-                whole.bridges += other.bridges;
-                ladders_.erase(ladders_.begin() + static_cast<std::ptrdiff_t>(b));
-                --b;
+                whole.bridges += std::exchange(other.bridges, 0);
             }
+        std::erase_if(ladders_, [](const Ladder& ladder) { return ladder.bridges == 0; });
     }
 
     const HydrogenBonds& bonds_;

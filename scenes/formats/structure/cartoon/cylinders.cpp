@@ -26,10 +26,9 @@ double distance_from_line(const Vec3d& point, const Vec3d& a, const Vec3d& b) {
     return core::length(square > 0.0 ? from - core::dot(from, way) / square * way : from);
 }
 
-/// Replaces the points from `first` to `last` by a line between them, or by several lines if one is
-/// too far from a point (Ramer, Douglas and Peucker).
-void straighten(std::vector<Vec3d>& points, std::size_t first, std::size_t last) {
-    if (last == first) return;
+/// Returns the point from `first` to `last` at which to split a line between these, or `first` if
+/// all points are near it.
+std::size_t bend_of(const std::vector<Vec3d>& points, std::size_t first, std::size_t last) {
     constexpr double furthest = 1.0;
     constexpr std::size_t least = 2 * residues_per_turn;
     std::size_t worst = first;
@@ -41,14 +40,26 @@ void straighten(std::vector<Vec3d>& points, std::size_t first, std::size_t last)
             most = far;
             worst = i;
         }
-    if (worst != first) {
-        straighten(points, first, worst);
-        straighten(points, worst, last);
-        return;
+    return worst;
+}
+
+/// Replaces points by a line between the first and the last one, or by several lines if one is too
+/// far from a point (Ramer, Douglas and Peucker).
+void straighten(std::vector<Vec3d>& points) {
+    std::vector<std::size_t> ends{points.size() - 1}; // of the lines to come, the last first
+    for (std::size_t first = 0; first + 1 < points.size();) {
+        const std::size_t last = ends.back();
+        if (const std::size_t bend = bend_of(points, first, last); bend != first) {
+            ends.push_back(bend);
+            continue;
+        }
+        const Vec3d from = points[first], way = points[last] - points[first];
+        for (std::size_t i = first; i <= last; ++i)
+            points[i] =
+                from + static_cast<double>(i - first) / static_cast<double>(last - first) * way;
+        first = last;
+        ends.pop_back();
     }
-    const Vec3d from = points[first], way = points[last] - points[first];
-    for (std::size_t i = first; i <= last; ++i)
-        points[i] = from + static_cast<double>(i - first) / static_cast<double>(last - first) * way;
 }
 
 /// Returns the axis beside each residue: means of four points, continued at the ends.
@@ -56,7 +67,7 @@ Helix helix_of(const Path& path, std::size_t first, std::size_t last) {
     std::vector<Vec3d> means; // beside first + 1.5, first + 2.5, ...
     for (std::size_t i = first; i + residues_per_turn - 1 <= last; ++i)
         means.push_back(0.25 * (path[i].at + path[i + 1].at + path[i + 2].at + path[i + 3].at));
-    straighten(means, 0, means.size() - 1);
+    straighten(means);
     Helix helix{first, last, {}};
     const auto between = [&](double place) {
         if (means.size() == 1) {
