@@ -2,10 +2,13 @@
 
 #include "scenes/formats/structure/lines.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <tuple>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -36,37 +39,60 @@ std::optional<ResiduePlace> residue(std::string_view record, std::size_t chain) 
                         character(record, insertion)};
 }
 
-/// The residues of a structure by place.
-class Places {
+/// The residues of a structure, in its order and by chain and number. Marks ranges of them.
+class MarkedResidues {
   public:
-    explicit Places(const Structure& structure) : structure_(structure) {
+    explicit MarkedResidues(const Structure& structure)
+        : structure_(structure), starts_(structure.of_residue.size() + 1),
+          starts_by_number_(starts_.size()) {
         for (std::uint32_t i = 0; i < structure.of_residue.size(); ++i) {
             const Residue& of = structure.of_residue[i];
-            const std::string& chain = structure.chains[of.chain];
-            of_place_.try_emplace({chain, of.number, of.insertion}, i);
-            of_number_[chain].emplace(of.number, i);
+            of_place_.try_emplace({chain_of(i), of.number, of.insertion}, i);
+            by_number_.push_back(i);
         }
+        std::ranges::stable_sort(by_number_, {}, [&](std::uint32_t i) { return number_of(i); });
     }
 
-    /// Calls visit(index) for the residues in a range.
-    template <class Visit>
-    void for_each(const SecondaryRange& range, const Visit& visit) const {
+    void mark(const SecondaryRange& range) {
         const auto first = find(range.first), last = find(range.last);
         if (first && last && *first <= *last &&
             structure_.of_residue[*first].chain == structure_.of_residue[*last].chain) {
-            for (std::uint32_t i = *first; i <= *last; ++i)
-                visit(i);
+            ++starts_[*first];
+            --starts_[*last + 1];
             return;
         }
-        const auto chain = of_number_.find(range.first.chain);
-        if (chain == of_number_.end()) return;
-        const auto end = chain->second.upper_bound(range.last.number);
-        for (auto of = chain->second.lower_bound(range.first.number);
-             range.first.number <= range.last.number && of != end; ++of)
-            visit(of->second);
+        if (range.first.number > range.last.number) return;
+        const std::string& chain = range.first.chain;
+        const auto bound = [&](const auto& bound_of, int number) {
+            return bound_of(by_number_, std::tie(chain, number), {},
+                            [&](std::uint32_t i) { return number_of(i); }) -
+                   by_number_.begin();
+        };
+        ++starts_by_number_[static_cast<std::size_t>(
+            bound(std::ranges::lower_bound, range.first.number))];
+        --starts_by_number_[static_cast<std::size_t>(
+            bound(std::ranges::upper_bound, range.last.number))];
+    }
+
+    /// Calls visit(index) for the residues in marked ranges, and removes the marks.
+    template <class Visit>
+    void take(const Visit& visit) {
+        std::ptrdiff_t ranges = 0, ranges_by_number = 0; // around a residue
+        for (std::size_t i = 0; i < by_number_.size(); ++i) {
+            if ((ranges += starts_[i]) > 0) visit(i);
+            if ((ranges_by_number += starts_by_number_[i]) > 0) visit(by_number_[i]);
+        }
+        std::ranges::fill(starts_, 0);
+        std::ranges::fill(starts_by_number_, 0);
     }
 
   private:
+    const std::string& chain_of(std::uint32_t i) const {
+        return structure_.chains[structure_.of_residue[i].chain];
+    }
+    std::tuple<const std::string&, const int&> number_of(std::uint32_t i) const {
+        return {chain_of(i), structure_.of_residue[i].number};
+    }
     std::optional<std::uint32_t> find(const ResiduePlace& place) const {
         const auto found = of_place_.find({place.chain, place.number, place.insertion});
         if (found == of_place_.end()) return std::nullopt;
@@ -75,7 +101,10 @@ class Places {
 
     const Structure& structure_;
     std::map<std::tuple<std::string, int, char>, std::uint32_t> of_place_;
-    std::map<std::string, std::multimap<int, std::uint32_t>> of_number_; // by chain
+    std::vector<std::uint32_t> by_number_; // residues, by chain and number
+    // Ranges that start at a residue, minus those that end before it: in the structure's order, and
+    // in that of by_number_.
+    std::vector<std::ptrdiff_t> starts_, starts_by_number_;
 };
 
 } // namespace
@@ -92,16 +121,15 @@ void read_secondary(std::string_view record, std::vector<SecondaryRange>& ranges
 
 void assign_secondary(const std::vector<SecondaryRange>& ranges, Structure& structure) {
     if (ranges.empty()) return;
-    const Places places(structure);
-    for (const bool is_strand : {true, false})
-        for (const SecondaryRange& range : ranges) {
-            if (range.is_strand != is_strand) continue;
-            places.for_each(range, [&](std::uint32_t i) {
-                structure.of_residue[i].secondary =
-                    is_strand ? Secondary::strand : Secondary::helix;
-                structure.has_secondary = true;
-            });
-        }
+    MarkedResidues residues(structure);
+    for (const bool is_strand : {true, false}) {
+        for (const SecondaryRange& range : ranges)
+            if (range.is_strand == is_strand) residues.mark(range);
+        residues.take([&](std::size_t i) {
+            structure.of_residue[i].secondary = is_strand ? Secondary::strand : Secondary::helix;
+            structure.has_secondary = true;
+        });
+    }
 }
 
 } // namespace raylane::scenes
