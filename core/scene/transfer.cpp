@@ -40,16 +40,25 @@ float decode_srgb(std::uint8_t code) {
     return static_cast<float>(linear_of_srgb(code / 255.0));
 }
 
-std::optional<Color> color_from_srgb(std::string_view text) {
+std::optional<std::uint32_t> srgb_code_of(std::string_view text) {
     std::uint32_t code = 0;
     const char* const end = text.data() + text.size();
     if (text.size() != 7 || text[0] != '#' ||
         std::from_chars(text.data() + 1, end, code, 16).ptr != end)
         return std::nullopt;
+    return code;
+}
+
+Color color_from_srgb(std::uint32_t code) {
     const auto channel = [&](int shift) {
         return decode_srgb(static_cast<std::uint8_t>(code >> shift & 0xFF));
     };
     return Color(channel(16), channel(8), channel(0));
+}
+
+std::optional<Color> color_from_srgb(std::string_view text) {
+    const std::optional<std::uint32_t> code = srgb_code_of(text);
+    return code ? std::optional(color_from_srgb(*code)) : std::nullopt;
 }
 
 Encoder::Encoder(Transfer transfer) {

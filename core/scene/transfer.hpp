@@ -27,8 +27,12 @@ double linear_of_srgb(double component);
 /// Same, for an 8-bit code.
 float decode_srgb(std::uint8_t code);
 
-/// Returns the linear colour of "#rrggbb", six hexadecimal digits of the sRGB curve; none for
-/// another text.
+/// Returns the code 0xRRGGBB of "#rrggbb", six hexadecimal digits; none for another text.
+std::optional<std::uint32_t> srgb_code_of(std::string_view text);
+
+/// Returns the linear colour of a code 0xRRGGBB of the sRGB curve, or of its text "#rrggbb"; none
+/// for another text.
+Color color_from_srgb(std::uint32_t code);
 std::optional<Color> color_from_srgb(std::string_view text);
 
 /// encode() for many components, with a lookup table: the codes are the same.

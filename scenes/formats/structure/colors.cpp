@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace raylane::scenes {
@@ -67,22 +66,11 @@ constexpr std::array<NamedColor, 48> named_colors = {{
     {"magenta", 0xff00ff},    {"orchid", 0xda70d6},    {"pink", 0xffc0cb},
 }};
 
-core::Color linear(std::uint32_t srgb) {
-    const auto channel = [&](int shift) {
-        return core::decode_srgb(static_cast<std::uint8_t>(srgb >> shift & 255));
-    };
-    return {channel(16), channel(8), channel(0)};
-}
-
 } // namespace
 
-std::uint32_t ramp_at(double share, std::string_view palette) {
-    const auto* const named = std::find_if(ramps.begin(), ramps.end(),
-                                           [&](const Ramp& of) { return of.name == palette; });
-    const auto& ramp = (named != ramps.end() ? *named : ramps.front()).colors;
+std::uint32_t color_between(std::span<const std::uint32_t> ramp, double share) {
     const auto steps = static_cast<int>(ramp.size()) - 1;
-    // 64 colours are enough for the eye, and need few materials.
-    const double place = std::round(std::clamp(share, 0.0, 1.0) * 64.0) / 64.0 * steps;
+    const double place = share * steps;
     const int below = std::min(static_cast<int>(place), steps - 1);
     const double part = place - below;
     std::uint32_t color = 0;
@@ -96,6 +84,14 @@ std::uint32_t ramp_at(double share, std::string_view palette) {
     return color;
 }
 
+std::uint32_t ramp_at(double share, std::string_view palette) {
+    const auto* const named = std::find_if(ramps.begin(), ramps.end(),
+                                           [&](const Ramp& of) { return of.name == palette; });
+    const auto& ramp = (named != ramps.end() ? *named : ramps.front()).colors;
+    // 64 colours are enough for the eye, and need few materials.
+    return color_between(ramp, std::round(std::clamp(share, 0.0, 1.0) * 64.0) / 64.0);
+}
+
 std::vector<std::string_view> palette_names() {
     std::vector<std::string_view> names;
     for (const Ramp& ramp : ramps)
@@ -104,13 +100,7 @@ std::vector<std::string_view> palette_names() {
 }
 
 std::optional<std::uint32_t> color_named(std::string_view word) {
-    std::uint32_t srgb = 0;
-    if (word.starts_with('#')) {
-        const char* const end = word.data() + word.size();
-        const auto [stop, error] = std::from_chars(word.data() + 1, end, srgb, 16);
-        if (word.size() != 7 || error != std::errc() || stop != end) return std::nullopt;
-        return srgb;
-    }
+    if (word.starts_with('#')) return core::srgb_code_of(word);
     const std::string lower = in_lower_case(word);
     const auto* const found =
         std::find_if(named_colors.begin(), named_colors.end(),
@@ -138,7 +128,7 @@ std::uint32_t color_of_type(std::size_t number) {
 
 core::MaterialIndex Palette::add(std::uint32_t srgb, std::string_view name) {
     core::Material material;
-    material.pattern.colors[0] = linear(srgb);
+    material.pattern.colors[0] = core::color_from_srgb(srgb);
     material.ambient = 0.0F;
     material.specular = 0.15F;
     material.exponent = 20.0F;

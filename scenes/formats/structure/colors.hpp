@@ -5,12 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
 /// Colours are sRGB, 0xRRGGBB.
 namespace raylane::scenes {
+
+/// Returns the colour at a share in [0, 1] of a ramp, between two of its colours.
+std::uint32_t color_between(std::span<const std::uint32_t> ramp, double share);
 
 /// Returns one of 64 ordered colours of a palette, for a share in [0, 1]. `palette` is one of
 /// palette_names(), or empty for the first.

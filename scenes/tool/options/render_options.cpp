@@ -5,8 +5,8 @@
 #include "scenes/images/exr.hpp"
 #include "scenes/tool/options/command_line.hpp"
 
-#include <charconv>
 #include <cstdio>
+#include <optional>
 #include <tuple>
 
 namespace raylane::scenes {
@@ -64,15 +64,9 @@ Values<core::Region> crops() {
 
 Values<core::Color> colors() {
     const auto parse = [](const std::string& option, const std::string& text) {
-        std::uint32_t code = 0;
-        const char* const end = text.data() + text.size();
-        if (text.size() != 7 || text[0] != '#' ||
-            std::from_chars(text.data() + 1, end, code, 16).ptr != end)
-            refuse(option, "#rrggbb, such as #204060", text);
-        const auto channel = [&](int shift) {
-            return core::decode_srgb(static_cast<std::uint8_t>(code >> shift & 0xFF));
-        };
-        return core::Color{channel(16), channel(8), channel(0)};
+        const std::optional<core::Color> color = core::color_from_srgb(text);
+        if (!color) refuse(option, "#rrggbb, such as #204060", text);
+        return *color;
     };
     return {"#RRGGBB", "", parse, [](const core::Color& color) { return text_of(color); }};
 }

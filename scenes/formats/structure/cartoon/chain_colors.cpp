@@ -1,10 +1,10 @@
 #include "scenes/formats/structure/cartoon/chain_colors.hpp"
 
 #include "scenes/formats/structure/cartoon/secondary_structure.hpp"
+#include "scenes/formats/structure/colors.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -25,23 +25,6 @@ constexpr Named of_helix = {0xd55e00, "helix"}, of_strand = {0x0072b2, "strand"}
 constexpr std::array<std::uint32_t, 12> rainbow = {0x1965b0, 0x437dbf, 0x6195cf, 0x7bafde,
                                                    0x4eb265, 0x90c987, 0xcae0ab, 0xf7f056,
                                                    0xf6c141, 0xf1932d, 0xe8601c, 0xdc050c};
-
-/// Returns the colour for a share in [0, 1].
-std::uint32_t rainbow_at(double share) {
-    constexpr int steps = static_cast<int>(rainbow.size()) - 1;
-    const double place = share * steps;
-    const int below = std::min(static_cast<int>(place), steps - 1);
-    std::uint32_t color = 0;
-    for (int shift = 16; shift >= 0; shift -= 8) {
-        const auto channel = [&](int step) {
-            return static_cast<double>(rainbow[static_cast<std::size_t>(step)] >> shift & 255);
-        };
-        const double value =
-            channel(below) + (place - below) * (channel(below + 1) - channel(below));
-        color |= static_cast<std::uint32_t>(std::lround(value)) << shift;
-    }
-    return color;
-}
 
 /// Sets colours and names by residue.
 class ResidueColors {
@@ -71,7 +54,7 @@ class ResidueColors {
         for (const auto& [chain, residues] : chains)
             for (std::size_t i = 0; i < residues.size(); ++i) {
                 const std::size_t part = (i * 64) / residues.size();
-                colors_[residues[i]] = rainbow_at(static_cast<double>(part) / 63.0);
+                colors_[residues[i]] = color_between(rainbow, static_cast<double>(part) / 63.0);
                 names_[residues[i]] = "part " + std::to_string(part + 1) + " of 64";
             }
     }
