@@ -23,7 +23,7 @@ using core::Vec3d, core::Vec3f;
 /// Deepest nesting of solids that raylane's reader of POV-Ray scenes accepts.
 constexpr int max_depth = 125;
 
-using pov::is_digit, pov::is_letter;
+using pov::is_letter;
 
 /// Returns the identifier for a material's name, or "" if the name has characters that identifiers
 /// cannot have. POV-Ray's reserved words, including those that later versions add, have no

@@ -9,6 +9,10 @@
 /// Conversion of numbers and letters in files, independent of the locale.
 namespace raylane::scenes {
 
+inline bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
 /// Returns the float nearest to the decimal number `word`, which may have a leading '+'. Returns
 /// nothing if `word` is not a number, is NaN or infinite, or is too large for a float. Numbers too
 /// small for a float become 0.

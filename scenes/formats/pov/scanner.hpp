@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenes/files/errors.hpp"
+#include "scenes/files/number.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -11,10 +12,7 @@
 
 namespace raylane::scenes::pov {
 
-/// Characters of identifiers.
-inline bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
+/// Returns true for characters of identifiers that are not digits.
 inline bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }

@@ -14,10 +14,6 @@ namespace {
 
 constexpr float largest_size = 1e6F;
 
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 /// Returns the place of the last colon that is not within a range such as 20:30, or npos.
 std::size_t separator_in(std::string_view text) {
     for (std::size_t i = text.rfind(':'); i != std::string_view::npos && i < text.size();
