@@ -68,43 +68,49 @@ raylane_status occluded(const raylane_tracer* tracer, const CRays* rays,
     });
 }
 
+/// Makes the rows that query(tracer, asked, rows, statistics) fills for rays or points.
+template <class AnyRows, class Statistics, class Asked, class From, class Query>
+raylane_status rows_of(const raylane_tracer* tracer, const From* from,
+                       Asked (*convert)(const From*), raylane_rows** rows,
+                       const Query& query) noexcept {
+    return handle_of("rows", rows, [&] {
+        const Asked asked = convert(from);
+        AnyRows found;
+        Statistics statistics;
+        query(checked("tracer", tracer).tracer, asked, found, statistics);
+        store(statistics, from);
+        return found;
+    });
+}
+
 template <class Real, class CRays>
 raylane_status crossings(const raylane_tracer* tracer, const CRays* rays, std::size_t most,
                          int normals, raylane_rows** rows) noexcept {
-    return handle_of("rows", rows, [&] {
-        const BasicRaySpan<Real> asked = rays_from<Real>(rays);
-        CrossingRows found;
-        CrossingStatistics statistics;
-        checked("tracer", tracer).tracer.crossings(asked, found, {most, normals != 0}, &statistics);
-        store(statistics, rays);
-        return found;
-    });
+    return rows_of<CrossingRows, CrossingStatistics>(
+        tracer, rays, rays_from<Real, CRays>, rows,
+        [&](const Tracer& of, const auto& asked, auto& found, auto& statistics) {
+            of.crossings(asked, found, {most, normals != 0}, &statistics);
+        });
 }
 
 template <class Real, class CPoints>
 raylane_status contains(const raylane_tracer* tracer, const CPoints* points,
                         raylane_rows** rows) noexcept {
-    return handle_of("rows", rows, [&] {
-        const BasicPointSpan<Real> asked = points_from<Real>(points);
-        SolidRows found;
-        QueryStatistics statistics;
-        checked("tracer", tracer).tracer.contains(asked, found, &statistics);
-        store(statistics, points);
-        return found;
-    });
+    return rows_of<SolidRows, QueryStatistics>(
+        tracer, points, points_from<Real, CPoints>, rows,
+        [](const Tracer& of, const auto& asked, auto& found, auto& statistics) {
+            of.contains(asked, found, &statistics);
+        });
 }
 
 template <class Real, class CRays>
 raylane_status path_lengths(const raylane_tracer* tracer, const CRays* rays,
                             raylane_rows** rows) noexcept {
-    return handle_of("rows", rows, [&] {
-        const BasicRaySpan<Real> asked = rays_from<Real>(rays);
-        LengthRows found;
-        QueryStatistics statistics;
-        checked("tracer", tracer).tracer.path_lengths(asked, found, &statistics);
-        store(statistics, rays);
-        return found;
-    });
+    return rows_of<LengthRows, QueryStatistics>(
+        tracer, rays, rays_from<Real, CRays>, rows,
+        [](const Tracer& of, const auto& asked, auto& found, auto& statistics) {
+            of.path_lengths(asked, found, &statistics);
+        });
 }
 
 template <class Real, class CRays>

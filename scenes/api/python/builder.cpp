@@ -287,20 +287,7 @@ py::tuple add_quadrics(Shared<To>& builder, const py::object& centers,
             const Rows<T> least(lower, {3}, "lower", count);
             const Rows<T> most(upper, {3}, "upper", count);
             return add_all(builder, count, material, [&](std::size_t i) {
-                const auto at = [&](std::size_t k) { return q.column(k)[i]; };
-                return QuadricOf<T>{center.vector(i),
-                                    at(0),
-                                    at(1),
-                                    at(2),
-                                    at(3),
-                                    at(4),
-                                    at(5),
-                                    at(6),
-                                    at(7),
-                                    at(8),
-                                    at(9),
-                                    least.vector(i),
-                                    most.vector(i)};
+                return quadric_of(center.vector(i), q, i, least.vector(i), most.vector(i));
             });
         },
         centers, coefficients, lower, upper);

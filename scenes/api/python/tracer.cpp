@@ -350,35 +350,38 @@ bool reads_in_place(const py::object& origins, const py::object& directions,
            with_rays(origins, directions, rest, [](const auto& rays) { return rays.is_spans(); });
 }
 
-std::uint64_t occluded(SharedTracer& tracer, const py::object& origins,
-                       const py::object& directions, const py::tuple& rest, const py::object& to) {
+/// Fills an array with a value for each ray, by query(tracer, rays, values, statistics).
+template <class Value, class Query>
+std::uint64_t fill(SharedTracer& tracer, const py::object& origins, const py::object& directions,
+                   const py::tuple& rest, const py::object& to, const Query& query) {
     std::atomic<std::uint64_t> refused = 0;
     with_rays(origins, directions, rest, [&](const auto& rays) {
-        const auto all = out<std::uint8_t>(to, rays.axes(), "out");
+        const auto all = out<Value>(to, rays.axes(), "out");
         rays.share_out(
             tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
                 QueryStatistics statistics;
-                asked.occluded(part, all.subspan(from, end - from), &statistics);
+                query(asked, part, all.subspan(from, end - from), &statistics);
                 refused += statistics.refused;
             });
     });
     return refused;
 }
 
+std::uint64_t occluded(SharedTracer& tracer, const py::object& origins,
+                       const py::object& directions, const py::tuple& rest, const py::object& to) {
+    return fill<std::uint8_t>(tracer, origins, directions, rest, to,
+                              [](const Tracer& asked, const auto& part, auto values,
+                                 auto* statistics) { asked.occluded(part, values, statistics); });
+}
+
 std::uint64_t count_crossings(SharedTracer& tracer, const py::object& origins,
                               const py::object& directions, const py::tuple& rest,
                               const py::object& to) {
-    std::atomic<std::uint64_t> refused = 0;
-    with_rays(origins, directions, rest, [&](const auto& rays) {
-        const auto all = out<std::uint64_t>(to, rays.axes(), "out");
-        rays.share_out(
-            tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
-                QueryStatistics statistics;
-                asked.count_crossings(part, all.subspan(from, end - from), &statistics);
-                refused += statistics.refused;
-            });
-    });
-    return refused;
+    return fill<std::uint64_t>(
+        tracer, origins, directions, rest, to,
+        [](const Tracer& asked, const auto& part, auto values, auto* statistics) {
+            asked.count_crossings(part, values, statistics);
+        });
 }
 
 /// Appends the values of a part's rows.
