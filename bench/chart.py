@@ -283,6 +283,7 @@ def pictures_figure(source):
 
     document = document_of(source)
     isas = [isa for isa in [document.get("context", {}).get("isa")] if isa]
+    isas += sorted({what.partition("-")[2] for series in scenes.values() for what, _ in series if "-" in what})
     begin("Time and error of whole images, 400 pixels wide, one thread",
           "Lower left is better: faster and more accurate. Numbers: samples per pixel. "
           "Depth and weight limits: 64 samples per pixel.",
@@ -308,14 +309,21 @@ def pictures_figure(source):
                      (MARKS[precision], 0.7 * SIZES[precision], color, precision))
             if precision == "exact":
                 labels = points
+        for isa in isas[1:]:
+            points = [(ms, error) for _, ms, error in sorted(series.get(("samples-" + isa, "exact"), []))]
+            plot.add(points, "with linespoints pt %d ps 0.5 lw 1.2 dt 3 lc '%s' title 'exact, %s'" %
+                     (MARKS["exact"], COLORS["exact"], machine.ISA_NAMES[isa]))
         for what, title, mark, color in (("quality", "exact, quality %s dB", 5, "#cc79a7"),
+                                         *(("quality-" + isa, "the same, " + machine.ISA_NAMES[isa], 4, "#cc79a7")
+                                           for isa in isas[1:]),
                                          ("depth", "exact, depth limit %s", 6, "#7b3294"),
                                          ("weight", "exact, weight limit %s", 10, "#008080")):
             varied = sorted(series.get((what, "exact"), []))
             points = [(ms, error) for _, ms, error in varied if error > 0]
             values = [value for each in scenes.values() for value, *_ in each.get((what, "exact"), [])]
-            if values:
+            if values and "%" in title:
                 title %= interval([value / (1000 if what == "weight" else 1) for value in values])
+            if values:
                 style = "with linespoints pt %d ps 0.8 dt 2 lc '%s' title '%s'" % (mark, color, title)
                 if points:
                     plot.add(points, style)
@@ -393,7 +401,7 @@ def draw_speeds(plot, points, isa, is_first):
 def errors_figure(source):
     data = document_of(source)
     scenes = list(dict.fromkeys(row["scene"] for row in data["rows"]))
-    isas = [isa for isa in [data.get("machine", {}).get("isa")] if isa]
+    isas = [isa for isa in data.get("machine", {}).get("isa", "").split() if isa]
     begin("Time and error of whole programs, images of %d x %d pixels, %d thread%s" %
           (data["size"], data["size"], data.get("threads", 1), "s" if data.get("threads", 1) > 1 else ""),
           "Upper left is better: faster and more accurate. "
@@ -402,10 +410,13 @@ def errors_figure(source):
           "%d,2" % ((len(scenes) + 1) // 2), "wall-clock time [s]", "PSNR [dB]")
     print("unset logscale y\nset logscale x\nset format '%g'\nset yrange [25:60]\nset xrange [0.01:100]")
     print("set lmargin 10\nset ylabel offset 0\nset key top left Left reverse samplen 2 spacing 1.2 font ',9'")
-    names = {"raylane": ("raylane, fixed samples per pixel", COLORS["raylane"], 7),
-             "raylane --quality": ("raylane --quality", "#cc79a7", 5),
-             "povray": ("POV-Ray, +A +AM2 +R", COLORS["Embree"], 9),
-             "tachyon": ("Tachyon, -aasamples", COLORS["robust"], 11)}
+    names = {"raylane": ("raylane, fixed samples per pixel", COLORS["raylane"], "pt 7"),
+             "raylane --quality": ("raylane --quality", "#cc79a7", "pt 5")}
+    for name, (title, color, mark) in list(names.items()):
+        for isa in isas[1:]:
+            names[name + " --isa " + isa] = (title + ", " + machine.ISA_NAMES[isa], color, mark + " dt 3")
+    names["povray"] = ("POV-Ray, +A +AM2 +R", COLORS["Embree"], "pt 9")
+    names["tachyon"] = ("Tachyon, -aasamples", COLORS["robust"], "pt 11")
     present = {row["by"] for row in data["rows"]}
     for scene in scenes:
         rows = [row for row in data["rows"] if row["scene"] == scene and row["psnr"]]
@@ -414,7 +425,7 @@ def errors_figure(source):
         for name, (title, color, mark) in names.items():
             points = [(row["seconds"], row["psnr"]) for row in rows if row["by"] == name]
             if points:
-                plot.add(points, "with linespoints pt %d ps 0.8 lw 1.5 lc '%s' title '%s'" %
+                plot.add(points, "with linespoints %s ps 0.8 lw 1.5 lc '%s' title '%s'" %
                          (mark, color, title))
         if "povray" in present and all(row["by"] != "povray" for row in rows):
             print("set label 1 'without POV-Ray, which has no sky light' at graph 0.03,0.94 left font ',9'")

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 /// Measures the cost of an image, and its distance from a converged one: of 1,024 samples per pixel
 /// at other places, with long paths and in double precision. The benchmarks vary precision and
@@ -17,7 +18,8 @@
 ///
 /// picture/SCENE/WHAT/PRECISION/VALUE: WHAT is `samples` (per pixel), `quality` (decibels), `depth`
 /// or `weight` (per mille), with counters `seconds` of wall time on one thread and `rmse` of linear
-/// light.
+/// light. All use the widest instruction set. Beside AVX-512, `samples-avx2` and `quality-avx2`
+/// measure AVX2 as well.
 
 namespace {
 
@@ -51,8 +53,9 @@ struct Subject {
         return changed;
     }
 
-    simd::Rendering render(const core::Settings& with, core::Precision precision) const {
-        return simd::render(scene, with, {.precision = precision, .threads = 1});
+    simd::Rendering render(const core::Settings& with, core::Precision precision,
+                           simd::Isa isa = simd::best_isa()) const {
+        return simd::render(scene, with, {.isa = isa, .precision = precision, .threads = 1});
     }
 
   private:
@@ -86,7 +89,7 @@ double rmse(const core::Film& a, const core::Film& b) {
 using Change = void (*)(core::Settings&, int value);
 
 void draw(benchmark::State& state, const std::string& name, core::Precision precision,
-          Change change, int value) {
+          simd::Isa isa, Change change, int value) {
     const Subject& subject = Subject::of(name);
     core::Settings settings = subject.with_grid(usual_grid);
     change(settings, value);
@@ -94,40 +97,61 @@ void draw(benchmark::State& state, const std::string& name, core::Precision prec
     core::Film film(1, 1);
     for (auto _ : state) {
         const Clock::time_point start = Clock::now();
-        film = subject.render(settings, precision).film;
+        film = subject.render(settings, precision, isa).film;
         seconds += std::chrono::duration<double>(Clock::now() - start).count();
     }
     state.counters["seconds"] = seconds / static_cast<double>(state.iterations());
     state.counters["rmse"] = rmse(film, subject.converged);
 }
 
-void add(const std::string& scene, const char* what, core::Precision precision, Change change,
-         int value) {
-    const std::string name = "picture/" + scene + "/" + what + "/" +
-                             std::string(name_of(precision)) + "/" + std::to_string(value);
+void add(const std::string& scene, const std::string& what, core::Precision precision,
+         Change change, int value, simd::Isa isa = simd::best_isa()) {
+    std::string name = "picture/" + scene + "/" + what;
+    if (isa != simd::best_isa()) name.append("-").append(name_of(isa));
+    name.append("/").append(name_of(precision)).append("/").append(std::to_string(value));
     benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
-        draw(state, scene, precision, change, value);
+        draw(state, scene, precision, isa, change, value);
     })->Unit(benchmark::kMillisecond);
+}
+
+/// Returns the widest instruction set, and AVX2 if that is AVX-512.
+std::vector<simd::Isa> isas_to_compare() {
+    std::vector<simd::Isa> isas = {simd::best_isa()};
+    if (isas[0] == simd::Isa::avx512 && simd::is_available(simd::Isa::avx2))
+        isas.push_back(simd::Isa::avx2);
+    return isas;
+}
+
+void add_samples(const std::string& scene, core::Precision precision, simd::Isa isa) {
+    for (const int grid : {1, 2, 3, 4, 6, best_grid})
+        add(
+            scene, "samples", precision,
+            [](core::Settings& settings, int samples) {
+                settings.grid = static_cast<int>(std::lround(std::sqrt(samples)));
+            },
+            grid * grid, isa);
+}
+
+void add_quality(const std::string& scene, simd::Isa isa) {
+    for (const int decibels : {30, 34, 38, 42, 46, 50})
+        add(
+            scene, "quality", core::Precision::exact,
+            [](core::Settings& settings, int value) {
+                settings.quality = static_cast<float>(value);
+            },
+            decibels, isa);
 }
 
 const bool registered = [] {
     for (const char* scene :
          {"birthday", "sphereflake", "lattice", "mirrors", "glass-block", "quadric"}) {
         for (const core::Precision precision : core::all_precisions)
-            for (const int grid : {1, 2, 3, 4, 6, best_grid})
-                add(
-                    scene, "samples", precision,
-                    [](core::Settings& settings, int samples) {
-                        settings.grid = static_cast<int>(std::lround(std::sqrt(samples)));
-                    },
-                    grid * grid);
-        for (const int decibels : {30, 34, 38, 42, 46, 50})
-            add(
-                scene, "quality", core::Precision::exact,
-                [](core::Settings& settings, int value) {
-                    settings.quality = static_cast<float>(value);
-                },
-                decibels);
+            if (precision != core::Precision::exact)
+                add_samples(scene, precision, simd::best_isa());
+        for (const simd::Isa isa : isas_to_compare()) {
+            add_samples(scene, core::Precision::exact, isa);
+            add_quality(scene, isa);
+        }
         for (const int depth : {0, 1, 2, 3, 5, 8})
             add(
                 scene, "depth", core::Precision::exact,

@@ -4,10 +4,11 @@
 
 FOLDER holds SCENE.nff and SCENE.pov. A scene under a sky light has SCENE.json and SCENE.nff instead: Tachyon gets
 the sky light by options, and POV-Ray is left out because it has no sky light. Each program's 8-bit images are
-compared with that program's converged image, because programs shade differently. Rows of JSON:
-{"scene", "by", "setting", "seconds", "psnr"}.
+compared with that program's converged image, because programs shade differently. raylane runs with its widest
+instruction set and, if that is AVX-512, with AVX2 as well. Rows of JSON: {"scene", "by", "setting", "seconds", "psnr"}.
 """
 
+import functools
 import json
 import os
 import pathlib
@@ -45,18 +46,32 @@ def file_of(scene, ending):
     return str(folder / (scene + ending))
 
 
+@functools.lru_cache()
+def isas():
+    """Returns raylane's widest instruction set, and AVX2 if that is AVX-512."""
+    small = [raylane, "render", file_of(sys.argv[7], ".nff"), "-o", str(folder / "picture.png"), "--size", "1x1",
+             "--quiet", "--stats", "-"]
+    widest = json.loads(subprocess.run(small, stdout=subprocess.PIPE, check=True).stdout)["isa"]
+    return [widest, "avx2"] if widest == "avx512" else [widest]
+
+
+def by_raylane(isa, under_sky):
+    """Returns the `command` of a Program."""
+    source = ".json" if under_sky else ".nff"
+    return lambda scene, options, picture: [
+        raylane, "render", file_of(scene, source), "-o", picture, "--size", size + "x" + size, "--threads", threads,
+        "--isa", isa] + options
+
+
 def programs(scene):
     under_sky = not pathlib.Path(file_of(scene, ".pov")).exists()
-    source = ".json" if under_sky else ".nff"
     every = []
-    for name, settings in (
-            ("raylane", [(str(n * n), ["--spp", str(n * n)]) for n in (1, 2, 3, 4, 6, 8)]),
-            ("raylane --quality", [(str(q), ["--quality", str(q)]) for q in (30, 36, 42, 48)])):
-        every.append(Program(
-            name, lambda scene, options, picture: [
-                raylane, "render", file_of(scene, source), "-o", picture, "--size",
-                size + "x" + size, "--threads", threads] + options,
-            settings, ["--spp", "1024"]))
+    for number, isa in enumerate(isas()):
+        for name, settings in (
+                ("raylane", [(str(n * n), ["--spp", str(n * n)]) for n in (1, 2, 3, 4, 6, 8)]),
+                ("raylane --quality", [(str(q), ["--quality", str(q)]) for q in (30, 36, 42, 48)])):
+            every.append(Program(name + (" --isa " + isa if number else ""), by_raylane(isa, under_sky), settings,
+                                 ["--spp", "1024"]))
     if shutil.which("povray") and not under_sky:
         every.append(Program(
             "povray", lambda scene, options, picture: [
@@ -103,19 +118,11 @@ def measure(scene):
     return rows
 
 
-def isa():
-    """Returns raylane's instruction set, which raylane-peers has measured, or an empty string."""
-    for part in sorted((folder / "parts").glob("[0-9]*.json")):
-        for row in json.loads(part.read_text())["rows"]:
-            return row.get("isa", "")
-    return ""
-
-
 def main():
     print("Time and PSNR of whole images: %s x %s pixels, %s thread(s)" % (size, size, threads))
     rows = [row for scene in sys.argv[7:] for row in measure(scene)]
     with open(output, "w") as file:
-        json.dump({"machine": {**machine.described(build), **machine.versions_of_peers(), "isa": isa()},
+        json.dump({"machine": {**machine.described(build), **machine.versions_of_peers(), "isa": " ".join(isas())},
                    "size": int(size), "threads": int(threads), "rows": rows}, file, indent=2)
 
 

@@ -40,6 +40,7 @@ def pictures(path):
             "rmse": runs[0]["rmse"],
         }
         for (scene, what, precision, value), runs in chart.runs_of(path, "picture").items()
+        if "-" not in what  # of the widest instruction set
     ]
     # A converged image differs from itself by 0, which has no logarithm.
     return sorted((row for row in rows if row["rmse"] > 0), key=lambda row: (row["scene"], row["way"], row["ms"]))
