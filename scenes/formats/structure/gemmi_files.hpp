@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-/// Contents of the files that gemmi reads, in plain types. gemmi's headers need C++17, so the unit
-/// that includes them is compiled as C++17, and includes this header. The rest of raylane does not
+/// Contents of the files that gemmi reads, in plain types. gemmi's headers need C++17, so the units
+/// that include them are compiled as C++17, and include this header. The rest of raylane does not
 /// see them.
 namespace raylane::scenes::gemmi_files {
 
