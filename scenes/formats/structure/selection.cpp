@@ -3,46 +3,19 @@
 #include "scenes/files/errors.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/formats/structure/atom_tree.hpp"
-#include "scenes/formats/structure/labels.hpp"
 #include "scenes/formats/structure/lines.hpp"
+#include "scenes/formats/structure/named_selections.hpp"
+#include "scenes/formats/structure/selection_words.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdlib>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <utility>
 
 namespace raylane::scenes {
 
 namespace {
-
-using Selected = std::vector<char>;
-
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
-    const std::string lower = in_lower_case(word);
-    return std::find(words.begin(), words.end(), lower) != words.end();
-}
-
-bool is_same(std::string_view a, std::string_view b) {
-    return in_lower_case(a) == in_lower_case(b);
-}
-
-bool is_water(const Residue& residue) {
-    return is_one_of(residue.name, {"hoh", "wat", "sol", "h2o", "dod", "tip3", "tip4", "spc"});
-}
-bool is_amino_acid(const Residue& residue) {
-    return is_one_of(residue.name,
-                     {"ala", "arg", "asn", "asp", "cys", "gln", "glu", "gly", "his", "ile", "leu",
-                      "lys", "met", "phe", "pro", "ser", "thr", "trp", "tyr", "val", "asx", "glx",
-                      "sec", "pyl", "mse", "hid", "hie", "hip", "hsd", "hse", "hsp", "cyx"});
-}
-bool is_nucleotide(const Residue& residue) {
-    return is_one_of(residue.name,
-                     {"a", "c", "g", "u", "t", "i", "da", "dc", "dg", "dt", "du", "di"});
-}
 
 Selected atoms_within(const Structure& structure, const Selected& of, float reach) {
     std::vector<AtomIndex> atoms;
@@ -53,60 +26,6 @@ Selected atoms_within(const Structure& structure, const Selected& of, float reac
     for (AtomIndex i = 0; i < of.size(); ++i)
         if (result[i] == 0 && tree.has_within(structure.positions[i], reach)) result[i] = 1;
     return result;
-}
-
-/// Words of the language, except and, or, of, to, x, y and z.
-constexpr std::array<std::string_view, 23> keywords = {
-    "all",    "none",     "protein", "nucleic",  "water",     "ligand", "metal",   "ion",
-    "hetero", "hydrogen", "noh",     "backbone", "sidechain", "chain",  "residue", "element",
-    "name",   "type",     "index",   "within",   "exwithin",  "byres",  "not"};
-
-/// A word of PyMOL or VMD.
-struct Alias {
-    std::string_view elsewhere, here;
-};
-constexpr std::array aliases = {
-    Alias{"*", "all"},
-    Alias{"atomname", "name"},
-    Alias{"b.", "b_factor"},
-    Alias{"bb.", "backbone"},
-    Alias{"br.", "byres"},
-    Alias{"byresidue", "byres"},
-    Alias{"c.", "chain"},
-    Alias{"e.", "element"},
-    Alias{"elem", "element"},
-    Alias{"everything", "all"},
-    Alias{"h.", "hydrogen"},
-    Alias{"hetatm", "hetero"},
-    Alias{"hydro", "hydrogen"},
-    Alias{"hydrogens", "hydrogen"},
-    Alias{"ions", "ion"},
-    Alias{"metals", "metal"},
-    Alias{"n.", "name"},
-    Alias{"organic", "ligand"},
-    Alias{"polymer.nucleic", "nucleic"},
-    Alias{"polymer.protein", "protein"},
-    Alias{"r.", "resn"},
-    Alias{"i.", "resi"},
-    Alias{"resid", "resi"},
-    Alias{"resname", "resn"},
-    Alias{"sc.", "sidechain"},
-    Alias{"solvent", "water"},
-    Alias{"waters", "water"},
-};
-
-/// Returns the word of the language for a word in any case.
-std::string keyword_of(std::string_view word) {
-    std::string lower = in_lower_case(word);
-    for (const Alias& alias : aliases)
-        if (lower == alias.elsewhere) return std::string(alias.here);
-    return lower;
-}
-
-/// Returns the property that PyMOL or VMD calls `word`, or `word`.
-std::string_view property_name_of(std::string_view word) {
-    if (is_one_of(word, {"b", "beta", "bfactor", "tempfactor"})) return "b_factor";
-    return is_same(word, "q") ? "occupancy" : word;
 }
 
 class Parser {
@@ -168,7 +87,7 @@ class Parser {
         word_ = text_.substr(begin, position_ - begin);
     }
     bool take(std::string_view word) {
-        if (!is_same(word_, word)) return false;
+        if (!is_same_word(word_, word)) return false;
         advance();
         return true;
     }
@@ -200,7 +119,7 @@ class Parser {
     Selected near() {
         Selected result = one();
         while (true) {
-            if (is_same(word_, "within") || is_same(word_, "exwithin"))
+            if (is_same_word(word_, "within") || is_same_word(word_, "exwithin"))
                 keep_both(result, one());
             else if (take("around"))
                 result = without(atoms_within(structure_, result, distance()), result);
@@ -214,17 +133,6 @@ class Parser {
         for (std::size_t i = 0; i < result.size(); ++i)
             result[i] = static_cast<char>(result[i] & other[i]);
     }
-    static Selected without(Selected result, const Selected& other) {
-        for (std::size_t i = 0; i < result.size(); ++i)
-            result[i] = static_cast<char>(result[i] & (1 - other[i]));
-        return result;
-    }
-    static Selected opposite(Selected result) {
-        for (char& is_selected : result)
-            is_selected = static_cast<char>(1 - is_selected);
-        return result;
-    }
-
     Selected one() {
         if (++depth_ > 100) fail("must not be nested deeper than 100");
         Selected result = one_of_any_depth();
@@ -238,7 +146,7 @@ class Parser {
             if (!take(")")) fail(R"x(must be ")", got )x" + got());
             return result;
         }
-        const bool excludes = is_same(word_, "exwithin");
+        const bool excludes = is_same_word(word_, "exwithin");
         if (take("within") || take("exwithin")) {
             const float reach = distance();
             require("of");
@@ -246,7 +154,7 @@ class Parser {
             Selected near = atoms_within(structure_, of, reach);
             return excludes ? without(std::move(near), of) : near;
         }
-        if (is_same(keyword_of(word_), "byres")) {
+        if (is_same_word(keyword_of(word_), "byres")) {
             advance();
             return whole_residues(near());
         }
@@ -272,7 +180,7 @@ class Parser {
         std::vector<char> has_any(structure_.of_residue.size());
         for (AtomIndex i = 0; i < of.size(); ++i)
             if (of[i] != 0) has_any[structure_.residues[i]] = 1;
-        return where([&](AtomIndex i) { return has_any[structure_.residues[i]] != 0; });
+        return where(structure_, [&](AtomIndex i) { return has_any[structure_.residues[i]] != 0; });
     }
 
     double number(const char* what) {
@@ -283,26 +191,11 @@ class Parser {
         return *value;
     }
 
-    template <class Test>
-    Selected where(const Test& test) const {
-        Selected result(structure_.size());
-        for (std::size_t i = 0; i < result.size(); ++i)
-            result[i] = test(static_cast<AtomIndex>(i)) ? 1 : 0;
-        return result;
-    }
-    template <class Test>
-    Selected where_residue(const Test& test) const {
-        if (structure_.residues.empty()) return Selected(structure_.size());
-        std::vector<char> of_residue;
-        for (const Residue& residue : structure_.of_residue)
-            of_residue.push_back(test(residue) ? 1 : 0);
-        return where([&](AtomIndex i) { return of_residue[structure_.residues[i]] != 0; });
-    }
-
     Selected words() {
         const std::string_view given = word_;
         const std::string word = keyword_of(taken("a selection"));
-        if (std::optional<Selected> named = named_selection(word)) return *std::move(named);
+        if (std::optional<Selected> named = named_selection(structure_, word))
+            return *std::move(named);
         if (word == "chain") return chains();
         if (word == "residue") return residues(true, true);
         if (word == "resn") return residues(true, false);
@@ -313,89 +206,13 @@ class Parser {
         if (word == "index") return indices();
         return property(given);
     }
-    /// Returns the atoms of a word that stands by itself.
-    std::optional<Selected> named_selection(const std::string& word) const {
-        const auto is_hydrogen = [&](AtomIndex i) { return structure_.element(i) == 1; };
-        if (word == "all") return Selected(structure_.size(), 1);
-        if (word == "none") return Selected(structure_.size(), 0);
-        if (word == "protein") return where_residue(is_amino_acid);
-        if (word == "nucleic") return where_residue(is_nucleotide);
-        if (word == "water") return where_residue(is_water);
-        if (word == "hetero")
-            return where_residue([](const Residue& residue) { return residue.is_hetero; });
-        if (word == "ligand") return ligands();
-        if (word == "ion") return ions();
-        if (word == "metal")
-            return where([&](AtomIndex i) { return is_metal(structure_.element(i)); });
-        if (word == "hydrogen") return where(is_hydrogen);
-        if (word == "noh") return opposite(where(is_hydrogen));
-        if (word == "backbone") return backbone();
-        if (word == "sidechain") return without(where_residue(is_amino_acid), backbone());
-        return std::nullopt;
-    }
-
-    /// Selects residues with carbon, except water and parts of polymers.
-    Selected ligands() const {
-        if (structure_.residues.empty()) return Selected(structure_.size());
-        const std::size_t count = structure_.of_residue.size();
-        std::vector<char> has_carbon(count), is_like_amino_acid(count);
-        for (AtomIndex i = 0; i < structure_.size(); ++i) {
-            const std::uint32_t of = structure_.residues[i];
-            if (structure_.element(i) == 6) has_carbon[of] = 1;
-            if (!structure_.names.empty() && structure_.names[i] == "CA" &&
-                structure_.element(i) == 6)
-                is_like_amino_acid[of] = 1;
-        }
-        // A modified amino acid is next to another residue of its chain.
-        const auto is_linked = [&](std::size_t k, std::size_t other) {
-            if (other >= count) return false;
-            const Residue &a = structure_.of_residue[k], &b = structure_.of_residue[other];
-            return a.chain == b.chain && std::abs(std::int64_t{a.number} - b.number) <= 1 &&
-                   is_amino_acid(b);
-        };
-        std::vector<char> result(count);
-        for (std::size_t k = 0; k < count; ++k) {
-            const Residue& residue = structure_.of_residue[k];
-            const bool is_modified =
-                is_like_amino_acid[k] != 0 && (is_linked(k, k - 1) || is_linked(k, k + 1));
-            if (has_carbon[k] != 0 && !is_modified && !is_water(residue) &&
-                !is_amino_acid(residue) && !is_nucleotide(residue) &&
-                !is_polymer_residue(residue.name))
-                result[k] = 1;
-        }
-        return where([&](AtomIndex i) { return result[structure_.residues[i]] != 0; });
-    }
-
-    /// Selects residues of one atom that are not water.
-    Selected ions() const {
-        if (structure_.residues.empty()) return Selected(structure_.size());
-        std::vector<std::size_t> atoms(structure_.of_residue.size());
-        for (const std::uint32_t residue : structure_.residues)
-            ++atoms[residue];
-        return where([&](AtomIndex i) {
-            const std::uint32_t of = structure_.residues[i];
-            const Residue& residue = structure_.of_residue[of];
-            return atoms[of] == 1 && !is_water(residue) && !is_amino_acid(residue) &&
-                   !is_nucleotide(residue);
-        });
-    }
-
-    Selected backbone() const {
-        Selected of_protein = where_residue(is_amino_acid);
-        if (structure_.names.empty()) return of_protein;
-        return where([&](AtomIndex i) {
-            return of_protein[i] != 0 &&
-                   is_one_of(structure_.names[i], {"n", "ca", "c", "o", "oxt"});
-        });
-    }
-
     bool is_in_list() const {
         if (word_.empty() || word_ == "(" || word_ == ")") return false;
-        if (is_one_of(word_, {"and", "or", "&", "|", "resn", "resi", "around", "expand", "same"}))
+        if (is_any_word(word_, {"and", "or", "&", "|", "resn", "resi", "around", "expand", "same"}))
             return false;
-        return is_same(word_, "ion") || // a residue of GROMOS
-               std::none_of(keywords.begin(), keywords.end(),
-                            [&](std::string_view keyword) { return is_same(word_, keyword); });
+        return is_same_word(word_, "ion") || // a residue of GROMOS
+               std::none_of(selection_keywords.begin(), selection_keywords.end(),
+                            [&](std::string_view keyword) { return is_same_word(word_, keyword); });
     }
     /// Returns the words up to a keyword; at least one. A word "20 to 30" has blanks.
     std::vector<std::string_view> list(const char* what) {
@@ -403,7 +220,7 @@ class Parser {
         std::vector<std::string_view> result;
         while (is_in_list()) {
             const std::string_view first = taken(what);
-            if (range_in(first) && is_same(word_, "to")) {
+            if (range_in(first) && is_same_word(word_, "to")) {
                 advance();
                 const std::string_view last = taken("the end of a range");
                 const auto length = last.data() + last.size() - first.data();
@@ -431,7 +248,7 @@ class Parser {
             return std::find(structure_.chains.begin(), structure_.chains.end(), word) !=
                    structure_.chains.end();
         });
-        return where_residue([&](const Residue& residue) {
+        return where_residue(structure_, [&](const Residue& residue) {
             return std::find(wanted.begin(), wanted.end(), structure_.chains[residue.chain]) !=
                    wanted.end();
         });
@@ -478,10 +295,11 @@ class Parser {
                                   printable(word) + "\"");
         }
         const auto has = [&](const Residue& residue, std::size_t k) {
-            return is_in(ranges[k], residue.number) || (by_name && is_same(words[k], residue.name));
+            return is_in(ranges[k], residue.number) ||
+                   (by_name && is_same_word(words[k], residue.name));
         };
         std::vector<char> is_matched(words.size());
-        Selected result = where_residue([&](const Residue& residue) {
+        Selected result = where_residue(structure_, [&](const Residue& residue) {
             bool has_any = false;
             for (std::size_t k = 0; k < words.size(); ++k)
                 if (has(residue, k)) {
@@ -512,19 +330,19 @@ class Parser {
                 structure_.of_kind.begin(), structure_.of_kind.end(),
                 [&](const AtomKind& kind) { return kind.element == element_of(word); });
         });
-        return where([&](AtomIndex i) { return wanted[structure_.element(i)] != 0; });
+        return where(structure_, [&](AtomIndex i) { return wanted[structure_.element(i)] != 0; });
     }
 
     Selected names() {
         const std::vector<std::string_view> wanted = list("the name of an atom");
         note_unmatched(wanted, "atom", [&](std::string_view word) {
             return std::any_of(structure_.names.begin(), structure_.names.end(),
-                               [&](const std::string& name) { return is_same(word, name); });
+                               [&](const std::string& name) { return is_same_word(word, name); });
         });
         if (structure_.names.empty()) return Selected(structure_.size());
-        return where([&](AtomIndex i) {
+        return where(structure_, [&](AtomIndex i) {
             return std::any_of(wanted.begin(), wanted.end(), [&](std::string_view name) {
-                return is_same(name, structure_.names[i]);
+                return is_same_word(name, structure_.names[i]);
             });
         });
     }
@@ -539,7 +357,7 @@ class Parser {
         for (const AtomKind& kind : structure_.of_kind)
             of_kind.push_back(
                 std::find(wanted.begin(), wanted.end(), kind.label) != wanted.end() ? 1 : 0);
-        return where([&](AtomIndex i) { return of_kind[structure_.kinds[i]] != 0; });
+        return where(structure_, [&](AtomIndex i) { return of_kind[structure_.kinds[i]] != 0; });
     }
 
     Selected indices() {
@@ -551,7 +369,8 @@ class Parser {
                                   printable(word) + "\"");
             ranges.push_back(*range);
         }
-        return where([&](AtomIndex i) { return is_in(ranges, static_cast<long long>(i) + 1); });
+        return where(structure_,
+                     [&](AtomIndex i) { return is_in(ranges, static_cast<long long>(i) + 1); });
     }
 
     /// Returns the values of x, y, z or a property of the file. Throws for other words.
@@ -559,7 +378,7 @@ class Parser {
         const auto named = [&](std::string_view wanted) {
             return std::find_if(
                 structure_.properties.begin(), structure_.properties.end(),
-                [&](const AtomProperty& property) { return is_same(property.name, wanted); });
+                [&](const AtomProperty& property) { return is_same_word(property.name, wanted); });
         };
         auto found = named(name);
         if (found == structure_.properties.end()) found = named(property_name_of(name));
@@ -568,11 +387,12 @@ class Parser {
                 return static_cast<double>((*values)[i]);
             };
         for (int axis = 0; axis < 3; ++axis)
-            if (is_same(name, std::string_view("xyz").substr(static_cast<std::size_t>(axis), 1)))
+            if (is_same_word(name,
+                             std::string_view("xyz").substr(static_cast<std::size_t>(axis), 1)))
                 return [this, axis](AtomIndex i) {
                     return static_cast<double>(structure_.positions[i][axis]);
                 };
-        std::vector<std::string_view> known(keywords.begin(), keywords.end());
+        std::vector<std::string_view> known(selection_keywords.begin(), selection_keywords.end());
         known.insert(known.end(), {"x", "y", "z"});
         for (const AtomProperty& property : structure_.properties)
             known.push_back(property.name);
@@ -590,7 +410,7 @@ class Parser {
             sign != "==")
             fail_at(sign, "must have <, <=, >, >= or = behind it, got \"" + printable(sign) + "\"");
         const double bound = number("a number");
-        return where([&](AtomIndex i) {
+        return where(structure_, [&](AtomIndex i) {
             const double value = value_of(i);
             if (sign == "<") return value < bound;
             if (sign == "<=") return value <= bound;
