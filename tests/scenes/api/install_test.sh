@@ -104,6 +104,22 @@ else
     echo "(there is no Fortran)"
 fi
 
+echo "its components are trace and raylane"
+mkdir components
+cat >components/CMakeLists.txt <<EOF
+cmake_minimum_required(VERSION 3.25)
+project(components LANGUAGES C)
+foreach(components trace raylane "trace;raylane" "raylane;trace")
+  find_package(raylane REQUIRED COMPONENTS \${components})
+endforeach()
+find_package(raylane QUIET COMPONENTS files)
+if(raylane_FOUND)
+  message(FATAL_ERROR "there is a component files")
+endif()
+EOF
+quietly "$cmake" -S components -B components/build -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_C_COMPILER="$c_compiler"
+
 # A library with sanitizers must be linked by the C++ compiler.
 in_c=yes
 case $flags in *-fsanitize*) in_c= ;; esac
