@@ -15,6 +15,18 @@ struct GivenStart {
     double rounding;            ///< share of the shape's size
 };
 
+constexpr std::uint8_t by_direction = 2;
+
+/// Returns the number that tells to which side a ray goes; null if the direction tells.
+const std::uint8_t* checked_side(const std::uint8_t* inward) {
+    if (inward == nullptr || *inward == by_direction) return nullptr;
+    if (*inward > by_direction)
+        throw core::InvalidValue("origin_inward",
+                                 "must be 0, 1, or 2 if the direction decides, got " +
+                                     std::to_string(*inward));
+    return inward;
+}
+
 /// Returns true if a ray goes to the inside of the shape that it starts on. Throws InvalidValue if
 /// it cannot start there, or clearly goes to the other side than it says.
 template <class Shape>
@@ -58,13 +70,11 @@ void Starts::start_on_any(const Paths& paths, std::size_t lane, const RayStream<
     const std::uint32_t slot = slot_of(shape);
     if (slot == no_slot) return paths.start_nowhere(lane, lane + 1);
     const SceneData::NamedShape named = scene_.shape_named(shape, slot);
-    const std::uint8_t* const inward = from(rays.origin_inward, i);
-    constexpr std::uint8_t by_direction = 2;
-    const GivenStart start{ray_in_double(rays, i),
-                           rays.origin_face != nullptr ? rays.origin_face[i] : core::body,
-                           inward != nullptr && *inward != by_direction ? inward : nullptr,
-                           solids_.is_reversed(shape), rounding_in<Real>};
     try {
+        const GivenStart start{ray_in_double(rays, i),
+                               rays.origin_face != nullptr ? rays.origin_face[i] : core::body,
+                               checked_side(from(rays.origin_inward, i)),
+                               solids_.is_reversed(shape), rounding_in<Real>};
         const bool is_inward =
             goes_inside(scene_.scene(), named.kind, scene_.place_of(slot), start);
         paths.start_on(lane, slot, named,

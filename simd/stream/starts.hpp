@@ -83,7 +83,7 @@ class Starts {
                 {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)}),
             ray_in_double(rays, i), core::body, rounding_in<Real>);
         if (side == 0 ||
-            (rays.origin_inward != nullptr && (rays.origin_inward[i] != 0) != (side < 0)))
+            (rays.origin_inward != nullptr && rays.origin_inward[i] != (side < 0 ? 1 : 0)))
             return false;
         const SceneData::NamedShape sphere{{id, id}, core::Kind::sphere, /*flat=*/false};
         paths.start_on(lane, slot, sphere, core::body | (side < 0 ? hit_entering : 0U),

@@ -119,7 +119,7 @@ inline bool are_floats_or_plain(const py::object& values, const char* field) {
 }
 
 /// Returns whole numbers from 0 to `most` as an array of type Value. Throws InvalidValue for other
-/// numbers.
+/// numbers; its field ends in the index of the number, in the order of C, unless there is only one.
 template <class Value>
 py::object whole_numbers(const py::handle& values, const char* field, Value most) {
     py::array array = any_array(values, field);
@@ -135,8 +135,10 @@ py::object whole_numbers(const py::handle& values, const char* field, Value most
         for (py::ssize_t i = 0; i < numbers.size(); ++i) {
             const Wide number = numbers.data()[i];
             if (std::cmp_less(number, 0) || std::cmp_greater(number, most))
-                throw InvalidValue(field, "must be from 0 to " + std::to_string(most) + ", got " +
-                                              std::to_string(number));
+                throw InvalidValue(std::string(field) +
+                                       (numbers.ndim() == 0 ? "" : '/' + std::to_string(i)),
+                                   "must be from 0 to " + std::to_string(most) + ", got " +
+                                       std::to_string(number));
             to[i] = static_cast<Value>(number);
         }
         return result;

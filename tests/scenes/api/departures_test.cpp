@@ -138,6 +138,11 @@ void check_departures() {
               "origin_inward/1: must be 0 for a direction to the outside, got 1");
         CHECK(refusal(tracer, p.at, minus(p.out), p.shape, p.face, 0) ==
               "origin_inward/1: must be 1 for a direction to the inside, got 0");
+        for (const int other : {3, 255})
+            for (const Vec3Of<Real>& direction : {p.out, minus(p.out)})
+                CHECK(refusal(tracer, p.at, direction, p.shape, p.face, other) ==
+                      "origin_inward/1: must be 0, 1, or 2 if the direction decides, got " +
+                          std::to_string(other));
         CHECK(refusal(tracer, p.at, p.out, p.shape, 77, 0)
                   .find("origin_face/1: must be less than the shape's number of faces, ") == 0);
         if (p.shape == 7) continue; // a plane takes any origin

@@ -51,7 +51,7 @@ struct BasicRaySpan {
     /// 2^-18 of the coordinates. Unbounded shapes take any origin. Field "origin_face/7": the shape
     /// has no such face. Field "origin_inward/7": the direction goes to the other side, by an angle
     /// of more than 2^-5 (floats) or 2^-9 (doubles), from the origin and from points that far
-    /// beside it. The output is then incomplete.
+    /// beside it, or the number is above 2. The output is then incomplete.
     std::span<const ShapeId> origin_shape{};
     std::span<const std::uint8_t> origin_face{}; ///< HitSpan::face of that hit; empty: 0
     /// 1 if the ray goes to the inside (back) of that surface: it is transmitted after a hit with

@@ -43,7 +43,7 @@ class Leaving(Fields):
     origin is farther from the shape than rounding explains: 2^-6 of the shape's size for float32, 2^-10 for float64,
     and 2^-18 of the coordinates. Unbounded shapes take any origin. ``leaving.face/7``: the shape has no such face.
     ``leaving.inward/7``: the direction goes to the other side, by an angle of more than 2^-5 (float32) or 2^-9
-    (float64), from the origin and from points that far beside it.
+    (float64), from the origin and from points that far beside it, or the number is above 2.
     """
 
     shape_id: ArrayLike
