@@ -133,7 +133,7 @@ bool is_kept(const Lattice& lattice, const Flights& flights, std::size_t i, cons
              const CrossingRows& rows, std::vector<Where>& where, Tally& tally) {
     std::fill(where.begin(), where.end(), Where::outside);
     for (std::uint64_t k = in.first[i]; k < in.first[i + 1]; ++k)
-        where[in.shape[k]] = in.on_surface[k] != 0 ? Where::on_surface : Where::inside;
+        where[in.shape_id[k]] = in.on_surface[k] != 0 ? Where::on_surface : Where::inside;
     for (const ShapeId plane : lattice.planes) {
         const std::size_t n = plane - lattice.planes.front();
         const std::size_t grid = 2 * (across + 1);
@@ -151,7 +151,7 @@ bool is_kept(const Lattice& lattice, const Flights& flights, std::size_t i, cons
         tally.touches += rows.touching[k];
         if (!(rows.t[k] >= last) || (rows.tied[k] != 0 && rows.t[k] != last)) return false;
         last = rows.t[k];
-        if (!crosses(where[rows.shape[k]], rows.entering[k] != 0)) return false;
+        if (!crosses(where[rows.shape_id[k]], rows.entering[k] != 0)) return false;
     }
     return std::all_of(where.begin(), where.begin() + static_cast<std::ptrdiff_t>(lattice.solids),
                        [](Where w) { return w != Where::inside; });

@@ -97,7 +97,7 @@ class Work {
         const Image image = render(scene, options);
         Hash hash;
         hash.add(image.rgb);
-        hash.add(image.layers.shape);
+        hash.add(image.layers.shape_id);
         return hash.value();
     }
     std::uint64_t cancel() const {
@@ -132,9 +132,9 @@ class Work {
         tracer_.intersect(some, {.normal_double_x = normal});
         Hash hash;
         hash.add(rows.t);
-        hash.add(rows.shape);
+        hash.add(rows.shape_id);
         hash.add(rows.normal_x);
-        hash.add(solids.shape);
+        hash.add(solids.shape_id);
         hash.add(lengths.length);
         hash.add(of_solids.length);
         hash.add(normal);

@@ -32,7 +32,7 @@ const uint64_t* raylane_rows_first(const raylane_rows* rows) {
     }
 RAYLANE_COLUMN(double, t, t)
 RAYLANE_COLUMN(double, length, length)
-RAYLANE_COLUMN(uint32_t, shape_id, shape)
+RAYLANE_COLUMN(uint32_t, shape_id, shape_id)
 RAYLANE_COLUMN(uint32_t, material, material)
 RAYLANE_COLUMN(uint8_t, entering, entering)
 RAYLANE_COLUMN(uint8_t, face, face)

@@ -47,7 +47,7 @@ raylane_status intersect(const raylane_tracer* tracer, const CRays* rays,
             .tracer.intersect(
                 asked,
                 HitSpan{span_of(to.t, n), span_of(to.normal_x, n), span_of(to.normal_y, n),
-                        span_of(to.normal_z, n), span_of(to.shape, n), span_of(to.entering, n),
+                        span_of(to.normal_z, n), span_of(to.shape_id, n), span_of(to.entering, n),
                         span_of(to.face, n), span_of(to.t_double, n),
                         span_of(to.normal_double_x, n), span_of(to.normal_double_y, n),
                         span_of(to.normal_double_z, n)},

@@ -54,7 +54,7 @@ simd::HitStream stream_of(const HitSpan& hits, std::size_t count) {
     return {optional("t", hits.t, count),
             {optional("normal_x", hits.normal_x, count), optional("normal_y", hits.normal_y, count),
              optional("normal_z", hits.normal_z, count)},
-            optional("shape", hits.shape, count),
+            optional("shape_id", hits.shape_id, count),
             optional("entering", hits.entering, count),
             optional("face", hits.face, count),
             optional("t_double", hits.t_double, count)};
@@ -189,11 +189,11 @@ OnwardRays<Real> rays_onward(const BasicRaySpan<Real>& rays, const HitSpan& hits
         require_length("t", hits.t.size(), count);
     else
         require_length("t_double", hits.t_double.size(), count);
-    require_length("shape", hits.shape.size(), count);
+    require_length("shape_id", hits.shape_id.size(), count);
     require_length("face", hits.face.size(), count);
 
     OnwardRays<Real> onward;
-    onward.shape.assign(hits.shape.begin(), hits.shape.end());
+    onward.shape_id.assign(hits.shape_id.begin(), hits.shape_id.end());
     onward.face.assign(hits.face.begin(), hits.face.end());
     onward.inward.resize(count);
     std::vector<Real>* const origins[] = {&onward.origin_x, &onward.origin_y, &onward.origin_z};
@@ -204,8 +204,9 @@ OnwardRays<Real> rays_onward(const BasicRaySpan<Real>& rays, const HitSpan& hits
                 hits.t_double.empty() ? static_cast<double>(hits.t[i]) : hits.t_double[i];
             const double at = static_cast<double>(from.origin[axis][i]) +
                               t * static_cast<double>(from.direction[axis][i]);
-            (*origins[axis])[i] = hits.shape[i] == no_shape ? std::numeric_limits<Real>::quiet_NaN()
-                                                            : static_cast<Real>(at);
+            (*origins[axis])[i] = hits.shape_id[i] == no_shape
+                                      ? std::numeric_limits<Real>::quiet_NaN()
+                                      : static_cast<Real>(at);
         }
     }
     for (std::size_t i = 0; i < count; ++i) {

@@ -91,7 +91,7 @@ py::dict arrays_of(Image&& image) {
     if (image.layers.depth.empty()) return result;
     result["depth"] = plane(std::move(image.layers.depth));
     result["normal"] = shaped(std::move(image.layers.normal), {height, width, 3});
-    result["shape"] = plane(std::move(image.layers.shape));
+    result["shape"] = plane(std::move(image.layers.shape_id));
     result["material"] = plane(std::move(image.layers.material));
     result["samples"] = plane(std::move(image.layers.samples));
     return result;

@@ -311,7 +311,7 @@ std::uint64_t intersect(SharedTracer& tracer, const py::object& origins,
                           .normal_x = out<float>(to[1], n, "out.normal"),
                           .normal_y = out<float>(to[2], n, "out.normal"),
                           .normal_z = out<float>(to[3], n, "out.normal"),
-                          .shape = out<ShapeId>(to[4], n, "out.shape_id"),
+                          .shape_id = out<ShapeId>(to[4], n, "out.shape_id"),
                           .entering = out<std::uint8_t>(to[5], n, "out.entering"),
                           .face = out<std::uint8_t>(to[6], n, "out.face"),
                           .t_double = t_double,
@@ -329,7 +329,7 @@ std::uint64_t intersect(SharedTracer& tracer, const py::object& origins,
                                  .normal_x = of(all.normal_x),
                                  .normal_y = of(all.normal_y),
                                  .normal_z = of(all.normal_z),
-                                 .shape = of(all.shape),
+                                 .shape_id = of(all.shape_id),
                                  .entering = of(all.entering),
                                  .face = of(all.face),
                                  .t_double = of(all.t_double),
@@ -433,7 +433,7 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
             refused += statistics.refused;
             append_rows(all.first, rows.first);
             append(all.t, rows.t);
-            append(all.shape, rows.shape);
+            append(all.shape_id, rows.shape_id);
             append(all.entering, rows.entering);
             append(all.face, rows.face);
             append(all.tied, rows.tied);
@@ -449,7 +449,7 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
     py::dict result;
     result["first"] = array_from(std::move(all.first));
     result["t"] = array_from(std::move(all.t));
-    result["shape_id"] = array_from(std::move(all.shape));
+    result["shape_id"] = array_from(std::move(all.shape_id));
     result["entering"] = bools_from(std::move(all.entering));
     result["face"] = array_from(std::move(all.face));
     result["tied"] = bools_from(std::move(all.tied));
@@ -536,12 +536,12 @@ py::dict contains(const SharedTracer& tracer, const py::object& points) {
             asked.contains(some, part, &statistics);
             refused += statistics.refused;
             append_rows(all.first, part.first);
-            append(all.shape, part.shape);
+            append(all.shape_id, part.shape_id);
             append(all.on_surface, part.on_surface);
         });
     py::dict result;
     result["first"] = array_from(std::move(all.first));
-    result["shape_id"] = array_from(std::move(all.shape));
+    result["shape_id"] = array_from(std::move(all.shape_id));
     result["on_surface"] = bools_from(std::move(all.on_surface));
     result["refused"] = refused;
     return result;

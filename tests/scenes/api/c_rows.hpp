@@ -56,7 +56,7 @@ inline void check_same(const RowsHandle& in_c, const CrossingRows& rows) {
     const raylane_rows* const c = in_c.get();
     check_offsets(in_c, rows.first);
     CHECK(is_same(raylane_rows_t(c), rows.t));
-    CHECK(is_same(raylane_rows_shape_id(c), rows.shape));
+    CHECK(is_same(raylane_rows_shape_id(c), rows.shape_id));
     CHECK(is_same(raylane_rows_entering(c), rows.entering));
     CHECK(is_same(raylane_rows_face(c), rows.face));
     CHECK(is_same(raylane_rows_tied(c), rows.tied));
@@ -78,7 +78,7 @@ inline void check_same(const RowsHandle& in_c, const LengthRows& rows) {
 
 inline void check_same(const RowsHandle& in_c, const SolidRows& rows) {
     check_offsets(in_c, rows.first);
-    CHECK(is_same(raylane_rows_shape_id(in_c.get()), rows.shape));
+    CHECK(is_same(raylane_rows_shape_id(in_c.get()), rows.shape_id));
     CHECK(is_same(raylane_rows_on_surface(in_c.get()), rows.on_surface));
     CHECK(raylane_rows_t(in_c.get()) == nullptr);
 }

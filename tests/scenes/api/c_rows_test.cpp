@@ -84,7 +84,7 @@ TEST_CASE("rows of float rays and points in C are those of C++") {
     check_same(made<RowsHandle>(
                    [&](raylane_rows** to) { return raylane_contains(asked.get(), &points, to); }),
                solids);
-    CHECK(std::count(solids.shape.begin(), solids.shape.end(), 1) > 0);
+    CHECK(std::count(solids.shape_id.begin(), solids.shape_id.end(), 1) > 0);
 }
 
 TEST_CASE("rows of double rays and points in C are those of C++") {

@@ -154,7 +154,7 @@ TEST_CASE("C adds shapes in double of every kind as C++ does") {
     const std::size_t count = builder.shape_count();
     const CrossingRows rows = check_crossings(built(in_c), builder.build(), rays);
     for (ShapeId id = 0; id < count; ++id)
-        CHECK(std::count(rows.shape.begin(), rows.shape.end(), id) > 0);
+        CHECK(std::count(rows.shape_id.begin(), rows.shape_id.end(), id) > 0);
 }
 
 TEST_CASE("C makes solids of every kind of shape as C++ does") {
@@ -211,7 +211,7 @@ TEST_CASE("unions and intersections and differences and lenses in C are those of
     const CrossingRows rows = check_crossings(scene_in_c, scene, rays);
     for (ShapeId id = 0; id < scene.shape_count(); ++id) {
         std::uint32_t material = 77, solid = 77;
-        CHECK(std::count(rows.shape.begin(), rows.shape.end(), id) > 0);
+        CHECK(std::count(rows.shape_id.begin(), rows.shape_id.end(), id) > 0);
         CHECK(raylane_scene_material_of(scene_in_c.get(), id, &material) == RAYLANE_OK);
         CHECK(material == scene.material_of(id));
         CHECK(raylane_scene_solid_of(scene_in_c.get(), id, &solid) == RAYLANE_OK);

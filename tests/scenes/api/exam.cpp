@@ -128,7 +128,7 @@ bool is_right(const CrossingRows& rows, std::size_t row, const oracle::Sight& si
                        compare(other.hit, found.hit) == 0;
             });
         const bool is_tied = before != nullptr && compare(before->hit, found.hit) == 0;
-        if (at == end || rows.shape[at] != found.shape ||
+        if (at == end || rows.shape_id[at] != found.shape ||
             rows.t[at] != oracle::rounded_to_double(found.hit.root, found.hit.t) ||
             rows.entering[at] != (found.hit.entering ? 1 : 0) ||
             rows.tied[at] != (is_tied ? 1 : 0) || rows.touching[at] != (touches ? 1 : 0))
@@ -142,7 +142,7 @@ bool is_right(const CrossingRows& rows, std::size_t row, const oracle::Sight& si
 bool is_first(const CrossingRows& firsts, const CrossingRows& rows, std::size_t row) {
     const std::uint64_t a = firsts.first[row], b = rows.first[row];
     if (rows.first[row + 1] == b) return firsts.first[row + 1] == a;
-    return firsts.first[row + 1] == a + 1 && firsts.shape[a] == rows.shape[b] &&
+    return firsts.first[row + 1] == a + 1 && firsts.shape_id[a] == rows.shape_id[b] &&
            firsts.t[a] == rows.t[b] && firsts.entering[a] == rows.entering[b] &&
            firsts.face[a] == rows.face[b] && firsts.tied[a] == rows.tied[b] &&
            firsts.touching[a] == rows.touching[b] && firsts.normal_x[a] == rows.normal_x[b] &&
@@ -269,10 +269,11 @@ void Exam::check_others(const Rays& rays, const Answers& answers, Ways ways, Tal
             simd::CrossingCounters counters;
             tracer.crossings(stream, {}, found, counters);
             const CrossingRows& of_one = answers.rows;
-            const bool has_same_rows =
-                found.first == of_one.first && found.t == of_one.t && found.shape == of_one.shape &&
-                found.entering == of_one.entering && found.face == of_one.face &&
-                found.tied == of_one.tied && found.touching == of_one.touching;
+            const bool has_same_rows = found.first == of_one.first && found.t == of_one.t &&
+                                       found.shape == of_one.shape_id &&
+                                       found.entering == of_one.entering &&
+                                       found.face == of_one.face && found.tied == of_one.tied &&
+                                       found.touching == of_one.touching;
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 if (has_same_rows && hits.is_same(i, answers.hits) &&
                     same.blocked[i] == answers.blocked[i])

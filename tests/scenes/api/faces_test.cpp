@@ -93,7 +93,7 @@ TEST_CASE(
         const float px[] = {one.point.x}, py[] = {one.point.y}, pz[] = {one.point.z};
         SolidRows solids;
         tracer.contains(PointSpan{px, py, pz}, solids);
-        const Where where = solids.shape.empty()        ? Where::outside
+        const Where where = solids.shape_id.empty()     ? Where::outside
                             : solids.on_surface[0] != 0 ? Where::surface
                                                         : Where::inside;
         CHECK(static_cast<int>(where) == static_cast<int>(one.where));
@@ -114,7 +114,7 @@ TEST_CASE("points and lines in the common face of two solids are in both") {
     const float x[] = {2}, one[] = {1};
     SolidRows solids;
     tracer.contains(PointSpan{x, one, one}, solids);
-    CHECK(solids.shape == std::vector<ShapeId>{0, 1});
+    CHECK(solids.shape_id == std::vector<ShapeId>{0, 1});
     CHECK(solids.on_surface == std::vector<std::uint8_t>{1, 1});
     ShapeId cell = 77;
     MaterialIndex material = 77;

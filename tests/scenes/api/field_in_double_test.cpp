@@ -130,7 +130,7 @@ TEST_CASE("OpenMC: a ray meets equal cylinders at one point") {
     builder.add(pin, builder.add_material({}));
     builder.add(pin, builder.add_material({}));
     const CrossingRows rows = crossings(builder.build(), {-5, 0.3, 0.4}, {1, 0.01, -0.02});
-    CHECK(rows.shape == std::vector<ShapeId>{0, 1, 0, 1});
+    CHECK(rows.shape_id == std::vector<ShapeId>{0, 1, 0, 1});
     CHECK(rows.tied == std::vector<std::uint8_t>{0, 1, 0, 1});
     REQUIRE(rows.t.size() == 4);
     CHECK(rows.t[0] == rows.t[1]);
@@ -149,11 +149,11 @@ TEST_CASE("OpenMC: a sphere and a plane that a ray meets at one point are tied")
     const Scene scene = builder.build();
     const CrossingRows rows = crossings(scene, {0, 0, 0}, {4, 0, 3});
     CHECK(rows.t == std::vector<double>{0.5, 0.5, 1.0});
-    CHECK(rows.shape == std::vector<ShapeId>{0, 2, 1});
+    CHECK(rows.shape_id == std::vector<ShapeId>{0, 2, 1});
     CHECK(rows.tied == std::vector<std::uint8_t>{0, 1, 0});
     // An ulp steeper, the plane comes first.
     const CrossingRows beside = crossings(scene, {0, 0, 0}, {4, 0, std::nextafter(3.0, 4.0)});
     CHECK(beside.t == std::vector<double>{std::nextafter(0.5, 0.0), 0.5, 1.0});
-    CHECK(beside.shape == std::vector<ShapeId>{2, 0, 1});
+    CHECK(beside.shape_id == std::vector<ShapeId>{2, 0, 1});
     CHECK(beside.tied == std::vector<std::uint8_t>{0, 0, 0});
 }

@@ -175,8 +175,8 @@ TEST_CASE("the hits of camera rays have the depths of an image") {
     const PixelRays rays = camera_rays(scene.camera(), image.width, image.height);
     std::vector<double> t(image.layers.depth.size());
     std::vector<ShapeId> shape(t.size());
-    Tracer(scene).intersect(rays.span(), {.shape = shape, .t_double = t});
-    CHECK(shape == image.layers.shape);
+    Tracer(scene).intersect(rays.span(), {.shape_id = shape, .t_double = t});
+    CHECK(shape == image.layers.shape_id);
     for (std::size_t i = 0; i < t.size(); ++i)
         CHECK(static_cast<float>(t[i]) == image.layers.depth[i]);
 }

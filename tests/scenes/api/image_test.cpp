@@ -235,10 +235,10 @@ TEST_CASE("a crop has the pixels and layers of the whole image") {
     const Scene scene = mirrored_ball();
     const Image whole = render(scene, {.layers = true});
     REQUIRE(whole.layers.depth.size() == 70 * 50);
-    CHECK(whole.layers.shape[0] == no_shape);
+    CHECK(whole.layers.shape_id[0] == no_shape);
     CHECK(whole.layers.depth[0] == std::numeric_limits<float>::infinity());
     const std::size_t middle = 25 * 70 + 35;
-    CHECK(whole.layers.shape[middle] == 0);
+    CHECK(whole.layers.shape_id[middle] == 0);
     CHECK(whole.layers.material[middle] == 0);
     CHECK(whole.layers.samples[middle] == 1);
     const float* const normal = &whole.layers.normal[3 * middle];

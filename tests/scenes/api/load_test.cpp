@@ -141,7 +141,7 @@ TEST_CASE("a saved scene is the same when it is loaded again") {
         rays.direction_z = back;
         HitSpan hits;
         hits.t = t;
-        hits.shape = shape;
+        hits.shape_id = shape;
         tracer.intersect(rays, hits);
         return std::pair(t, shape);
     };

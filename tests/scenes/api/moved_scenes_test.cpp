@@ -219,7 +219,7 @@ void check_same(const Scene& moved, const Scene& fresh, const Rays& rays) {
     CHECK(answers.blocked == truth.blocked);
     CHECK(answers.rows.first == truth.rows.first);
     CHECK(answers.rows.t == truth.rows.t);
-    CHECK(answers.rows.shape == truth.rows.shape);
+    CHECK(answers.rows.shape_id == truth.rows.shape_id);
     CHECK(answers.rows.entering == truth.rows.entering);
     CHECK(answers.rows.face == truth.rows.face);
     CHECK(answers.rows.tied == truth.rows.tied);
@@ -227,7 +227,7 @@ void check_same(const Scene& moved, const Scene& fresh, const Rays& rays) {
     CHECK(answers.rows.normal_x == truth.rows.normal_x);
     CHECK(answers.rows.normal_z == truth.rows.normal_z);
     CHECK(answers.solids.first == truth.solids.first);
-    CHECK(answers.solids.shape == truth.solids.shape);
+    CHECK(answers.solids.shape_id == truth.solids.shape_id);
     CHECK(answers.solids.on_surface == truth.solids.on_surface);
     CHECK(answers.lengths.first == truth.lengths.first);
     CHECK(answers.lengths.length == truth.lengths.length);

@@ -30,7 +30,7 @@ Strings words(const CrossingRows& rows, std::size_t i = 0) {
     for (std::uint64_t k = rows.first[i]; k < rows.first[i + 1]; ++k) {
         std::ostringstream word;
         word << (rows.tied[k] != 0 ? "=" : "") << (rows.touching[k] != 0 ? "~" : "")
-             << (rows.entering[k] != 0 ? "+" : "-") << rows.shape[k] << "@" << rows.t[k];
+             << (rows.entering[k] != 0 ? "+" : "-") << rows.shape_id[k] << "@" << rows.t[k];
         all.push_back(word.str());
     }
     return all;
@@ -172,7 +172,7 @@ TEST_CASE("rows do not depend on the number of threads and statistics count the 
         .crossings(many.rays.span(), shared, {.normals = true}, &by_three);
     CHECK(alone.first == shared.first);
     CHECK(alone.t == shared.t);
-    CHECK(alone.shape == shared.shape);
+    CHECK(alone.shape_id == shared.shape_id);
     CHECK(alone.normal_z == shared.normal_z);
     CHECK(by_one.by_bounds > 0);
     CHECK(by_one.by_digits > 0);
@@ -247,7 +247,7 @@ TEST_CASE("the first crossing of a ray is its nearest hit with the same normal")
         const std::uint64_t k = rows.first[i];
         CHECK((rows.first[i + 1] == k) == (hits.shape[i] == no_shape));
         if (rows.first[i + 1] == k) continue;
-        CHECK(rows.shape[k] == hits.shape[i]);
+        CHECK(rows.shape_id[k] == hits.shape[i]);
         CHECK(static_cast<float>(rows.t[k]) == hits.t[i]);
         CHECK(rows.entering[k] == hits.entering[i]);
         CHECK((rows.normal_x[k] == hits.nx[i] && rows.normal_y[k] == hits.ny[i] &&
@@ -456,7 +456,7 @@ TEST_CASE("lengths and crossings and points agree for unbounded solids") {
                 const double x[] = {at.x}, y[] = {at.y}, z[] = {at.z};
                 SolidRows solids;
                 tracer.contains(DoublePointSpan{x, y, z}, solids);
-                if (solids.shape.empty()) continue;
+                if (solids.shape_id.empty()) continue;
                 runs_along = runs_along || solids.on_surface[0] != 0;
                 expected += (ends[k] - ends[k - 1]) * std::sqrt(core::squared_length(d));
             }
@@ -626,7 +626,7 @@ TEST_CASE("contains decides exactly whether points are in solids or on them") {
                     if (is_in) truth.emplace_back(id, here ? 1 : 0);
                 }
                 for (std::uint64_t k = rows.first[i]; k < rows.first[i + 1]; ++k)
-                    answer.emplace_back(rows.shape[k], rows.on_surface[k]);
+                    answer.emplace_back(rows.shape_id[k], rows.on_surface[k]);
                 CHECK(answer == truth);
                 const auto [last, on] = truth.empty() ? std::pair(no_shape, 0) : truth.back();
                 CHECK(cell[i] == last);

@@ -60,7 +60,7 @@ void check_firsts(const Tracer& tracer, const RaySpan& rays, const CrossingRows&
         const bool is_hit =
             rows.first[i + 1] == k
                 ? hits.is_none(i)
-                : rows.shape[k] == hits.shape[i] && in_float(rows.t[k]) == hits.t[i] &&
+                : rows.shape_id[k] == hits.shape[i] && in_float(rows.t[k]) == hits.t[i] &&
                       rows.entering[k] == hits.entering[i] && rows.normal_x[k] == hits.nx[i] &&
                       rows.normal_y[k] == hits.ny[i] && rows.normal_z[k] == hits.nz[i];
         if (!is_hit) wrong.blame(wrong.firsts, "the hit of ray " + std::to_string(i));
@@ -160,7 +160,7 @@ void ask(const Expression& expression, const Scene& scene,
             expected +=
                 word(hit.shape, oracle::rounded_to_double(hit.hit.root, hit.hit.t), hit.entering);
         for (std::uint64_t k = rows.first[i]; k < rows.first[i + 1]; ++k)
-            found += word(rows.shape[k], rows.t[k], rows.entering[k] != 0);
+            found += word(rows.shape_id[k], rows.t[k], rows.entering[k] != 0);
         if (found != expected) wrong.blame(wrong.rows, "rows " + found + "for " + expected);
         std::string first =
             truth.empty()
@@ -209,7 +209,7 @@ void ask_onward(const Scene& scene, const std::vector<core::Ray<float>>& asked, 
             core::convert<float>(core::mul_add(rows.t[k], ray.direction, ray.origin));
         const std::size_t other = i % 2 == 0 ? i : (7 * i + 1) % rays.size();
         onward.add({at.x, at.y, at.z}, {rays.dx[other], rays.dy[other], rays.dz[other]});
-        shape.push_back(rows.shape[k]);
+        shape.push_back(rows.shape_id[k]);
         face.push_back(rows.face[k]);
         const float along = rows.normal_x[k] * rays.dx[other] + rows.normal_y[k] * rays.dy[other] +
                             rows.normal_z[k] * rays.dz[other];

@@ -63,7 +63,7 @@ TEST_CASE("solids of the greatest depth need no more stack than is documented") 
         SolidRows solids;
         const float x[] = {0}, y[] = {0}, z[] = {0.5F};
         tracer.contains(PointSpan{x, y, z}, solids);
-        around = static_cast<int>(solids.shape.size());
+        around = static_cast<int>(solids.shape_id.size());
         pixels = render(scene, {.threads = 1}).rgb.size();
     });
     CHECK(found);

@@ -51,7 +51,7 @@ TEST_CASE("outputs that are not wanted may be omitted") {
     tracer.intersect(all.rays.span(), {.normal_x = hits.nx});
     tracer.intersect(all.rays.span(), {.normal_y = hits.ny});
     tracer.intersect(all.rays.span(), {.normal_z = hits.nz});
-    tracer.intersect(all.rays.span(), {.shape = hits.shape});
+    tracer.intersect(all.rays.span(), {.shape_id = hits.shape});
     tracer.intersect(all.rays.span(), {.entering = hits.entering});
     tracer.intersect(all.rays.span(), {});
     CHECK(hits == whole);
@@ -97,7 +97,7 @@ TEST_CASE("a span of the wrong length is refused with its name") {
     CHECK(refused([&] { tracer.intersect(good, {.normal_x = out}); }) == "normal_x");
     CHECK(refused([&] { tracer.intersect(good, {.normal_y = out}); }) == "normal_y");
     CHECK(refused([&] { tracer.intersect(good, {.normal_z = out}); }) == "normal_z");
-    CHECK(refused([&] { tracer.intersect(good, {.shape = ids}); }) == "shape");
+    CHECK(refused([&] { tracer.intersect(good, {.shape_id = ids}); }) == "shape_id");
     CHECK(refused([&] { tracer.occluded(good, flags); }) == "occluded");
     CHECK(refused([&] { tracer.occluded(good, {}); }) == "occluded");
     try {

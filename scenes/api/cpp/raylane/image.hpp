@@ -24,7 +24,7 @@ struct Layers {
     std::vector<float> normal{};
     /// Id of the shape, for identical shapes the id of the first; no_shape where nothing is hit.
     /// Parts of solids have their own ids (Scene::solid_of).
-    std::vector<ShapeId> shape{};
+    std::vector<ShapeId> shape_id{};
     std::vector<MaterialIndex> material{}; ///< 4294967295 where nothing is hit
     std::vector<std::uint32_t> samples{};  ///< number of samples in the pixel's colour
 };

@@ -460,7 +460,7 @@ typedef struct raylane_double_rays {
 /** Output arrays for hits, same as HitSpan in tracer.hpp. NULL: not wanted. */
 typedef struct raylane_hits {
     float *t, *normal_x, *normal_y, *normal_z;
-    uint32_t* shape;
+    uint32_t* shape_id;
     uint8_t *entering, *face;
     double* t_double;
     double *normal_double_x, *normal_double_y, *normal_double_z;

@@ -40,7 +40,7 @@ struct BasicRaySpan {
     /// is the float.
     std::span<const Real> t_min{}; ///< negative values count as 0; empty: 0
     std::span<const Real> t_max{}; ///< empty: infinity
-    /// The shape on which each ray starts, from the hit that it continues (HitSpan::shape), or
+    /// The shape on which each ray starts, from the hit that it continues (HitSpan::shape_id), or
     /// no_shape. The ray then starts exactly on that surface, regardless of the rounding of its
     /// origin. It does not hit that surface at its origin, it cannot miss a surface just behind it,
     /// and it needs no t_min. It can hit the same surface again farther on. An id without a shape
@@ -70,7 +70,7 @@ struct HitSpan {
     /// nothing is hit. For a smooth triangle it is the normal of the flat triangle. At grazing
     /// incidence use `entering`, not the normal, to find out whether the ray enters.
     std::span<float> normal_x{}, normal_y{}, normal_z{};
-    std::span<ShapeId> shape{}; ///< no_shape where nothing is hit
+    std::span<ShapeId> shape_id{}; ///< no_shape where nothing is hit
     /// 1 if the ray goes from the outside (front) to the inside (back), or only touches the
     /// surface; 0 if it goes from the inside to the outside, or hits nothing.
     std::span<std::uint8_t> entering{};
@@ -93,7 +93,7 @@ struct HitSpan {
 template <class Real>
 struct OnwardRays {
     std::vector<Real> origin_x, origin_y, origin_z;
-    std::vector<ShapeId> shape;
+    std::vector<ShapeId> shape_id;
     std::vector<std::uint8_t> face, inward;
     std::span<const Real> direction_x, direction_y, direction_z;
 
@@ -104,7 +104,7 @@ struct OnwardRays {
                 .direction_x = direction_x,
                 .direction_y = direction_y,
                 .direction_z = direction_z,
-                .origin_shape = shape,
+                .origin_shape = shape_id,
                 .origin_face = face,
                 .origin_inward = inward};
     }
@@ -114,8 +114,8 @@ struct OnwardRays {
 /// the surface of its hit, to the side of the normal to which its direction goes. If the direction
 /// is so close to a tangent that the rounded normal does not decide this, `inward` is 2. `hits`
 /// must have t or t_double (for DoubleRaySpan the better choice), normal_x, normal_y, normal_z,
-/// shape and face. If a ray hit nothing, the new ray is refused. Throws InvalidValue if a span has
-/// a wrong length.
+/// shape_id and face. If a ray hit nothing, the new ray is refused. Throws InvalidValue if a span
+/// has a wrong length.
 RAYLANE_API OnwardRays<float> onward(const RaySpan& rays, const HitSpan& hits,
                                      std::span<const float> direction_x,
                                      std::span<const float> direction_y,
@@ -140,7 +140,7 @@ using DoublePointSpan = BasicPointSpan<double>;
 struct CrossingRows {
     std::vector<std::uint64_t> first; ///< n + 1 row offsets
     std::vector<double> t;            ///< > 0 and finite
-    std::vector<ShapeId> shape;
+    std::vector<ShapeId> shape_id;
     /// 1 if the ray goes from the outside (front) to the inside (back), 0 if it goes out.
     std::vector<std::uint8_t> entering;
     std::vector<std::uint8_t> face; ///< part of the shape's surface, same as HitSpan::face
@@ -185,7 +185,7 @@ struct CrossingStatistics {
 /// elements first[i] to first[i + 1] - 1, in the order of their ids.
 struct SolidRows {
     std::vector<std::uint64_t> first; ///< n + 1 row offsets
-    std::vector<ShapeId> shape;
+    std::vector<ShapeId> shape_id;
     std::vector<std::uint8_t> on_surface; ///< 1 if the point is exactly on the solid's surface
 };
 
