@@ -14,22 +14,33 @@ namespace {
 class OfChildren {
   public:
     explicit OfChildren(const Solids::Node& node)
-        : of_all_(node.op == Solids::Op::all), side_(of_all_ ? Side::inside : Side::outside) {}
+        : of_all_(node.op == Solids::Op::all), value_{of_all_ ? Side::inside : Side::outside,
+                                                      of_all_} {}
 
     /// Adds a child. Returns false once the value is known.
-    bool add(Side child) {
-        side_ = of_all_ ? std::max(side_, child) : std::min(side_, child);
-        return side_ != (of_all_ ? Side::outside : Side::inside);
+    bool add(const Position& child) {
+        value_.side =
+            of_all_ ? std::max(value_.side, child.side) : std::min(value_.side, child.side);
+        value_.inside = of_all_ ? value_.inside && child.inside : value_.inside || child.inside;
+        return value_.side != (of_all_ ? Side::outside : Side::inside);
     }
-    Side side() const { return side_; }
+    const Position& value() const { return value_; }
 
   private:
     bool of_all_;
-    Side side_;
+    Position value_;
 };
 
 Side of_part(const Solids::Node& part, Side of_shape) {
     return part.reversed ? static_cast<Side>(-static_cast<int>(of_shape)) : of_shape;
+}
+
+/// Returns the position relative to a shape as a part, which may be reversed.
+template <class Shape>
+Position position_in_part(const Solids::Node& part, const Shape& shape, const Vec3d& point) {
+    const Side side = side_of(shape, point);
+    const bool inside = side == Side::inside || (is_solid<Shape> && side == Side::surface);
+    return {of_part(part, side), inside != part.reversed};
 }
 
 /// Returns the sign of a polynomial for all large t, as a side.
@@ -66,9 +77,11 @@ Side side_at_end(const Scene& scene, Solids::Index index, const Ray<double>& ray
             }));
     if (node.many) return Side::outside; // each child has bounds
     OfChildren children(node);
-    scene.solids().each_child(
-        index, [&](Solids::Index child) { return children.add(side_at_end(scene, child, ray)); });
-    return children.side();
+    scene.solids().each_child(index, [&](Solids::Index child) {
+        const Side side = side_at_end(scene, child, ray);
+        return children.add({side, side == Side::inside});
+    });
+    return children.value().side;
 }
 
 PointSearcher::PointSearcher(const Scene& scene)
@@ -88,7 +101,7 @@ void PointSearcher::add_containing(const Vec3d& point, std::vector<Containing>& 
                     solids_.push_back(scene_.solids().root_of(part));
                 } else if constexpr (is_solid<Shape>) {
                     const Side side = core::side_of(table.get(place), point);
-                    if (side != Side::outside) found.push_back({id, side == Side::surface});
+                    if (side != Side::outside) found.push_back({id, side == Side::surface, true});
                 }
             });
         });
@@ -98,26 +111,27 @@ void PointSearcher::add_containing(const Vec3d& point, std::vector<Containing>& 
     solids_.erase(std::unique(solids_.begin(), solids_.end()), solids_.end());
     for (const Solids::Index solid : solids_) {
         if (scene_.solids().node(solid).open) continue;
-        const Side side = side_of(solid, point);
-        if (side != Side::outside)
-            found.push_back({scene_.solids().node(solid).shape, side == Side::surface});
+        const Position position = position_in(solid, point);
+        if (position.side != Side::outside)
+            found.push_back({scene_.solids().node(solid).shape, position.side == Side::surface,
+                             position.inside});
     }
     std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
               [](const Containing& a, const Containing& b) { return a.shape < b.shape; });
 }
 
-Side PointSearcher::side_of(Solids::Index index, const Vec3d& point) {
+Position PointSearcher::position_in(Solids::Index index, const Vec3d& point) {
     const Solids::Node& node = scene_.solids().node(index);
     if (node.op == Solids::Op::part)
-        return of_part(node, with_table(scene_.shapes(), node.kind,
-                                        [&]<class Shape>(const Table<Shape>& table) {
-                                            if constexpr (has_inside<Shape>)
-                                                return core::side_of(table.get(node.place), point);
-                                            else
-                                                return Side::outside;
-                                        }));
+        return with_table(scene_.shapes(), node.kind,
+                          [&]<class Shape>(const Table<Shape>& table) -> Position {
+                              if constexpr (has_inside<Shape>)
+                                  return position_in_part(node, table.get(node.place), point);
+                              else
+                                  return {of_part(node, Side::outside), node.reversed};
+                          });
     OfChildren children(node);
-    const auto look = [&](Solids::Index child) { return children.add(side_of(child, point)); };
+    const auto look = [&](Solids::Index child) { return children.add(position_in(child, point)); };
     if (node.many) {
         Bounds around;
         include_point(around, point);
@@ -125,7 +139,7 @@ Side PointSearcher::side_of(Solids::Index index, const Vec3d& point) {
     } else {
         scene_.solids().each_child(index, look);
     }
-    return children.side();
+    return children.value();
 }
 
 } // namespace raylane::core

@@ -12,6 +12,15 @@ namespace raylane::core {
 struct Containing {
     ShapeId shape;
     bool on_surface;
+    bool inside; ///< see Position::inside
+};
+
+/// The position of a point relative to a solid. `side` is Side::surface if the point is on the
+/// surface of parts on which the result depends. `inside` tells whether the solid has the point as
+/// a set, where convex parts are closed and half-spaces are open.
+struct Position {
+    Side side;
+    bool inside;
 };
 
 /// Returns the unbounded solids of a scene.
@@ -32,9 +41,11 @@ class PointSearcher {
     /// decides. No solid contains a point that is not finite.
     void add_containing(const Vec3d& point, std::vector<Containing>& found);
 
-    /// Returns the side of a node of the scene's solids on which a point is. Returns Side::surface
-    /// if the point is on the surface of parts on which the result depends.
-    Side side_of(Solids::Index index, const Vec3d& point);
+    /// Returns the position of a point relative to a node of the scene's solids. The
+    /// set has a point of its parts' surfaces if and only if a line that runs in these surfaces is
+    /// inside there: see SolidSurfaces.
+    Position position_in(Solids::Index index, const Vec3d& point);
+    Side side_of(Solids::Index index, const Vec3d& point) { return position_in(index, point).side; }
 
     /// Returns the unbounded solids.
     std::span<const Solids::Index> unbounded() const { return unbounded_; }

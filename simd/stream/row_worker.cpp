@@ -526,6 +526,7 @@ std::size_t RowWorker::containing(const PointStream<Real>& points, SolidRows& ro
     return for_each_point(points, [&](std::size_t) {
         for (const core::Containing& solid : containing_) {
             rows.shape.push_back(solid.shape);
+            rows.inside.push_back(solid.inside ? 1 : 0);
             rows.on_surface.push_back(solid.on_surface ? 1 : 0);
         }
         rows.first.push_back(rows.shape.size());
@@ -536,9 +537,11 @@ template <class Real>
 std::size_t RowWorker::cells(const PointStream<Real>& points, const CellStream& cells) {
     const core::Scene& scene = scene_.scene();
     return for_each_point(points, [&](std::size_t i) {
+        while (!containing_.empty() && !containing_.back().inside)
+            containing_.pop_back();
         const bool any = !containing_.empty();
         const core::Containing cell =
-            any ? containing_.back() : core::Containing{core::no_shape, false};
+            any ? containing_.back() : core::Containing{core::no_shape, false, false};
         if (cells.shape != nullptr) cells.shape[i] = cell.shape;
         if (cells.material != nullptr)
             cells.material[i] = any ? scene.medium_index_of(cell.shape) : core::no_medium;

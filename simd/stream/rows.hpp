@@ -34,7 +34,7 @@ struct CrossingRows : Rows {
 /// Solids that points are in, by their ids.
 struct SolidRows : Rows {
     std::vector<core::ShapeId> shape;
-    std::vector<std::uint8_t> on_surface;
+    std::vector<std::uint8_t> inside, on_surface;
 };
 
 /// Lengths of rays inside of bodies, as in core::BodyLength.
@@ -60,6 +60,7 @@ void for_each_column(CrossingRows& a, CrossingRows& b, const Visit& visit) {
 template <class Visit>
 void for_each_column(SolidRows& a, SolidRows& b, const Visit& visit) {
     visit(a.shape, b.shape);
+    visit(a.inside, b.inside);
     visit(a.on_surface, b.on_surface);
 }
 template <class Visit>

@@ -34,8 +34,8 @@ struct PointStream {
     const Real* at[3] = {};
 };
 
-/// The cell of each point: of the solids that contain it, the one with the highest id. Null: not
-/// requested.
+/// The cell of each point: of the solids that it is inside of, the one with the highest id. Null:
+/// not requested.
 struct CellStream {
     core::ShapeId* shape = nullptr;          ///< no_shape: in no solid
     core::MaterialIndex* material = nullptr; ///< inside of the solid; no_medium: in no solid

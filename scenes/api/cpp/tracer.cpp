@@ -150,7 +150,8 @@ void find_solids(const simd::StreamTracer& tracer, const BasicPointSpan<Real>& p
                  SolidRows& rows, QueryStatistics* statistics) {
     simd::SolidRows found;
     store(tracer.containing(stream_of(points), found), statistics);
-    rows = {std::move(found.first), std::move(found.shape), std::move(found.on_surface)};
+    rows = {std::move(found.first), std::move(found.shape), std::move(found.inside),
+            std::move(found.on_surface)};
 }
 
 template <class Real>

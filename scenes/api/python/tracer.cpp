@@ -537,11 +537,13 @@ py::dict contains(const SharedTracer& tracer, const py::object& points) {
             refused += statistics.refused;
             append_rows(all.first, part.first);
             append(all.shape_id, part.shape_id);
+            append(all.inside, part.inside);
             append(all.on_surface, part.on_surface);
         });
     py::dict result;
     result["first"] = array_from(std::move(all.first));
     result["shape_id"] = array_from(std::move(all.shape_id));
+    result["inside"] = bools_from(std::move(all.inside));
     result["on_surface"] = bools_from(std::move(all.on_surface));
     result["refused"] = refused;
     return result;

@@ -79,6 +79,7 @@ inline void check_same(const RowsHandle& in_c, const LengthRows& rows) {
 inline void check_same(const RowsHandle& in_c, const SolidRows& rows) {
     check_offsets(in_c, rows.first);
     CHECK(is_same(raylane_rows_shape_id(in_c.get()), rows.shape_id));
+    CHECK(is_same(raylane_rows_inside(in_c.get()), rows.inside));
     CHECK(is_same(raylane_rows_on_surface(in_c.get()), rows.on_surface));
     CHECK(raylane_rows_t(in_c.get()) == nullptr);
 }

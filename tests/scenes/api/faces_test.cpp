@@ -63,6 +63,19 @@ std::vector<Case> cases() {
     };
 }
 
+struct Cell {
+    ShapeId shape_id = 77;
+    MaterialIndex material = 77;
+    std::uint8_t on_surface = 77;
+};
+
+Cell cell_of(const Tracer& tracer, const Vec3& point) {
+    Cell cell;
+    tracer.cells(PointSpan{{&point.x, 1}, {&point.y, 1}, {&point.z, 1}},
+                 {{&cell.shape_id, 1}, {&cell.material, 1}, {&cell.on_surface, 1}});
+    return cell;
+}
+
 } // namespace
 
 TEST_CASE(
@@ -82,6 +95,10 @@ TEST_CASE(
         for (std::size_t k = 0; k < rows.t.size(); ++k)
             between += (rows.entering[k] != 0 ? -1.0 : 1.0) * rows.t[k];
         CHECK(between == one.length);
+        // The side of the line at the point, which is at t = 16.
+        std::uint8_t is_inside = 0;
+        for (std::size_t k = 0; k < rows.t.size() && rows.t[k] < 16.0; ++k)
+            is_inside = rows.entering[k];
         CHECK((occluded(tracer, rays)[0] != 0) == (one.length != 0.0));
         LengthRows lengths;
         tracer.path_lengths(rays.span(), lengths);
@@ -97,6 +114,8 @@ TEST_CASE(
                             : solids.on_surface[0] != 0 ? Where::surface
                                                         : Where::inside;
         CHECK(static_cast<int>(where) == static_cast<int>(one.where));
+        CHECK((solids.inside.empty() ? 0 : solids.inside[0]) == is_inside);
+        CHECK(cell_of(tracer, one.point).shape_id == (is_inside != 0 ? 0 : no_shape));
     }
 }
 
@@ -116,11 +135,37 @@ TEST_CASE("points and lines in the common face of two solids are in both") {
     tracer.contains(PointSpan{x, one, one}, solids);
     CHECK(solids.shape_id == std::vector<ShapeId>{0, 1});
     CHECK(solids.on_surface == std::vector<std::uint8_t>{1, 1});
-    ShapeId cell = 77;
-    MaterialIndex material = 77;
-    std::uint8_t on_surface = 77;
-    tracer.cells(PointSpan{x, one, one}, {{&cell, 1}, {&material, 1}, {&on_surface, 1}});
-    CHECK(cell == 1);
-    CHECK(material == steel);
-    CHECK(on_surface == 1);
+    const Cell cell = cell_of(tracer, {2, 1, 1});
+    CHECK(cell.shape_id == 1);
+    CHECK(cell.material == steel);
+    CHECK(cell.on_surface == 1);
+}
+
+TEST_CASE("the cell of a point in a cut face is the body that fills the cut") {
+    for (const bool filled_first : {false, true}) {
+        CAPTURE(filled_first);
+        SceneBuilder builder;
+        const MaterialIndex water = builder.add_material({}), steel = builder.add_material({});
+        const Part cube = box({0, 0, 0}, {2, 2, 2}),
+                   rod(CappedCylinder{{1, 1, 0}, {0, 0, 2}, 0.5F});
+        const auto add_cut = [&] { return builder.add(difference_of(cube, {rod}), water); };
+        const ShapeId cut = filled_first ? 1 : add_cut();
+        const ShapeId filling = builder.add(CappedCylinder{{1, 1, 0}, {0, 0, 2}, 0.5F}, steel);
+        if (filled_first) CHECK(add_cut() == cut);
+        const Tracer tracer(builder.build());
+        // On the rod, inside of it, beside it.
+        CHECK(cell_of(tracer, {1.5F, 1, 1}).shape_id == filling);
+        CHECK(cell_of(tracer, {1.5F, 1, 1}).on_surface == 1);
+        CHECK(cell_of(tracer, {1.25F, 1, 1}).material == steel);
+        CHECK(cell_of(tracer, {1.75F, 1, 1}).shape_id == cut);
+        CHECK(cell_of(tracer, {1.75F, 1, 1}).material == water);
+        CHECK(cell_of(tracer, {5, 1, 1}).shape_id == no_shape);
+        CHECK(cell_of(tracer, {5, 1, 1}).material == no_material);
+        const float x[] = {1.5F}, one[] = {1};
+        SolidRows solids;
+        tracer.contains(PointSpan{x, one, one}, solids);
+        CHECK(solids.on_surface == std::vector<std::uint8_t>{1, 1});
+        CHECK(solids.inside[filled_first ? 0 : 1] == 1);
+        CHECK(solids.inside[filled_first ? 1 : 0] == 0);
+    }
 }

@@ -531,7 +531,7 @@ RAYLANE_API const uint64_t* raylane_rows_first(const raylane_rows* rows);
 /** Return columns of first[count] elements, valid until the rows are released. A column is NULL if
  * it has no elements or if the query has no such column:
  * - crossings: t, shape_id, entering, face, tied, touching; normal_x, normal_y, normal_z if wanted;
- * - contains: shape_id, on_surface;
+ * - contains: shape_id, inside, on_surface;
  * - path lengths: material, length. */
 RAYLANE_API const double* raylane_rows_t(const raylane_rows* rows);
 RAYLANE_API const double* raylane_rows_length(const raylane_rows* rows);
@@ -541,6 +541,7 @@ RAYLANE_API const uint8_t* raylane_rows_entering(const raylane_rows* rows);
 RAYLANE_API const uint8_t* raylane_rows_face(const raylane_rows* rows);
 RAYLANE_API const uint8_t* raylane_rows_tied(const raylane_rows* rows);
 RAYLANE_API const uint8_t* raylane_rows_touching(const raylane_rows* rows);
+RAYLANE_API const uint8_t* raylane_rows_inside(const raylane_rows* rows);
 RAYLANE_API const uint8_t* raylane_rows_on_surface(const raylane_rows* rows);
 RAYLANE_API const float* raylane_rows_normal_x(const raylane_rows* rows);
 RAYLANE_API const float* raylane_rows_normal_y(const raylane_rows* rows);

@@ -185,15 +185,18 @@ struct CrossingStatistics {
 /// elements first[i] to first[i + 1] - 1, in the order of their ids.
 struct SolidRows {
     std::vector<std::uint64_t> first; ///< n + 1 row offsets
-    std::vector<ShapeId> shape_id;
+    std::vector<ShapeId> shape_id;    ///< of a constructed solid: the id of its first part
+    /// 1 if the point counts as inside, by the rule for faces of Tracer. 0 if it is only on the
+    /// surface.
+    std::vector<std::uint8_t> inside;
     std::vector<std::uint8_t> on_surface; ///< 1 if the point is exactly on the solid's surface
 };
 
 /// Output arrays for the cells of n points. Each span has length n, or length 0 if its values are
 /// not wanted.
 struct CellSpan {
-    std::span<ShapeId> shape_id{};        ///< of the solid; no_shape for a point in no solid
-    std::span<MaterialIndex> material{};  ///< inside of the solid; no_material for a point in none
+    std::span<ShapeId> shape_id{};        ///< of the solid; no_shape without one
+    std::span<MaterialIndex> material{};  ///< inside of the solid; no_material without one
     std::span<std::uint8_t> on_surface{}; ///< 1 if the point is exactly on the solid's surface
 };
 
@@ -249,14 +252,21 @@ struct TracerOptions {
 ///   quadric vanishes, it is (0, 0, 1).
 ///
 /// A line that touches a surface enters and leaves it at the same t. A line that lies in a flat or
-/// open surface, or in a quadric, does not hit it there. A line that lies in a face of a solid or
-/// along its side hits it where the line reaches it. The same holds for the parts of a constructed
-/// solid: along such a line, a sphere, box, cylinder, cone or ellipsoid counts as inside, also if
-/// it is subtracted, and a half-space or quadric as outside. So a line in a face that a subtraction
-/// has cut does not hit the solid, and a line in the common face of two united boxes does.
-/// All queries for rays agree. `contains` and `cells` report the points of all these faces as on
-/// the surface, whether the lines there are inside or outside, also if a cut left nothing of a
-/// face.
+/// open surface, or in a quadric, does not hit it there. For lines in faces of solids, and for
+/// points of faces, all queries have one rule. A solid is a set of points. Spheres, boxes,
+/// cylinders, cones and ellipsoids have the points of their surfaces; half-spaces and quadrics do
+/// not, and neither do cylinders and cones that a transform has stretched to quadrics. Union,
+/// intersection and difference are those of sets. A point is inside if the set has it, and a line
+/// in a face is inside where the set has its points:
+/// - in a face of a box, and in the common face of two united boxes, inside;
+/// - in the face of a half-space that a solid is intersected with, outside; of one that is
+///   subtracted, inside;
+/// - in a face that a subtracted box has cut or only touches, outside.
+///
+/// A line hits the solid where it enters such a stretch and where it leaves it. `cells` and
+/// SolidRows::inside have the points by the same rule. A point of the surfaces of parts on which
+/// the result depends is also marked by `on_surface`, inside or not, even if a cut left nothing of
+/// a face.
 ///
 /// - The parts of a constructed Solid are hit only on the surface of the solid. Hits give the id of
 ///   the part; the normal and `entering` are those of the solid.
@@ -318,17 +328,17 @@ class Tracer {
     /// Finds the solids that contain each point in their inside or on their surface, as real
     /// arithmetic decides. Solids are spheres, ellipsoids, boxes, capped cylinders and cones, and
     /// constructed solids, under the id of their first part. Clipped solids are open and do not
-    /// count. A point on surfaces of a constructed solid's parts is inside (or outside) of the
-    /// solid if it is so for either side of each of these surfaces; otherwise it is on the solid's
-    /// surface. So the points of a face that two united boxes have in common are on the surface, as
-    /// are those of a face that a flush cut has removed. Results are exact at any precision.
-    /// Replaces the contents of `rows`. Throws the same exceptions as intersect.
+    /// count. A point on surfaces of a constructed solid's parts is on the solid's surface unless
+    /// it is inside, or outside, on either side of each of these surfaces. So the points of a face
+    /// that two united boxes have in common are on the surface, as are those of a face that a flush
+    /// cut has removed. SolidRows::inside tells whether they count as inside. Results are exact at
+    /// any precision. Replaces the contents of `rows`. Throws the same exceptions as intersect.
     void contains(const PointSpan& points, SolidRows& rows,
                   QueryStatistics* statistics = nullptr) const;
     void contains(const DoublePointSpan& points, SolidRows& rows,
                   QueryStatistics* statistics = nullptr) const;
 
-    /// Finds the cell of each point: of the solids that contain it, as `contains` finds them, the
+    /// Finds the cell of each point: of the solids that it is inside of (SolidRows::inside), the
     /// one with the highest id, which was added last. So a solid takes the place of all solids that
     /// were added before it, as a fuel rod does in the water of a tank. Results are exact at any
     /// precision. Throws InvalidValue if a span has a wrong length.

@@ -247,6 +247,9 @@ class Solids(_Rows):
 
     first: Firsts
     shape_id: Ids
+    inside: Bools
+    """True if the point counts as inside, by the rule for faces of :class:`Tracer`; false if it is only on the surface.
+    """
     on_surface: Bools
     """True if the point is exactly on the solid's surface."""
 
@@ -256,9 +259,9 @@ class Cells(Fields):
     """The cells of points, in arrays of the points' shape, written (...) here."""
 
     shape_id: Ids
-    """(...): the id of the solid, or ``NO_SHAPE`` for a point in no solid."""
+    """(...): the id of the solid, or ``NO_SHAPE`` for a point inside of none."""
     material: NDArray[np.int64]
-    """(...): the material inside of the solid, or -1 for a point in no solid."""
+    """(...): the material inside of the solid, or -1 without one."""
     on_surface: Bools
     """(...): true if the point is exactly on the solid's surface."""
 
@@ -319,11 +322,19 @@ class Tracer:
     ``__dlpack__`` in this computer's memory is an array, such as tensors of PyTorch; these take results by
     ``torch.from_dlpack(hits.t)`` without a copy.
 
-    A line that lies in a flat or open surface, or in a quadric, does not hit it there. A line that lies in a face of a
-    solid or along its side hits it where the line reaches it. The same holds for the parts of a constructed solid: along
-    such a line, a sphere, box, cylinder, cone or ellipsoid counts as inside, also if it is subtracted, and a half-space
-    as outside. All queries for rays agree. ``contains`` and ``cells`` report the points of all these faces as on the
-    surface, whether the lines there are inside or outside, also if a cut left nothing of a face.
+    A line that lies in a flat or open surface, or in a quadric, does not hit it there. For lines in faces of solids, and
+    for points of faces, all queries have one rule. A solid is a set of points. Spheres, boxes, cylinders, cones and
+    ellipsoids have the points of their surfaces; half-spaces and quadrics do not, and neither do cylinders and cones
+    that a transform has stretched to quadrics. Union, intersection and difference are those of sets. A point is inside
+    if the set has it, and a line in a face is inside where the set has its points:
+
+    - in a face of a box, and in the common face of two united boxes, inside;
+    - in the face of a half-space that a solid is intersected with, outside; of one that is subtracted, inside;
+    - in a face that a subtracted box has cut or only touches, outside.
+
+    A line hits the solid where it enters such a stretch and where it leaves it. ``cells`` and ``Solids.inside`` have the
+    points by the same rule. A point of the surfaces of parts on which the result depends is also marked by
+    ``on_surface``, inside or not, even if a cut left nothing of a face.
 
     With ``precision="exact"`` every result is the one that real arithmetic gives for exactly the given numbers. Calls
     release the interpreter's lock, and any number of threads may use one tracer concurrently. Ctrl-C interrupts a call
@@ -475,8 +486,8 @@ class Tracer:
         return _rows(Solids, self._tracer.contains(points), of="point")
 
     def cells(self, points: ArrayLike) -> Cells:
-        """Returns the cell of each point, as :class:`Cells`: of the solids that :meth:`contains` finds, the one with the
-        highest id, which was added last.
+        """Returns the cell of each point, as :class:`Cells`: of the solids that it is inside of (``Solids.inside``), the
+        one with the highest id, which was added last.
 
         So a solid takes the place of all solids that were added before it, as a fuel rod does in the water of a tank.
         ``points``: (..., 3). Always exact.
