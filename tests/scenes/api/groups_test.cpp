@@ -129,14 +129,55 @@ TEST_CASE("transforms refuse numbers that are out of range") {
 }
 
 TEST_CASE("a transform rounds each number once") {
-    // 0.1 * 3 + 0.7 in real arithmetic, of exactly these doubles, rounded; in steps it is 1 -
-    // 2^-53.
-    const Transform transform = Transform().scaled(3).translated({0.7, 0, 0});
+    // 0.1 * 3 + 0.9 in real arithmetic, of exactly these doubles, rounded; in steps it is an ulp
+    // more.
+    const Transform transform = Transform().scaled(3).translated({0.9, 0, 0});
     SceneBuilder builder;
     builder.add(Solid(SphereOf<double>{{0.1, 0, 0}, 1}).transformed(transform));
     const double exact = std::get<SphereOf<double>>(builder.build().shape(0)).center.x;
-    const auto sum = static_cast<long double>(0.1) * 3 + static_cast<long double>(0.7);
+    const auto sum = static_cast<long double>(0.1) * 3 + static_cast<long double>(0.9);
     CHECK(exact == static_cast<double>(sum));
+    CHECK(exact != 0.1 * 3 + 0.9);
+}
+
+TEST_CASE("each level of transforms rounds once, in files as in code") {
+    const auto center_of = [](const Scene& scene) {
+        return std::get<SphereOf<double>>(scene.shape(0)).center.x;
+    };
+    const auto read = [&](const std::string& object) {
+        return center_of(parse(R"({"camera": "auto", "materials": {"m": {}}, "definitions": {"ball":
+            {"type": "sphere", "center": [0.1, 0, 0], "radius": 1, "scale": 3}}, "objects": [)" +
+                                   object + "]}",
+                               "a.json"));
+    };
+    const auto built = [&](const auto& object) {
+        SceneBuilder builder;
+        builder.add(object);
+        return center_of(builder.build());
+    };
+    const SphereOf<double> ball{{0.1, 0, 0}, 1};
+    Group group;
+    group.add(ball);
+    const Transform inner = Transform().scaled(3), outer = Transform().translated({0.9, 0, 0});
+    // One map: 0.1 * 3 + 0.9 is rounded once.
+    const double once = built(group.transformed(inner.then(outer)));
+    CHECK(built(Solid(ball).transformed(inner.then(outer))) == once);
+    CHECK(read(R"({"type": "sphere", "center": [0.1, 0, 0], "radius": 1, "scale": 3,
+                   "translate": [0.9, 0, 0], "material": "m"})") == once);
+    // Two maps: 0.1 * 3 is rounded, and then the sum with 0.9.
+    const double twice = built(group.transformed(inner).transformed(outer));
+    CHECK(once != twice);
+    CHECK(twice == 0.1 * 3 + 0.9);
+    CHECK(built(Solid(ball).transformed(inner).transformed(outer)) == twice);
+    CHECK(built(solid_of(group.transformed(inner)).transformed(outer)) == twice);
+    CHECK(read(R"({"type": "group", "translate": [0.9, 0, 0], "material": "m", "objects": [
+                   {"type": "sphere", "center": [0.1, 0, 0], "radius": 1, "scale": 3}]})") ==
+          twice);
+    CHECK(read(R"({"type": "instance", "of": "ball", "translate": [0.9, 0, 0],
+                   "material": "m"})") == twice);
+    CHECK(read(R"({"type": "union", "translate": [0.9, 0, 0], "material": "m", "objects": [
+                   {"type": "sphere", "center": [0.1, 0, 0], "radius": 1, "scale": 3}]})") ==
+          twice);
 }
 
 TEST_CASE("values by name list the names that exist") {

@@ -17,7 +17,9 @@ namespace RAYLANE_API raylane {
 
 /// An affine map x -> M x + t, in exact numbers: products of maps are exact, and each number of a
 /// transformed shape is rounded once, to the nearest double. Solid::transformed and
-/// Group::transformed apply it. Cheap to copy.
+/// Group::transformed apply it. To transform a transformed object rounds again: combine the maps by
+/// then() to round once. The keys of one object in a file are one map, and those of each group or
+/// instance around it another one, from the inside out. Cheap to copy.
 ///
 /// Each function returns this map followed by another one:
 /// Transform().scaled(2).rotated({0, 90, 0}).translated({1, 0, 0}) scales first, as a file's keys

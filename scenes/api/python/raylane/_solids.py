@@ -17,7 +17,9 @@ class Transform:
     Products of maps are exact. :meth:`Solid.transformed` and :meth:`Group.transformed` round each number of a shape
     once, to the nearest double. The methods return this map followed by another one, so
     ``Transform().scaled(2).rotated((0, 90, 0)).translated((1, 0, 0))`` scales first, as a file's keys ``scale``,
-    ``rotate`` and ``translate`` do. All numbers are from -1e30 to 1e30.
+    ``rotate`` and ``translate`` do. To transform a transformed object rounds again: combine the maps by :meth:`then` to
+    round once. The keys of one object in a file are one map, and those of each group or instance around it another one,
+    from the inside out. All numbers are from -1e30 to 1e30.
 
     ``matrix``: (3, 4), three rows of M, each followed by its element of t; M must not be singular. None: the identity.
     """
