@@ -76,13 +76,13 @@ class Parser {
 
   private:
     static constexpr int max_depth = 100;
-    static constexpr int depth_of_replaced = 8; ///< at most, of the texts that replace names
+    static constexpr int depth_of_replaced = 4; ///< at most, of the texts that replace names
 
-    /// Counts the parts around a part of the text.
+    /// Counts the parts around a part of the text: parentheses, signs, exponents and choices.
     class Nested {
       public:
         explicit Nested(Parser& parser) : parser_(parser) {
-            parser_.require_depth(++parser_.depth_);
+            parser_.require_depth(++parser_.depth_, max_depth, "nested parts");
         }
         ~Nested() { --parser_.depth_; }
         Nested(const Nested&) = delete;
@@ -92,9 +92,8 @@ class Parser {
         Parser& parser_;
     };
 
-    void require_depth(int depth) const {
-        if (depth > max_depth)
-            throw Wrong{at_, "expected at most " + std::to_string(max_depth) + " nested parts"};
+    void require_depth(int depth, int most, const char* what) const {
+        if (depth > most) throw Wrong{at_, "expected at most " + std::to_string(most) + " " + what};
     }
     [[noreturn]] void expected(const std::string& what) const { expected(what, at_); }
     [[noreturn]] void expected(const std::string& what, std::size_t at) const {
@@ -136,14 +135,25 @@ class Parser {
         return text_.substr(begin, at_ - begin);
     }
 
+    /// Add a number, or the result of an operation, that ends here.
+    Term constant(double number) {
+        values_.place = {names_.channel, at_};
+        return values_.constant(number);
+    }
+    Term result(Operation operation, Term a, Term b) { return result(operation, a, b, a); }
+    Term result(Operation operation, Term a, Term b, Term c) {
+        values_.place = {names_.channel, at_};
+        return values_.result(operation, a, b, c);
+    }
+
     Term conditional() {
-        const Nested nested(*this);
         const Term condition = comparison();
         if (!take("?")) return condition;
+        const Nested nested(*this);
         const Term one = conditional();
         require(":");
         const Term other = conditional();
-        return values_.result(Operation::choose, condition, one, other);
+        return result(Operation::choose, condition, one, other);
     }
 
     struct Comparison {
@@ -166,17 +176,17 @@ class Parser {
         const Term right = sum();
         const std::size_t end = at_;
         if (take_comparison()) expected("no second comparison", end);
-        return comparison->is_swapped ? values_.result(comparison->operation, right, left)
-                                      : values_.result(comparison->operation, left, right);
+        return comparison->is_swapped ? result(comparison->operation, right, left)
+                                      : result(comparison->operation, left, right);
     }
 
     Term sum() {
         Term value = product();
         for (;;) {
             if (take("+"))
-                value = values_.result(Operation::add, value, product());
+                value = result(Operation::add, value, product());
             else if (take("-"))
-                value = values_.result(Operation::subtract, value, product());
+                value = result(Operation::subtract, value, product());
             else
                 return value;
         }
@@ -185,27 +195,29 @@ class Parser {
         Term value = with_sign();
         for (;;) {
             if (take("*"))
-                value = values_.result(Operation::multiply, value, with_sign());
+                value = result(Operation::multiply, value, with_sign());
             else if (take("/"))
-                value = values_.result(Operation::divide, value, with_sign());
+                value = result(Operation::divide, value, with_sign());
             else
                 return value;
         }
     }
     Term with_sign() {
-        const Nested nested(*this);
         if (!take("-")) return power();
-        return values_.result(Operation::subtract, values_.constant(0.0), with_sign());
+        const Nested nested(*this);
+        return result(Operation::subtract, constant(0.0), with_sign());
     }
     Term power() {
         const Term base = operand();
         if (!take("^")) return base;
+        const Nested nested(*this);
         const Term exponent = with_sign();
         const double n = values_.number_of(exponent).value_or(0.0);
+        values_.place = {names_.channel, at_};
         constexpr double most_products = 16.0;
         if (n >= 1.0 && n <= most_products && n == static_cast<int>(n))
             return values_.power(base, static_cast<int>(n));
-        return values_.result(Operation::power, base, exponent);
+        return result(Operation::power, base, exponent);
     }
 
     Term operand() {
@@ -216,6 +228,7 @@ class Parser {
             if (c == '$') return parameter();
         }
         if (!take("(")) expected("a number, a name or \"(\"");
+        const Nested nested(*this);
         const Term value = conditional();
         require(")");
         return value;
@@ -228,7 +241,7 @@ class Parser {
         if (error != std::errc()) throw Wrong{at_, "expected a number that a double can hold"};
         at_ += static_cast<std::size_t>(end - begin);
         skip_spaces();
-        return values_.constant(number);
+        return constant(number);
     }
     Term named() {
         const std::size_t begin = at_;
@@ -236,7 +249,7 @@ class Parser {
         skip_spaces();
         for (int i = 0; i < FormulaProgram::inputs; ++i)
             if (name == variables[i]) return i < 3 ? coordinate(i, begin, name.size()) : i;
-        if (name == "pi") return values_.constant(std::numbers::pi);
+        if (name == "pi") return constant(std::numbers::pi);
         for (const Function& function : functions)
             if (name == function.name) return call(function);
         std::string known;
@@ -246,6 +259,7 @@ class Parser {
     }
     Term call(const Function& function) {
         require("(");
+        const Nested nested(*this);
         std::array<Term, 3> arguments{};
         for (int i = 0; i < function.arguments; ++i) {
             if (i > 0) require(",");
@@ -254,7 +268,7 @@ class Parser {
         for (int i = function.arguments; i < 3; ++i)
             arguments[i] = arguments[0];
         require(")");
-        return values_.result(function.operation, arguments[0], arguments[1], arguments[2]);
+        return result(function.operation, arguments[0], arguments[1], arguments[2]);
     }
     Term coordinate(int axis, std::size_t begin, std::size_t length) {
         if (!names_.point[axis].empty())
@@ -270,11 +284,11 @@ class Parser {
         const std::string text = checks::text_of(number);
         replace(begin, at_, number < 0.0 ? "(" + text + ")" : text);
         skip_spaces();
-        return values_.constant(number);
+        return constant(number);
     }
     /// Replaces a part of the text in the resolved one.
     void replace(std::size_t begin, std::size_t end, const std::string& by) {
-        require_depth(depth_ + depth_of_replaced);
+        require_depth(depth_, max_depth - depth_of_replaced, "nested parts around this name");
         resolved_.append(text_.substr(copied_, begin - copied_)).append(by);
         copied_ = end;
     }
@@ -320,12 +334,12 @@ Formula::Formula(const FormulaTexts& texts, const ParameterOf& parameter_of,
             parts->texts[channel] = parser.resolved();
         }
         const FormulaValues::Size size = values.write(channels, parts->program);
-        const auto require = [&](int count, int most, const char* what) {
-            if (count <= most) return;
-            channel = 2;
-            throw Wrong{texts[channel].size(), "expected at most " + std::to_string(most) + " " +
-                                                   what + " in all channels, got " +
-                                                   std::to_string(count)};
+        const auto require = [&](const FormulaValues::Count& count, int most, const char* what) {
+            if (count.number <= most) return;
+            channel = count.excess.channel;
+            throw Wrong{count.excess.at, "expected at most " + std::to_string(most) + " " + what +
+                                             " in all channels, got " +
+                                             std::to_string(count.number)};
         };
         require(size.instructions, FormulaProgram::max_instructions, "different operations");
         require(size.constants, FormulaProgram::max_constants, "different numbers");

@@ -16,7 +16,7 @@ double result_of(FormulaOperation operation, double a, double b, double c) {
 FormulaValues::Value FormulaValues::constant(double number) {
     const auto [found, is_new] =
         constants_.try_emplace(std::bit_cast<std::uint64_t>(number), size());
-    if (is_new) values_.push_back({.is_constant = true, .constant = number});
+    if (is_new) values_.push_back({.place = place, .is_constant = true, .constant = number});
     return found->second;
 }
 
@@ -27,7 +27,7 @@ FormulaValues::Value FormulaValues::result(FormulaOperation operation, Value a, 
         return constant(
             result_of(operation, values_[a].constant, values_[b].constant, values_[c].constant));
     const auto [found, is_new] = results_.try_emplace(std::tuple(operation, a, b, c), size());
-    if (is_new) values_.push_back({.operation = operation, .operands = {a, b, c}});
+    if (is_new) values_.push_back({.place = place, .operation = operation, .operands = {a, b, c}});
     return found->second;
 }
 
@@ -47,12 +47,20 @@ FormulaValues::Size FormulaValues::write(const std::array<Value, 3>& channels,
             for (const Value operand : values_[value].operands)
                 needed[operand] = true;
 
-    Size count{};
-    for (Value value = FormulaProgram::inputs; value < size(); ++value)
-        if (needed[value]) ++(values_[value].is_constant ? count.constants : count.instructions);
-    if (count.instructions > FormulaProgram::max_instructions ||
-        count.constants > FormulaProgram::max_constants)
-        return count;
+    Size size_of_all;
+    const auto add = [](Count& count, int most, const Node& node) {
+        if (++count.number == most + 1) count.excess = node.place;
+    };
+    for (Value value = FormulaProgram::inputs; value < size(); ++value) {
+        const Node& node = values_[value];
+        if (needed[value] && node.is_constant)
+            add(size_of_all.constants, FormulaProgram::max_constants, node);
+        else if (needed[value])
+            add(size_of_all.instructions, FormulaProgram::max_instructions, node);
+    }
+    if (size_of_all.instructions.number > FormulaProgram::max_instructions ||
+        size_of_all.constants.number > FormulaProgram::max_constants)
+        return size_of_all;
 
     std::vector<std::uint8_t> number(values_.size());
     for (int i = 0; i < FormulaProgram::inputs; ++i)
@@ -65,8 +73,8 @@ FormulaValues::Size FormulaValues::write(const std::array<Value, 3>& channels,
     for (Value value = FormulaProgram::inputs; value < size(); ++value) {
         const Node& node = values_[value];
         if (!needed[value] || node.is_constant) continue;
-        number[value] = static_cast<std::uint8_t>(FormulaProgram::inputs + count.constants +
-                                                  program.instruction_count);
+        number[value] = static_cast<std::uint8_t>(
+            FormulaProgram::inputs + size_of_all.constants.number + program.instruction_count);
         program.instructions[program.instruction_count++] = {
             node.operation, number[node.operands[0]], number[node.operands[1]],
             number[node.operands[2]]};
@@ -74,7 +82,7 @@ FormulaValues::Size FormulaValues::write(const std::array<Value, 3>& channels,
     for (int channel = 0; channel < 3; ++channel)
         program.channels[channel] = number[channels[channel]];
     program.needs_shape = needed[3] || needed[4];
-    return count;
+    return size_of_all;
 }
 
 } // namespace raylane::core

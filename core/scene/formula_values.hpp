@@ -3,6 +3,7 @@
 #include "core/numbers/formula_program.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -20,6 +21,13 @@ class FormulaValues {
   public:
     /// A value, by its number.
     using Value = int;
+    /// A place in the text of a channel.
+    struct Place {
+        int channel = 0;
+        std::size_t at = 0;
+    };
+
+    Place place{}; ///< of the values that are added next
 
     FormulaValues() {
         for (int i = 0; i < FormulaProgram::inputs; ++i)
@@ -42,13 +50,18 @@ class FormulaValues {
 
     /// Writes the values that the channels need. Returns the number of instructions and constants
     /// that they need, which may be more than a program can hold.
+    struct Count {
+        int number = 0;
+        Place excess{}; ///< of the first one that a program cannot hold
+    };
     struct Size {
-        int instructions, constants;
+        Count instructions, constants;
     };
     Size write(const std::array<Value, 3>& channels, FormulaProgram& program) const;
 
   private:
     struct Node {
+        Place place{};
         bool is_constant = false;
         double constant = 0.0;
         FormulaOperation operation{};

@@ -164,9 +164,18 @@ TEST_CASE("a mistake names its line and column") {
     const auto nested = [](int depth) {
         return std::string(depth, '(') + "x" + std::string(depth, ')');
     };
-    CHECK(mistake(nested(40)) == "");
-    CHECK(mistake(nested(200)).find("at most 100 nested parts") != std::string::npos);
-    CHECK(mistake(std::string(5000, '-')).find("at most 100 nested parts") != std::string::npos);
+    CHECK(mistake(nested(100)) == "");
+    CHECK(mistake(nested(101)) == "line 1, column 102: expected at most 100 nested parts");
+    CHECK(mistake(std::string(100, '-') + "x") == "");
+    CHECK(mistake(std::string(5000, '-')) ==
+          "line 1, column 102: expected at most 100 nested parts");
+    for (const char* part : {"cos(", "x ^ ", "y ? 1 : ", "-(2 * "}) {
+        CAPTURE(part);
+        std::string text = "x";
+        for (int i = 0; i < 101; ++i)
+            text = part + text;
+        CHECK(mistake(text).find("at most 100 nested parts") != std::string::npos);
+    }
     const Formula blue({"x", "y", "cos("});
     REQUIRE(blue.mistake());
     CHECK(blue.mistake()->channel == 2);
@@ -180,8 +189,13 @@ TEST_CASE("a program has at most 64 different operations and numbers") {
         return text;
     };
     CHECK(Formula({sum_of(65, ""), "x", "x"}).program().instruction_count == 64);
-    CHECK(mistake(sum_of(66, "")).find("at most 64 different operations in all channels, got 65") !=
-          std::string::npos);
+    // The place is that behind the 65th operation.
+    const std::string too_many = "expected at most 64 different operations in all channels, got ";
+    CHECK(mistake(sum_of(66, "")) == "line 1, column 262: " + too_many + "65");
+    const Formula green({sum_of(60, ""), "x * y\n + " + sum_of(9, "2 * "), "x"});
+    REQUIRE(green.mistake());
+    CHECK(green.mistake()->channel == 1);
+    CHECK(green.mistake()->message == "line 2, column 16: " + too_many + "72");
     // Equal operations count once, operations of numbers not at all.
     CHECK(Formula({sum_of(60, ""), sum_of(60, ""), "x + y + x"}).program().instruction_count == 59);
     CHECK(Formula({"sqrt(2 * pi) / 3 + x", "x", "x"}).program().instruction_count == 1);
@@ -192,6 +206,10 @@ TEST_CASE("a program has at most 64 different operations and numbers") {
     for (int i = 2; i < 67; ++i)
         numbers = "max(" + numbers + ", " + std::to_string(i) + ")";
     CHECK(mistake(numbers).find("at most") != std::string::npos);
+    std::string sum = "x";
+    for (int i = 2; i < 67; ++i)
+        sum += " + " + std::to_string(i) + " * (x < " + std::to_string(i) + ")";
+    CHECK(mistake(sum).find("different") != std::string::npos);
     CHECK(!Formula({"x", "y", "z"}).program().needs_shape);
     CHECK(Formula({"x", "y", "v"}).program().needs_shape);
 }
@@ -216,11 +234,14 @@ TEST_CASE("x, y and z may stand for formulas, which become parts of the text") {
     CHECK(color_of(moved.program(), {4, 5, -3}, {0.25, 0}) == Vec3d(9.25, 5, 1));
     CHECK(Formula(moved.texts()) == moved);
     // The text that is written can be read.
-    const std::string nested = std::string(45, '(') + "x" + std::string(45, ')');
+    const std::string nested = std::string(96, '(') + "x" + std::string(96, ')');
     CHECK(!Formula({nested, "0", "0"}).mistake());
     CHECK(!Formula(Formula({nested, "0", "0"}, {}, {"1 * (y + -2)", "", ""}).texts()).mistake());
-    const std::string deep = std::string(49, '(') + "x" + std::string(49, ')');
-    CHECK(Formula({deep, "0", "0"}, {}, {"x - 1", "", ""}).mistake());
+    CHECK(!Formula({nested, "0", "0"}, {}, {"-1 * (x + -2)", "", ""}).mistake());
+    CHECK(!Formula(Formula({nested, "0", "0"}, {}, {"-1 * (x + -2)", "", ""}).texts()).mistake());
+    const std::string deep = std::string(97, '(') + "x" + std::string(97, ')');
+    CHECK(Formula({deep, "0", "0"}, {}, {"x - 1", "", ""}).mistake()->message ==
+          "line 1, column 99: expected at most 96 nested parts around this name");
     std::string wide = "x";
     while (wide.size() < 9000)
         wide += "+x";

@@ -24,19 +24,23 @@ Value named(const JsonValue& value, std::span<const Named> all, Value Named::*me
     return value.choice(JsonValue::Choices<Value>(choices));
 }
 
-/// Returns formulas of the coordinates that a point had before it was moved to x, y, z.
-core::FormulaTexts coordinates_before(const core::Transform& transform) {
+/// Returns formulas of the coordinates that a point had before the transform of a pattern moved it
+/// to x, y, z.
+core::FormulaTexts coordinates_before(const JsonValue& pattern) {
     using core::Vec3d, core::checks::text_of;
     // The moved unit cube has the map's columns as its edges.
     core::BoxOf<double> unit{Vec3d(0), Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
     const auto [origin, u, v, w] =
-        std::get<core::BoxOf<double>>(transform(core::of_shape(unit)).shape);
+        std::get<core::BoxOf<double>>(transform_of(pattern)(core::of_shape(unit)).shape);
     const Vec3d rows[3] = {core::cross(v, w), core::cross(w, u), core::cross(u, v)};
     const double volume = core::dot(rows[0], u);
     core::FormulaTexts texts;
     for (int row = 0; row < 3; ++row) {
         for (int axis = 0; axis < 3; ++axis) {
             const double factor = rows[row][axis] / volume;
+            if (!std::isfinite(factor) || !std::isfinite(origin[axis]))
+                pattern.fail(
+                    "must have a transform with an inverse whose numbers doubles can hold");
             if (factor == 0.0) continue;
             std::string part(1, "xyz"[axis]);
             if (origin[axis] != 0.0)
@@ -68,8 +72,7 @@ void read_field(const JsonValue& value, const core::fields::Field&, core::Patter
     if (to.kind != core::PatternKind::formula) return read_only_fields(value, to);
     allow_fields(value, to, {"scale", "rotate", "translate", "transform"});
     read_fields(value, to);
-    if (has_transform(value))
-        to.formula = formula_of(value.at("color"), coordinates_before(transform_of(value)));
+    if (has_transform(value)) to.formula = formula_of(value.at("color"), coordinates_before(value));
 }
 
 /// Reads a glass: its name, or its coefficients.

@@ -118,6 +118,12 @@ TEST_CASE("unknown and missing and repeated keys are reported") {
         {pattern(R"("type": "formula", "color": ["x", "$low + 1", "0"])"),
          "/materials/a~1b~0/pattern/color/1: must have a value, by \"parameters\" or --set, got "
          "\"$low\""},
+        // A determinant of doubles that is not 0, but too small for an inverse in doubles.
+        {pattern(R"("type": "formula", "color": ["x", "y", "z"], "transform": [[0.5, 0.3, 0.36, 0],
+                    [0.30000000000000004, 2.0999999999999996, 1.5599999999999998, 0],
+                    [0.9, 0.2, 0.41000000000000003, 0]])"),
+         "/materials/a~1b~0/pattern: must have a transform with an inverse whose numbers doubles "
+         "can hold"},
         {pattern(R"("type": "back-plane", "color": "#ffffff")"),
          R"(/materials/a~1b~0/pattern: unknown key "color", must be "type")"},
         {with(R"("camera\u0000\n": 1)"), R"(unknown key "camera\x00\x0A", did you mean "camera"?)"},
