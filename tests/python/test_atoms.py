@@ -51,6 +51,8 @@ def test_what_no_atoms_are_says_where():
         (lambda: raylane.from_atoms(["C 5"], places), "symbols/0: must be an element's symbol, without spaces, got 'C 5'"),
         (lambda: raylane.from_atoms(["C", ""], places * 2), "symbols/1: must be an element's symbol, without spaces, got ''"),
         (lambda: raylane.from_atoms(["C\n"], places), "symbols/0: must be an element's symbol, without spaces, got 'C\\n'"),
+        (lambda: raylane.from_atoms(["Cx"], places), "symbols/0: must be an element's symbol, or X if it is unknown, got 'Cx'"),
+        (lambda: raylane.from_atoms(["CA1"], places), "symbols/0: must be an element's symbol, or X if it is unknown, got 'CA1'"),
         (lambda: raylane.from_atoms([None], places), "symbols/0: must be an element's symbol, or number up to 118, got None"),
         (lambda: raylane.from_atoms([119], places), "symbols/0: must be an element's symbol, or number up to 118, got 119"),
         (lambda: raylane.from_atoms([10**5000], places), "symbols/0: must be an element's symbol, or number up to 118, got a larger number"),
@@ -220,7 +222,58 @@ def test_style_draws_chains():
     assert (len(trace.spheres()), trace.shape_count) == (11, 21)
     cartoon = raylane.from_atoms(["C"] * 6, places, style="cartoon rainbow", **chain)
     assert cartoon.shape_count > 100 and cartoon.material_count == 6
-    with pytest.raises(raylane.BadInput, match="has no proteins or nucleic acids"):
+    none = "style: must be a style of atoms here: the selection has no proteins or nucleic acids of two residues"
+    with pytest.raises(raylane.BadInput) as error:
         raylane.from_atoms(["C"], [[0, 0, 0]], style="cartoon")
+    assert str(error.value) == none and error.value.errors[0].file == "style"
+    with pytest.raises(raylane.BadInput) as error:
+        raylane.from_atoms(["C"], [[0, 0, 0]], representations=["all: sticks", "all: cartoon"])
+    assert str(error.value) == none.replace("style:", "representations/1:", 1)
     with pytest.raises(raylane.InvalidValue, match="must not be given with representations"):
         raylane.from_atoms(["C"], [[0, 0, 0]], style="sticks", representations=["all"])
+
+
+def test_each_symbol_is_its_number():
+    symbols = sorted(raylane._atoms._SYMBOLS - {"D", "T"})
+    assert len(symbols) == 119
+    places = [[3.0 * i, 0, 0] for i in range(119)]
+    by_number = raylane.from_atoms(range(119), places)
+    colors = {by_number.material_name(i): by_number.material(i).color for i in range(by_number.material_count)}
+    for symbol in symbols:
+        one = raylane.from_atoms([symbol.lower()], [[0, 0, 0]])
+        assert symbol == "X" or colors[symbol] == one.material(0).color
+    for isotope in "DT":
+        assert raylane.from_atoms([isotope], [[0, 0, 0]]).material(0) == raylane.from_atoms(["H"], [[0, 0, 0]]).material(0)
+
+
+def test_a_file_in_a_style(tmp_path):
+    path = tmp_path / "water.xyz"
+    path.write_text("3\nwater\n" + "".join(f"{s} {x} {y} {z}\n" for s, (x, y, z) in zip(*WATER)))
+    assert colors_and_places(raylane.load(path, style="licorice")) == colors_and_places(raylane.from_atoms(*WATER, style="licorice"))
+    assert raylane.load(path, representations=["element O: spheres"]).shape_count == 1
+    for looks, text in (
+        (dict(style="stiks"), "style: must be a style, element or a colour such as red or #ff8000, got"),
+        (dict(style="opacity 2"), "style: column 9: opacity must be above 0 and at most 1"),
+        (dict(representations=["al: sticks"]), "representations/0: column 1: must be one of all"),
+    ):
+        for call in (lambda: raylane.load(path, **looks), lambda: raylane.from_atoms(*WATER, **looks)):
+            with pytest.raises(raylane.BadInput) as error:
+                call()
+            assert str(error.value).startswith(text)
+    with pytest.raises(raylane.InvalidValue, match="representations: must be a list of texts, got one text"):
+        raylane.load(path, representations="all")
+    scene = tmp_path / "a.json"
+    raylane.load(path).save(scene)
+    for looks in (dict(style="sticks"), dict(representations=["all"])):
+        with pytest.raises(raylane.BadInput, match=f"^{next(iter(looks))}: goes with a file of atoms, but .*a.json is a scene$"):
+            raylane.load(scene, **looks)
+
+
+def test_a_palette_without_a_number_is_reported():
+    for looks, text in (
+        (dict(style="sticks palette magma"), "the palette or range of style is ignored"),
+        (dict(representations=["all", "all: red range 0 1"]), "the palette or range of representations/1 is ignored"),
+    ):
+        with pytest.warns(UserWarning, match=f"^{text}, because no colour stands for a number: the atoms have none$"):
+            raylane.from_atoms(*WATER, **looks)
+    raylane.from_atoms(*WATER, style="spheres charge palette magma", properties={"charge": [0, 1, 2]})  # no warning

@@ -42,6 +42,19 @@ std::filesystem::path file_named(const std::filesystem::path& path) {
     return path == "-" ? "./-" : path;
 }
 
+scenes::LoadOptions options_of(bool show_cell, const std::vector<std::string>& representations,
+                               simd::ParallelWorkers& workers, const OnRemark& on_remark) {
+    scenes::LoadOptions options;
+    options.workers = &workers;
+    options.on_remark = on_remark;
+    options.drawing.show_cell = show_cell;
+    options.option_for_atoms = representations.empty() ? "show_cell" : "representations";
+    for (std::size_t k = 0; k < representations.size(); ++k)
+        options.drawing.show.push_back(
+            {representations[k], "representations/" + std::to_string(k)});
+    return options;
+}
+
 void require_side(const char* field, int pixels) {
     if (pixels < 1 || pixels > core::Settings::max_size)
         throw InvalidValue(field, "must be from 1 to " + std::to_string(core::Settings::max_size) +
@@ -75,14 +88,17 @@ Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell
                   const std::vector<std::string>& representations, const OnRemark& on_remark) {
     return with_file_errors([&] {
         simd::ParallelWorkers workers;
-        scenes::LoadOptions options;
-        options.workers = &workers;
-        options.on_remark = on_remark;
-        options.drawing.show_cell = show_cell;
-        for (std::size_t k = 0; k < representations.size(); ++k)
-            options.drawing.show.push_back(
-                {representations[k], "representations/" + std::to_string(k)});
-        return owning(scenes::parse_scene(name, text, options));
+        return owning(scenes::parse_scene(
+            name, text, options_of(show_cell, representations, workers, on_remark)));
+    });
+}
+
+Scene load_atoms(const std::filesystem::path& path, bool show_cell,
+                 const std::vector<std::string>& representations, const OnRemark& on_remark) {
+    return with_file_errors([&] {
+        simd::ParallelWorkers workers;
+        return owning(scenes::load_scene(
+            file_named(path), options_of(show_cell, representations, workers, on_remark)));
     });
 }
 

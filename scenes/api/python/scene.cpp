@@ -219,6 +219,13 @@ void bind_scene(py::module_& module) {
                    const py::gil_scoped_release free;
                    return raylane::parse_atoms(view, name, show_cell, representations, remarks);
                });
+    module.def("load_atoms",
+               [](const std::filesystem::path& path, bool show_cell,
+                  const std::vector<std::string>& representations, const py::object& on_remark) {
+                   const OnRemark remarks = remarks_to(on_remark);
+                   const py::gil_scoped_release free;
+                   return raylane::load_atoms(path, show_cell, representations, remarks);
+               });
     module.def("material_preset",
                [](const std::string& name) { return to_python(material_preset(name)); });
     module.def("catalogue_glass",

@@ -11,11 +11,11 @@
 
 namespace raylane::scenes {
 
-AtomColors::AtomColors(const Structure& structure, const ColorWords& words, const std::string& file,
+AtomColors::AtomColors(const Structure& structure, const ColorWords& words,
                        std::vector<std::string>& unmatched)
     : structure_(structure), palette_(words.palette), only_carbons_(words.carbons) {
     find_elements();
-    color_by(words, file);
+    color_by(words);
     override_kinds(words, unmatched);
 }
 
@@ -28,13 +28,13 @@ void AtomColors::find_elements() {
     is_overridden_.resize(of_kind_.size());
 }
 
-void AtomColors::color_by(const ColorWords& words, const std::string& file) {
+void AtomColors::color_by(const ColorWords& words) {
     const std::string& by = words.by;
     if (by.empty() || by == "element") return;
     if (by == "chain" || by == "residue") {
         if (structure_.residues.empty())
             throw BadInput(words.option, "",
-                           "must not be " + by + " here: " + file + " has no residues");
+                           "must not be " + by + " here: the atoms have no residues");
         color_by_residue(by == "chain");
         return;
     }

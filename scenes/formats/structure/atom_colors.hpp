@@ -17,9 +17,9 @@ using ColorRange = std::pair<double, double>;
 /// The colours of a structure's atoms by words. The structure must outlive it.
 class AtomColors {
   public:
-    /// `file` is the name in messages. Throws BadInput for words that mean nothing in this
-    /// structure. `unmatched` receives a message for each kind that no atom has.
-    AtomColors(const Structure& structure, const ColorWords& words, const std::string& file,
+    /// Throws BadInput for words that mean nothing in this structure. `unmatched` receives a
+    /// message for each kind that no atom has.
+    AtomColors(const Structure& structure, const ColorWords& words,
                std::vector<std::string>& unmatched);
 
     /// Returns the property that colours stand for; null: none.
@@ -35,7 +35,7 @@ class AtomColors {
 
   private:
     void find_elements();
-    void color_by(const ColorWords& words, const std::string& file);
+    void color_by(const ColorWords& words);
     void color_by_residue(bool by_chain);
     void override_kinds(const ColorWords& words, std::vector<std::string>& unmatched);
     bool is_by_kind(AtomIndex atom) const;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace raylane::scenes {
 /// A look of the atoms of a representation.
 struct AtomLayer {
     std::size_t representation; ///< index
+    std::string option;         ///< in messages about the style
     Look look;                  ///< with a style and an opacity
     AtomColors colors;
     AtomRadii radii;

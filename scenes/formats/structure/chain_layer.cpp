@@ -21,8 +21,8 @@ ChainLook chain_look_of(const Look& look) {
 } // namespace
 
 std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
-                            const std::string& file, core::SceneBuilder& builder,
-                            TransparentSolids& transparent, std::vector<AtomPair>* atoms_of_shape) {
+                            core::SceneBuilder& builder, TransparentSolids& transparent,
+                            std::vector<AtomPair>* atoms_of_shape) {
     const float opacity = *layer.look.opacity;
     Palette palette(builder, opacity);
     const auto add = [&]<class Shape>(const Shape& shape, core::MaterialIndex material,
@@ -50,10 +50,9 @@ std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
                     shape);
         });
     if (rest.drawn == 0)
-        throw BadInput(layer.look.color.option == "--color" ? "--style" : layer.look.color.option,
-                       "",
-                       "must be a style of atoms here: " + file +
-                           " has no proteins or nucleic acids of two residues in the selection");
+        throw BadInput(layer.option, "",
+                       "must be a style of atoms here: the selection has no proteins or nucleic "
+                       "acids of two residues");
     return rest.remark(atoms.structure);
 }
 

@@ -10,7 +10,7 @@ namespace raylane::scenes {
 /// residues that could not be drawn, or an empty text. Throws BadInput if no chain has two residues
 /// of the layer.
 std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
-                            const std::string& file, core::SceneBuilder& builder,
-                            TransparentSolids& transparent, std::vector<AtomPair>* atoms_of_shape);
+                            core::SceneBuilder& builder, TransparentSolids& transparent,
+                            std::vector<AtomPair>* atoms_of_shape);
 
 } // namespace raylane::scenes

@@ -23,6 +23,10 @@ using core::Vec3f;
 constexpr std::size_t max_for_balls = 500;
 constexpr float cell_stick = 0.06F;
 
+bool has_ramp(const ColorWords& words) {
+    return !words.palette.empty() || words.range.has_value();
+}
+
 /// Returns a look whose unset members are those of another one.
 Look completed(Look look, const Look& usual) {
     if (!look.style) look.style = usual.style;
@@ -75,6 +79,7 @@ class SceneFromAtoms {
         find_styles();
         find_bonds();
         make_layers();
+        report_unused_ramps();
         find_ranges();
         report_unmatched();
         builder_.reserve(count_ * atoms_.images.size());
@@ -82,8 +87,8 @@ class SceneFromAtoms {
         for (const AtomLayer& layer : layers_)
             if (!shows_chains(*layer.look.style))
                 add_layer(atoms_, layer, file_, builder_, transparent, atoms_of_shape_);
-            else if (const std::string remark = add_chain_layer(atoms_, layer, file_, builder_,
-                                                                transparent, atoms_of_shape_);
+            else if (const std::string remark =
+                         add_chain_layer(atoms_, layer, builder_, transparent, atoms_of_shape_);
                      !remark.empty() && on_remark_ && !drawing_.scale)
                 on_remark_(printable(file_, 4096) + ": " + remark);
         transparent.add_to(builder_, atoms_of_shape_);
@@ -103,6 +108,7 @@ class SceneFromAtoms {
     struct Shown {
         std::string option; ///< in messages
         Representation what;
+        std::vector<char> has_ramp{}; ///< by look: it names a palette or a range itself
     };
 
     /// Without representations, all atoms have the look of the options.
@@ -110,11 +116,13 @@ class SceneFromAtoms {
         const Look usual = usual_look(drawing_);
         for (const ShowWords& words : drawing_.show) {
             Shown shown{words.option, representation_of(words.option, words.text)};
-            for (Look& look : shown.what.looks)
+            for (Look& look : shown.what.looks) {
+                shown.has_ramp.push_back(has_ramp(look.color) ? 1 : 0);
                 look = completed(std::move(look), usual);
+            }
             shown_.push_back(std::move(shown));
         }
-        if (shown_.empty()) shown_.push_back({"--color", {"all", {usual}}});
+        if (shown_.empty()) shown_.push_back({"--style", {"all", {usual}}, {0}});
         if (shown_.size() >= DrawnAtoms::hidden)
             throw BadInput("--show", "", "must not be given more than 65534 times");
     }
@@ -205,9 +213,27 @@ class SceneFromAtoms {
                     !structure_.residues.empty())
                     look.color.by = usual_chain_color(structure_);
                 layers_.push_back(
-                    {k, look, AtomColors(structure_, look.color, file_, unmatched_),
+                    {k, shown_[k].option, look, AtomColors(structure_, look.color, unmatched_),
                      AtomRadii(structure_, look, scale_.usual_radius, is_metallic_, unmatched_)});
             }
+    }
+
+    /// Reports palettes and ranges without a number to which they apply.
+    void report_unused_ramps() {
+        const auto report = [&](const std::string& option) {
+            unmatched_.push_back(option + " is ignored, because no colour stands for a number" +
+                                 (structure_.properties.empty() ? ": the atoms have none" : ""));
+        };
+        bool any = false;
+        std::size_t layer = 0;
+        for (const Shown& shown : shown_)
+            for (const char has_own : shown.has_ramp) {
+                const bool is_used = layers_[layer++].colors.property() != nullptr;
+                any = any || is_used;
+                if (has_own != 0 && !is_used) report("the palette or range of " + shown.option);
+            }
+        if (!any && !drawing_.palette.empty()) report("--palette");
+        if (!any && drawing_.range) report("--range");
     }
 
     /// Finds the ranges of properties over all atoms that show them.

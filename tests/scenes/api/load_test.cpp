@@ -107,6 +107,12 @@ TEST_CASE("atoms are read in the representations that select them") {
     CHECK(refusal_of([&] {
               parse_atoms(atoms, "a.xyz", false, {"all", "all: opacity 2"});
           }) == "representations/1: column 14: opacity must be above 0 and at most 1, got \"2\"");
+    const tests::TemporaryFile file(atoms, ".xyz"), scene(R"({"objects": []})");
+    CHECK(load_atoms(file.path(), false, {"element O: spheres"}).shape_count() == 1);
+    CHECK(load_atoms(file.path(), false).shape_count() == load(file.path()).shape_count());
+    CHECK(refusal_of([&] { load_atoms(scene.path(), false, {"all"}); }) ==
+          "representations: goes with a file of atoms, but " + scene.path().string() +
+              " is a scene");
 }
 
 TEST_CASE("the pages contain the example program that is tested") {

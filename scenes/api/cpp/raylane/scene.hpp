@@ -250,6 +250,12 @@ RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bo
                               const std::vector<std::string>& representations,
                               const OnRemark& on_remark = {});
 
+/// Reads atoms from a file, as load() does, with representations. Throws BadInput also for a file
+/// of a scene.
+RAYLANE_API Scene load_atoms(const std::filesystem::path& path, bool show_cell,
+                             const std::vector<std::string>& representations = {},
+                             const OnRemark& on_remark = {});
+
 /// Writes a scene to a file. The file appears complete or not at all. The ending, in upper or lower
 /// case, decides the format:
 /// - .json: everything that is visible of the scene, to the bit. It does not store which triangles

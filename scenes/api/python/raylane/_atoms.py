@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import os
+import re
 from numbers import Integral
 from typing import Any, Callable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -10,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
-from ._errors import InvalidValue
+from ._errors import BadInput, InvalidValue
 from ._scene import Scene, _warn
 
 
@@ -40,6 +42,15 @@ def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[n
     return numbers
 
 
+_SYMBOLS = frozenset(
+    "H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr Rb Sr Y Zr Nb Mo"
+    " Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W Re Os Ir Pt Au Hg Tl"
+    " Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm Bk Cf Es Fm Md No Lr Rf Db Sg Bh Hs Mt Ds Rg Cn Nh Fl Mc Lv Ts Og"
+    " D T X".split()
+)
+"""Symbols of elements, of hydrogen's isotopes, and of an unknown element."""
+
+
 def _symbol(symbol: Any, index: int) -> str:
     """Returns an element's symbol or number as one word of an XYZ file. Raises InvalidValue for anything else."""
     if isinstance(symbol, Integral) and 0 <= int(symbol) <= 118:
@@ -49,6 +60,8 @@ def _symbol(symbol: Any, index: int) -> str:
         raise InvalidValue(f"symbols/{index}", f"must be an element's symbol, or number up to 118, got {got}")
     if not symbol or " " in symbol or not symbol.isprintable():
         raise InvalidValue(f"symbols/{index}", f"must be an element's symbol, without spaces, got {symbol[:40]!r}")
+    if symbol.capitalize() not in _SYMBOLS and not (symbol.isascii() and symbol.isdigit() and len(symbol) <= 3):
+        raise InvalidValue(f"symbols/{index}", f"must be an element's symbol, or X if it is unknown, got {symbol[:40]!r}")
     return symbol
 
 
@@ -74,7 +87,9 @@ def _column(values: Any, count: int, name: str) -> Tuple[str, List[str]]:
     return f"{name}:R:1", [repr(x) for x in numbers.astype(np.float64).tolist()]
 
 
-def _texts(representations: Optional[Sequence[str]]) -> List[str]:
+def _texts(representations: Optional[Sequence[str]], style: Optional[str]) -> List[str]:
+    """Returns the representations, or that of a style. Raises InvalidValue unless they are texts."""
+    representations = _looks(representations, style)
     if representations is None:
         return []
     if isinstance(representations, str):
@@ -96,6 +111,53 @@ def _looks(representations: Optional[Sequence[str]], style: Optional[str]) -> Op
     return [f"all: {style}"]
 
 
+def _of_style(message: str) -> str:
+    """Returns a message about the representation of a style as one about the style."""
+    column = re.match(r"representations/0: column (\d+)", message)
+    if column:
+        return f"style: column {int(column[1]) - len('all: ')}{message[column.end():]}"
+    return message.replace("representations/0", "style").replace("representations: ", "style: ")
+
+
+def _read(
+    read: Callable[[List[str], Callable[[str], object]], _raylane.Scene],
+    representations: Optional[Sequence[str]],
+    style: Optional[str],
+    on_remark: Callable[[str], object],
+) -> Scene:
+    """Returns the scene of ``read(texts, on_remark)``. Messages name the style if there is one."""
+    texts = _texts(representations, style)
+    if style is None:
+        return Scene(read(texts, on_remark))
+    try:
+        return Scene(read(texts, lambda remark: on_remark(_of_style(remark))))
+    except BadInput as error:
+        mistakes = [each._replace(file=_of_style(each.file)) for each in error.errors]
+        raise BadInput(_of_style(str(error)), mistakes) from None
+
+
+def load(
+    path: Union[str, os.PathLike[str]],
+    on_remark: Callable[[str], object] = _warn,
+    *,
+    style: Optional[str] = None,
+    representations: Optional[Sequence[str]] = None,
+) -> Scene:
+    """Reads a scene from a file in JSON, NFF, the languages of POV-Ray or Tachyon, or ``.rl``, or from a file of atoms.
+
+    The file's ending decides the format, or its content if the ending is unknown. ``"-"`` is a file of that name.
+    ``style`` and ``representations``: for files of atoms, as in :func:`from_atoms`. Calls ``on_remark`` for each part of
+    the file that raylane ignores; default: a warning. Raises :class:`BadInput` for a malformed or missing file, in JSON
+    with up to ten mistakes, and :class:`SystemRefused`.
+    """
+    name = os.fspath(path)
+    if style is None and not representations:
+        return Scene(_raylane.load(name, on_remark))
+    return _read(
+        lambda texts, remarks: _raylane.load_atoms(name, False, texts, remarks), representations, style, on_remark
+    )
+
+
 def from_atoms(
     symbols: Sequence[Union[str, int]],
     positions: ArrayLike,
@@ -112,7 +174,7 @@ def from_atoms(
 ) -> Scene:
     """Returns a scene of atoms, in the style of a scene from an XYZ file.
 
-    ``symbols``: n symbols or numbers (0 to 118) of elements. ``positions``: (n, 3), in angstrom. ``cell``: (3, 3), with
+    ``symbols``: n symbols or numbers (0 to 118) of elements, X or 0 for an unknown one. ``positions``: (n, 3), in angstrom. ``cell``: (3, 3), with
     the cell's vectors as rows, in angstrom; the scene includes its edges unless a vector is zero. Coordinates are
     finite, from -1e30 to 1e30.
 
@@ -135,7 +197,6 @@ def from_atoms(
         raise InvalidValue("symbols", "must have at least one atom, got none")
     count = len(words)
     places = _numbers(positions, (count, 3), "positions")
-    texts = _texts(_looks(representations, style))
     columns = [("species:S:1", words), ("pos:R:3", [f"{x!r} {y!r} {z!r}" for x, y, z in places.tolist()])]
     for column, values, field in (
         ("name:S:1", names, "names"),
@@ -157,7 +218,13 @@ def from_atoms(
     text.write(f"{count}\n{comment}\n")
     for row in zip(*(values for _, values in columns)):
         text.write(" ".join(row) + "\n")
-    return Scene(_raylane.parse_atoms(text.getvalue().encode(), "atoms.xyz", show_cell, texts, on_remark))
+    data = text.getvalue().encode()
+    return _read(
+        lambda texts, remarks: _raylane.parse_atoms(data, "atoms", show_cell, texts, remarks),
+        representations,
+        style,
+        on_remark,
+    )
 
 
 def from_ase(
@@ -191,8 +258,8 @@ def from_ase(
 
 def _element(name: str) -> str:
     """Returns the element of an atom that has only a name, such as "CA" or "1HB": the first letter."""
-    letters = "".join(c for c in name if c.isalpha())
-    return letters[:1].upper() or "X"
+    letter = "".join(c for c in name if c.isalpha())[:1].upper()
+    return letter if letter in _SYMBOLS else "X"
 
 
 def from_mdanalysis(
@@ -206,7 +273,8 @@ def from_mdanalysis(
     representations = _looks(representations, style)
     group = atoms.atoms
     if hasattr(group, "elements"):
-        symbols = [str(e).strip().capitalize() or _element(n) for e, n in zip(group.elements, group.names)]
+        elements = [str(element).strip().capitalize() for element in group.elements]
+        symbols = [e if e in _SYMBOLS else _element(str(name)) for e, name in zip(elements, group.names)]
     else:
         symbols = [_element(str(name)) for name in group.names]
     if representations is None:
@@ -237,7 +305,8 @@ def from_mdtraj(
     """
     representations = _looks(representations, style)
     atoms = list(trajectory.topology.atoms)
-    symbols = [atom.element.symbol if atom.element is not None else _element(atom.name) for atom in atoms]
+    elements = [atom.element.symbol.capitalize() if atom.element is not None else "" for atom in atoms]
+    symbols = [e if e in _SYMBOLS else _element(atom.name) for e, atom in zip(elements, atoms)]
     positions = 10.0 * trajectory.xyz[frame].astype(np.float64)
     if representations is None:
         return from_atoms(symbols, positions)

@@ -136,6 +136,10 @@ def parse_atoms(
     text: bytes, name: str, show_cell: bool, representations: List[str], on_remark: Callable[[str], object]
 ) -> Scene: ...
 
+def load_atoms(
+    path: str, show_cell: bool, representations: List[str], on_remark: Callable[[str], object]
+) -> Scene: ...
+
 class Tracer:
     def __init__(self, scene: Scene, threads: int, precision: str) -> None: ...
     @staticmethod

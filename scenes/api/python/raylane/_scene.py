@@ -383,16 +383,6 @@ class SceneBuilder(Adding):
 
 
 # The default on_remark issues a warning for each part of a file that raylane ignores.
-def load(path: Union[str, os.PathLike[str]], on_remark: Callable[[str], object] = _warn) -> Scene:
-    """Reads a scene from a file in JSON, NFF, the languages of POV-Ray or Tachyon, or ``.rl``, or from a file of atoms.
-
-    The file's ending decides the format, or its content if the ending is unknown. ``"-"`` is a file of that name.
-    Calls ``on_remark`` for each part of the file that raylane ignores; default: a warning. Raises :class:`BadInput`
-    for a malformed or missing file, in JSON with up to ten mistakes, and :class:`SystemRefused`.
-    """
-    return Scene(_raylane.load(os.fspath(path), on_remark))
-
-
 def parse(text: Union[str, bytes], name: str = "scene", on_remark: Callable[[str], object] = _warn) -> Scene:
     """Reads a scene from memory, as :func:`load` does. ``name`` stands for the file's name in messages and in the
     choice of the format.

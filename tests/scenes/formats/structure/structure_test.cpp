@@ -375,7 +375,7 @@ TEST_CASE("options that cannot be drawn give an error of one line") {
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.select = "element N"; }) ==
           "--select: \"element N\" selects none of 1 atoms");
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.color = "chain"; }) ==
-          "--color: must not be chain here: a.xyz has no residues");
+          "--color: must not be chain here: the atoms have no residues");
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.color = "elment"; }) ==
           "--color: must be element or a colour such as red or #ff8000, got \"elment\", did you "
           "mean \"element\"?");
