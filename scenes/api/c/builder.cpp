@@ -18,26 +18,19 @@ raylane_status add(raylane_builder* builder, const CShape* shapes, std::size_t c
         SceneBuilder& to = checked("builder", builder).builder;
         if (count != 0) static_cast<void>(checked("shapes", shapes));
         if (first != nullptr) *first = static_cast<std::uint32_t>(to.shape_count());
-        for (std::size_t i = 0; i < count; ++i)
-            try {
-                to.add(std::bit_cast<Shape>(shapes[i]), material);
-            } catch (const InvalidValue& error) {
-                std::string field = std::to_string(i);
-                if (!error.field.empty()) field.append("/").append(error.field);
-                throw InvalidValue(field, error.expectation);
-            }
+        add_all("shapes", shapes, count,
+                [&](const CShape& shape) { to.add(std::bit_cast<Shape>(shape), material); });
     });
 }
 
 template <class Shape, class CShape>
 raylane_status add_polygon(raylane_builder* builder, const CShape* triangles, std::size_t count,
                            std::uint32_t material, std::uint32_t* first) noexcept {
-    return guarded([&] {
+    return added(builder, first, [&](SceneBuilder& to) {
         std::vector<Shape> all;
         for (const CShape& triangle : span_of("triangles", triangles, count))
             all.push_back(std::bit_cast<Shape>(triangle));
-        const ShapeId id = checked("builder", builder).builder.add_polygon(all, material);
-        if (first != nullptr) *first = id;
+        return to.add_polygon(all, material);
     });
 }
 
@@ -73,11 +66,15 @@ void raylane_builder_release(raylane_builder* builder) {
 
 raylane_status raylane_add_material(raylane_builder* builder, const raylane_material* material,
                                     uint32_t* index) {
-    return guarded([&] {
-        const MaterialIndex added =
-            checked("builder", builder)
-                .builder.add_material(converted<Material>(checked("material", material)));
-        if (index != nullptr) *index = added;
+    return raylane_add_named_material(builder, material, "", index);
+}
+
+raylane_status raylane_add_named_material(raylane_builder* builder,
+                                          const raylane_material* material, const char* name,
+                                          uint32_t* index) {
+    return added(builder, index, [&](SceneBuilder& to) {
+        return to.add_material(converted<Material>(checked("material", material)),
+                               &checked("name", name));
     });
 }
 
@@ -107,6 +104,14 @@ raylane_status raylane_set_merge_duplicates(raylane_builder* builder, int merge)
     return guarded([&] { checked("builder", builder).builder.merge_duplicates = merge != 0; });
 }
 
+raylane_status raylane_set_wavelengths(raylane_builder* builder, const double* wavelengths,
+                                       size_t count) {
+    return guarded([&] {
+        const std::span<const double> all = span_of("wavelengths", wavelengths, count);
+        checked("builder", builder).builder.wavelengths.assign(all.begin(), all.end());
+    });
+}
+
 raylane_status raylane_set_settings(raylane_builder* builder, const raylane_settings* settings) {
     return guarded([&] {
         checked("builder", builder).builder.settings =
@@ -114,7 +119,7 @@ raylane_status raylane_set_settings(raylane_builder* builder, const raylane_sett
     });
 }
 
-#define RAYLANE_ADD(shapes, Shape, c_shape)                                                        \
+#define RAYLANE_ADD(shapes, shape, Shape, c_shape)                                                 \
     raylane_status raylane_add_##shapes(raylane_builder* builder, const raylane_##c_shape* shapes, \
                                         size_t count, uint32_t material, uint32_t* first) {        \
         return add<Shape>(builder, shapes, count, material, first);                                \
@@ -124,18 +129,7 @@ raylane_status raylane_set_settings(raylane_builder* builder, const raylane_sett
         uint32_t material, uint32_t* first) {                                                      \
         return add<Shape##Of<double>>(builder, shapes, count, material, first);                    \
     }
-RAYLANE_ADD(spheres, Sphere, sphere)
-RAYLANE_ADD(planes, Plane, plane)
-RAYLANE_ADD(discs, Disc, disc)
-RAYLANE_ADD(triangles, Triangle, triangle)
-RAYLANE_ADD(smooth_triangles, SmoothTriangle, smooth_triangle)
-RAYLANE_ADD(boxes, Box, box)
-RAYLANE_ADD(open_cylinders, OpenCylinder, cylinder)
-RAYLANE_ADD(capped_cylinders, CappedCylinder, cylinder)
-RAYLANE_ADD(open_cones, OpenCone, cone)
-RAYLANE_ADD(capped_cones, CappedCone, cone)
-RAYLANE_ADD(quadrics, Quadric, quadric)
-RAYLANE_ADD(ellipsoids, Ellipsoid, ellipsoid)
+RAYLANE_C_SHAPES(RAYLANE_ADD)
 #undef RAYLANE_ADD
 
 raylane_status raylane_add_polygon(raylane_builder* builder, const raylane_triangle* triangles,
@@ -149,11 +143,44 @@ raylane_status raylane_add_polygon_doubles(raylane_builder* builder,
     return add_polygon<TriangleOf<double>>(builder, triangles, count, material, first);
 }
 
+raylane_status raylane_add_smooth_polygon(raylane_builder* builder,
+                                          const raylane_smooth_triangle* triangles, size_t count,
+                                          uint32_t material, uint32_t* first) {
+    return add_polygon<SmoothTriangle>(builder, triangles, count, material, first);
+}
+
+raylane_status raylane_add_smooth_polygon_doubles(raylane_builder* builder,
+                                                  const raylane_double_smooth_triangle* triangles,
+                                                  size_t count, uint32_t material,
+                                                  uint32_t* first) {
+    return add_polygon<SmoothTriangleOf<double>>(builder, triangles, count, material, first);
+}
+
+raylane_sphereflake raylane_default_sphereflake(void) {
+    return std::bit_cast<raylane_sphereflake>(Sphereflake{});
+}
+
+raylane_lattice raylane_default_lattice(void) {
+    return std::bit_cast<raylane_lattice>(Lattice{});
+}
+
+raylane_status raylane_add_sphereflake(raylane_builder* builder, const raylane_sphereflake* flake,
+                                       uint32_t material, uint32_t* first) {
+    return added(builder, first, [&](SceneBuilder& to) {
+        return to.add(std::bit_cast<Sphereflake>(checked("flake", flake)), material);
+    });
+}
+
+raylane_status raylane_add_lattice(raylane_builder* builder, const raylane_lattice* lattice,
+                                   uint32_t material, uint32_t strut_material, uint32_t* first) {
+    return added(builder, first, [&](SceneBuilder& to) {
+        return to.add(std::bit_cast<Lattice>(checked("lattice", lattice)), material,
+                      strut_material);
+    });
+}
+
 raylane_status raylane_add_solid(raylane_builder* builder, const raylane_solid* solid,
                                  uint32_t material, uint32_t* first) {
-    return guarded([&] {
-        SceneBuilder& to = checked("builder", builder).builder;
-        const ShapeId id = to.add(checked("solid", solid).solid, material);
-        if (first != nullptr) *first = id;
-    });
+    return added(builder, first,
+                 [&](SceneBuilder& to) { return to.add(checked("solid", solid).solid, material); });
 }

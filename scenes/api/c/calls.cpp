@@ -21,6 +21,10 @@ const char* raylane_version(void) {
     return raylane::version();
 }
 
+int raylane_version_number(void) {
+    return raylane::version_number();
+}
+
 const char* raylane_error_text(void) {
     return error_text.c_str();
 }

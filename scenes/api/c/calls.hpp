@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <variant>
 
@@ -17,14 +18,22 @@ struct raylane_builder {
 struct raylane_scene {
     raylane::Scene scene;
 };
+struct raylane_transform {
+    raylane::Transform transform;
+};
 struct raylane_solid {
     raylane::Solid solid;
+};
+struct raylane_group {
+    raylane::Group group;
 };
 struct raylane_tracer {
     raylane::Tracer tracer;
 };
 struct raylane_rows {
-    std::variant<raylane::CrossingRows, raylane::SolidRows, raylane::LengthRows> rows;
+    std::variant<raylane::CrossingRows, raylane::SolidRows, raylane::LengthRows,
+                 raylane::SolidLengthRows>
+        rows;
 };
 
 namespace raylane::c {
@@ -85,6 +94,29 @@ raylane_status handle_of(const char* name, Handle** handle, const Make& make) no
         Handle*& to = checked(name, handle);
         to = nullptr;
         to = std::make_unique<Handle>(Handle{make()}).release();
+    });
+}
+
+/// Calls add(shape) for each of an array's shapes, and names the one that is invalid.
+template <class CShape, class Add>
+void add_all(const char* name, const CShape* shapes, std::size_t count, const Add& add) {
+    const std::span<const CShape> all = span_of(name, shapes, count);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        try {
+            add(all[i]);
+        } catch (const InvalidValue& error) {
+            std::string field = std::to_string(i);
+            if (!error.field.empty()) field.append("/").append(error.field);
+            throw InvalidValue(field, error.expectation);
+        }
+}
+
+/// Stores the first id that add(builder) returns, unless `first` is null.
+template <class Add>
+raylane_status added(raylane_builder* builder, std::uint32_t* first, const Add& add) noexcept {
+    return guarded([&] {
+        const ShapeId id = add(checked("builder", builder).builder);
+        if (first != nullptr) *first = id;
     });
 }
 

@@ -1,8 +1,23 @@
 #include "calls.hpp"
 #include "values.hpp"
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 using namespace raylane;
 using namespace raylane::c;
+
+namespace {
+
+std::vector<std::string> texts_of(const char* const* representations, std::size_t count) {
+    std::vector<std::string> texts;
+    for (const char* const& text : span_of(representations, count))
+        texts.emplace_back(&checked("representations", text));
+    return texts;
+}
+
+} // namespace
 
 raylane_status raylane_load(const char* path, raylane_scene** scene) {
     return scene_of(scene, [&] { return load(&checked("path", path)); });
@@ -12,6 +27,24 @@ raylane_status raylane_parse(const char* text, size_t length, const char* name,
                              raylane_scene** scene) {
     return scene_of(scene, [&] {
         return parse({length != 0 ? &checked("text", text) : "", length}, &checked("name", name));
+    });
+}
+
+raylane_status raylane_parse_atoms(const char* text, size_t length, const char* name, int show_cell,
+                                   const char* const* representations, size_t count,
+                                   raylane_scene** scene) {
+    return scene_of(scene, [&] {
+        const std::string_view atoms{length != 0 ? &checked("text", text) : "", length};
+        return parse_atoms(atoms, &checked("name", name), show_cell != 0,
+                           texts_of(representations, count));
+    });
+}
+
+raylane_status raylane_load_atoms(const char* path, int show_cell,
+                                  const char* const* representations, size_t count,
+                                  raylane_scene** scene) {
+    return scene_of(scene, [&] {
+        return load_atoms(&checked("path", path), show_cell != 0, texts_of(representations, count));
     });
 }
 

@@ -18,29 +18,32 @@ const uint64_t* raylane_rows_first(const raylane_rows* rows) {
     return std::visit([](const auto& of) { return of.first.data(); }, rows->rows);
 }
 
-#define RAYLANE_COLUMN(Element, name, member)                                                      \
+#define RAYLANE_COLUMN(Element, name)                                                              \
     const Element* raylane_rows_##name(const raylane_rows* rows) {                                 \
         if (rows == nullptr) return nullptr;                                                       \
         return std::visit(                                                                         \
             [](const auto& of) -> const Element* {                                                 \
-                if constexpr (requires { of.member; }) {                                           \
-                    if (!of.member.empty()) return of.member.data();                               \
+                if constexpr (requires { of.name; }) {                                             \
+                    if (!of.name.empty()) return of.name.data();                                   \
                 }                                                                                  \
                 return nullptr;                                                                    \
             },                                                                                     \
             rows->rows);                                                                           \
     }
-RAYLANE_COLUMN(double, t, t)
-RAYLANE_COLUMN(double, length, length)
-RAYLANE_COLUMN(uint32_t, shape_id, shape_id)
-RAYLANE_COLUMN(uint32_t, material, material)
-RAYLANE_COLUMN(uint8_t, entering, entering)
-RAYLANE_COLUMN(uint8_t, face, face)
-RAYLANE_COLUMN(uint8_t, tied, tied)
-RAYLANE_COLUMN(uint8_t, touching, touching)
-RAYLANE_COLUMN(uint8_t, inside, inside)
-RAYLANE_COLUMN(uint8_t, on_surface, on_surface)
-RAYLANE_COLUMN(float, normal_x, normal_x)
-RAYLANE_COLUMN(float, normal_y, normal_y)
-RAYLANE_COLUMN(float, normal_z, normal_z)
+RAYLANE_COLUMN(double, t)
+RAYLANE_COLUMN(double, length)
+RAYLANE_COLUMN(uint32_t, shape_id)
+RAYLANE_COLUMN(uint32_t, material)
+RAYLANE_COLUMN(uint8_t, entering)
+RAYLANE_COLUMN(uint8_t, face)
+RAYLANE_COLUMN(uint8_t, tied)
+RAYLANE_COLUMN(uint8_t, touching)
+RAYLANE_COLUMN(uint8_t, inside)
+RAYLANE_COLUMN(uint8_t, on_surface)
+RAYLANE_COLUMN(float, normal_x)
+RAYLANE_COLUMN(float, normal_y)
+RAYLANE_COLUMN(float, normal_z)
+RAYLANE_COLUMN(double, normal_double_x)
+RAYLANE_COLUMN(double, normal_double_y)
+RAYLANE_COLUMN(double, normal_double_z)
 #undef RAYLANE_COLUMN

@@ -1,7 +1,11 @@
 #include "calls.hpp"
 #include "values.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace raylane;
 using namespace raylane::c;
@@ -40,8 +44,20 @@ size_t raylane_material_count(const raylane_scene* scene) {
 raylane_status raylane_scene_material(const raylane_scene* scene, uint32_t index,
                                       raylane_material* material) {
     return guarded([&] {
-        const Material found = checked("scene", scene).scene.material(index);
-        checked("material", material) = converted<raylane_material>(found);
+        Material found = checked("scene", scene).scene.material(index);
+        checked("material", material) = kept_in_c(std::move(found));
+    });
+}
+
+raylane_status raylane_scene_material_name(const raylane_scene* scene, uint32_t index, char* name,
+                                           size_t size, size_t* length) {
+    return guarded([&] {
+        const std::string found = checked("scene", scene).scene.material_name(index);
+        if (length != nullptr) *length = found.size();
+        if (size == 0) return;
+        const std::size_t copied = std::min(size - 1, found.size());
+        std::copy_n(found.data(), copied, &checked("name", name));
+        name[copied] = '\0';
     });
 }
 
@@ -81,4 +97,27 @@ raylane_status raylane_with_positions_doubles(const raylane_scene* scene, const 
 
 raylane_settings raylane_scene_settings(const raylane_scene* scene) {
     return converted<raylane_settings>(scene != nullptr ? scene->scene.settings() : Settings{});
+}
+
+raylane_camera raylane_scene_camera(const raylane_scene* scene) {
+    return converted<raylane_camera>(scene != nullptr ? scene->scene.camera() : Camera{});
+}
+
+raylane_fog raylane_scene_fog(const raylane_scene* scene) {
+    return converted<raylane_fog>(scene != nullptr ? scene->scene.fog() : Fog{});
+}
+
+raylane_vec3 raylane_scene_background(const raylane_scene* scene) {
+    return converted<raylane_vec3>(scene != nullptr ? scene->scene.background() : Color{});
+}
+
+raylane_status raylane_scene_lights(const raylane_scene* scene, raylane_light* lights, size_t size,
+                                    size_t* count) {
+    return guarded([&] {
+        const std::vector<Light> all = checked("scene", scene).scene.lights();
+        const std::size_t copied = std::min(size, all.size());
+        for (raylane_light& to : span_of("lights", lights, copied))
+            to = converted<raylane_light>(all[static_cast<std::size_t>(&to - lights)]);
+        if (count != nullptr) *count = all.size();
+    });
 }

@@ -31,25 +31,14 @@ raylane_status solid_made(const Make& make, std::uint32_t material,
 
 } // namespace
 
-#define RAYLANE_SOLID_OF(shape, Shape, c_shape)                                                    \
+#define RAYLANE_SOLID_OF(shapes, shape, Shape, c_shape)                                            \
     raylane_status raylane_solid_##shape(const raylane_double_##c_shape* shape, uint32_t material, \
                                          raylane_solid** solid) {                                  \
         return handle_of("solid", solid, [&] {                                                     \
             return Solid(std::bit_cast<Shape##Of<double>>(checked("shape", shape)), material);     \
         });                                                                                        \
     }
-RAYLANE_SOLID_OF(sphere, Sphere, sphere)
-RAYLANE_SOLID_OF(plane, Plane, plane)
-RAYLANE_SOLID_OF(disc, Disc, disc)
-RAYLANE_SOLID_OF(triangle, Triangle, triangle)
-RAYLANE_SOLID_OF(smooth_triangle, SmoothTriangle, smooth_triangle)
-RAYLANE_SOLID_OF(box, Box, box)
-RAYLANE_SOLID_OF(open_cylinder, OpenCylinder, cylinder)
-RAYLANE_SOLID_OF(capped_cylinder, CappedCylinder, cylinder)
-RAYLANE_SOLID_OF(open_cone, OpenCone, cone)
-RAYLANE_SOLID_OF(capped_cone, CappedCone, cone)
-RAYLANE_SOLID_OF(quadric, Quadric, quadric)
-RAYLANE_SOLID_OF(ellipsoid, Ellipsoid, ellipsoid)
+RAYLANE_C_SHAPES(RAYLANE_SOLID_OF)
 #undef RAYLANE_SOLID_OF
 
 raylane_lens raylane_default_lens(void) {
@@ -88,6 +77,11 @@ raylane_status raylane_solid_clipped(const raylane_solid* whole, const raylane_s
     return solid_made(
         [&] { return clipped(checked("whole", whole).solid, parts_of("by", by, count)); }, material,
         solid);
+}
+
+raylane_status raylane_solid_of_material(const raylane_solid* solid, uint32_t material,
+                                         raylane_solid** result) {
+    return solid_made([&] { return checked("solid", solid).solid; }, material, result);
 }
 
 void raylane_solid_release(raylane_solid* solid) {

@@ -1,6 +1,9 @@
 #include "calls.hpp"
 #include "values.hpp"
 
+#include <algorithm>
+#include <string>
+
 using namespace raylane;
 using namespace raylane::c;
 
@@ -35,23 +38,29 @@ void store(const Statistics& statistics, const CRays* rays) {
     if (rays->refused != nullptr) *rays->refused = statistics.refused;
 }
 
+HitSpan hits_from(const raylane_hits* from, std::size_t n) {
+    const raylane_hits& hits = checked("hits", from);
+    return {span_of(hits.t, n),
+            span_of(hits.normal_x, n),
+            span_of(hits.normal_y, n),
+            span_of(hits.normal_z, n),
+            span_of(hits.shape_id, n),
+            span_of(hits.entering, n),
+            span_of(hits.face, n),
+            span_of(hits.t_double, n),
+            span_of(hits.normal_double_x, n),
+            span_of(hits.normal_double_y, n),
+            span_of(hits.normal_double_z, n)};
+}
+
 template <class Real, class CRays>
 raylane_status intersect(const raylane_tracer* tracer, const CRays* rays,
                          const raylane_hits* hits) noexcept {
     return guarded([&] {
         const BasicRaySpan<Real> asked = rays_from<Real>(rays);
-        const raylane_hits& to = checked("hits", hits);
-        const std::size_t n = rays->count;
+        const HitSpan to = hits_from(hits, rays->count);
         QueryStatistics statistics;
-        checked("tracer", tracer)
-            .tracer.intersect(
-                asked,
-                HitSpan{span_of(to.t, n), span_of(to.normal_x, n), span_of(to.normal_y, n),
-                        span_of(to.normal_z, n), span_of(to.shape_id, n), span_of(to.entering, n),
-                        span_of(to.face, n), span_of(to.t_double, n),
-                        span_of(to.normal_double_x, n), span_of(to.normal_double_y, n),
-                        span_of(to.normal_double_z, n)},
-                &statistics);
+        checked("tracer", tracer).tracer.intersect(asked, to, &statistics);
         store(statistics, rays);
     });
 }
@@ -89,7 +98,13 @@ raylane_status crossings(const raylane_tracer* tracer, const CRays* rays, std::s
     return rows_of<CrossingRows, CrossingStatistics>(
         tracer, rays, rays_from<Real, CRays>, rows,
         [&](const Tracer& of, const auto& asked, auto& found, auto& statistics) {
-            of.crossings(asked, found, {most, normals != 0}, &statistics);
+            if (normals < 0 || normals > (RAYLANE_NORMALS | RAYLANE_NORMALS_DOUBLE))
+                throw InvalidValue("normals",
+                                   "must be from 0 to 3, got " + std::to_string(normals));
+            of.crossings(
+                asked, found,
+                {most, (normals & RAYLANE_NORMALS) != 0, (normals & RAYLANE_NORMALS_DOUBLE) != 0},
+                &statistics);
         });
 }
 
@@ -111,6 +126,57 @@ raylane_status path_lengths(const raylane_tracer* tracer, const CRays* rays,
         [](const Tracer& of, const auto& asked, auto& found, auto& statistics) {
             of.path_lengths(asked, found, &statistics);
         });
+}
+
+template <class Real, class CRays>
+raylane_status solid_lengths(const raylane_tracer* tracer, const CRays* rays,
+                             raylane_rows** rows) noexcept {
+    return rows_of<SolidLengthRows, QueryStatistics>(
+        tracer, rays, rays_from<Real, CRays>, rows,
+        [](const Tracer& of, const auto& asked, auto& found, auto& statistics) {
+            of.solid_lengths(asked, found, &statistics);
+        });
+}
+
+template <class Real, class CPoints>
+raylane_status cells(const raylane_tracer* tracer, const CPoints* points,
+                     const raylane_cell_columns* columns) noexcept {
+    return guarded([&] {
+        const BasicPointSpan<Real> asked = points_from<Real>(points);
+        const raylane_cell_columns& to = checked("cells", columns);
+        const std::size_t n = points->count;
+        QueryStatistics statistics;
+        checked("tracer", tracer)
+            .tracer.cells(
+                asked,
+                {span_of(to.shape_id, n), span_of(to.material, n), span_of(to.on_surface, n)},
+                &statistics);
+        store(statistics, points);
+    });
+}
+
+/// The columns x, y and z.
+template <class Real>
+using Columns = Real* const (&)[3];
+
+template <class Real, class CRays>
+raylane_status onward_from(const CRays* rays, const raylane_hits* hits,
+                           Columns<const Real> directions, Columns<Real> origins,
+                           std::uint8_t* inward) noexcept {
+    return guarded([&] {
+        const BasicRaySpan<Real> asked = rays_from<Real>(rays);
+        const std::size_t n = rays->count;
+        const auto next = onward(
+            asked, hits_from(hits, n), span_of("direction_x", directions[0], n),
+            span_of("direction_y", directions[1], n), span_of("direction_z", directions[2], n));
+        const auto give = [n](const char* name, auto* to, const auto& values) {
+            std::copy(values.begin(), values.end(), span_of(name, to, n).begin());
+        };
+        give("origin_x", origins[0], next.origin_x);
+        give("origin_y", origins[1], next.origin_y);
+        give("origin_z", origins[2], next.origin_z);
+        give("inward", inward, next.inward);
+    });
 }
 
 template <class Real, class CRays>
@@ -203,4 +269,41 @@ raylane_status raylane_count_crossings_doubles(const raylane_tracer* tracer,
                                                const raylane_double_rays* rays,
                                                std::uint64_t* counts) {
     return count_crossings<double>(tracer, rays, counts);
+}
+
+raylane_status raylane_solid_lengths(const raylane_tracer* tracer, const raylane_rays* rays,
+                                     raylane_rows** rows) {
+    return solid_lengths<float>(tracer, rays, rows);
+}
+
+raylane_status raylane_solid_lengths_doubles(const raylane_tracer* tracer,
+                                             const raylane_double_rays* rays, raylane_rows** rows) {
+    return solid_lengths<double>(tracer, rays, rows);
+}
+
+raylane_status raylane_cells(const raylane_tracer* tracer, const raylane_points* points,
+                             const raylane_cell_columns* columns) {
+    return cells<float>(tracer, points, columns);
+}
+
+raylane_status raylane_cells_doubles(const raylane_tracer* tracer,
+                                     const raylane_double_points* points,
+                                     const raylane_cell_columns* columns) {
+    return cells<double>(tracer, points, columns);
+}
+
+raylane_status raylane_onward(const raylane_rays* rays, const raylane_hits* hits,
+                              const float* direction_x, const float* direction_y,
+                              const float* direction_z, float* origin_x, float* origin_y,
+                              float* origin_z, uint8_t* inward) {
+    return onward_from<float>(rays, hits, {direction_x, direction_y, direction_z},
+                              {origin_x, origin_y, origin_z}, inward);
+}
+
+raylane_status raylane_onward_doubles(const raylane_double_rays* rays, const raylane_hits* hits,
+                                      const double* direction_x, const double* direction_y,
+                                      const double* direction_z, double* origin_x, double* origin_y,
+                                      double* origin_z, uint8_t* inward) {
+    return onward_from<double>(rays, hits, {direction_x, direction_y, direction_z},
+                               {origin_x, origin_y, origin_z}, inward);
 }

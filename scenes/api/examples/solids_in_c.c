@@ -1,5 +1,5 @@
-/* A steel block with a round hole in its middle, and rays in double: solids, all crossings, points
- * and lengths inside of materials from C. */
+/* A steel block with a round hole in its middle, and rays in double: solids, all crossings, points,
+ * cells and lengths inside of materials from C. */
 #include <raylane/raylane.h>
 
 #include <stdio.h>
@@ -76,6 +76,11 @@ int main(void) {
     wrong += first[1] != 0 || first[2] != 1 || first[3] != 2 ||
              raylane_rows_on_surface(rows)[0] != 0 || raylane_rows_on_surface(rows)[1] != 1;
     raylane_rows_release(rows);
+    uint32_t cell[3], of[3]; /* the surface of the hole belongs to the hole */
+    const raylane_cell_columns columns = {cell, of, NULL};
+    check(raylane_cells_doubles(tracer, &points, &columns));
+    wrong += cell[0] != RAYLANE_NO_SHAPE || cell[1] != 0 || cell[2] != RAYLANE_NO_SHAPE ||
+             of[0] != RAYLANE_NO_MATERIAL || of[1] != 0;
     raylane_tracer_release(tracer);
     return wrong != 0;
 }

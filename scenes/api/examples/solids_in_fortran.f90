@@ -135,6 +135,12 @@ module raylane
             type(double_rays), intent(in) :: rays
             type(c_ptr), intent(out) :: rows
         end function
+        integer(c_int) function solid_lengths_doubles(tracer, rays, rows) bind(c, name="raylane_solid_lengths_doubles")
+            import
+            type(c_ptr), value :: tracer
+            type(double_rays), intent(in) :: rays
+            type(c_ptr), intent(out) :: rows
+        end function
         function rows_first(rows) bind(c, name="raylane_rows_first")
             import
             type(c_ptr), value :: rows
@@ -144,6 +150,11 @@ module raylane
             import
             type(c_ptr), value :: rows
             type(c_ptr) :: rows_t
+        end function
+        function rows_shape_id(rows) bind(c, name="raylane_rows_shape_id")
+            import
+            type(c_ptr), value :: rows
+            type(c_ptr) :: rows_shape_id
         end function
         function rows_length(rows) bind(c, name="raylane_rows_length")
             import
@@ -183,6 +194,7 @@ program solids_in_fortran
     type(c_ptr) :: scene, tracer, rows
     type(double_rays) :: rays
     integer(c_int64_t), pointer :: first(:)
+    integer(c_int32_t), pointer :: solid(:)
     real(c_double), pointer :: t(:), length(:)
     integer :: ray
     logical :: good
@@ -209,6 +221,14 @@ program solids_in_fortran
     print "(a, 2f6.1)", "lengths inside of steel", length
     good = good .and. size(length) == 2
     good = good .and. all(length == [10, 12])
+    call rows_release(rows)
+
+    call check(solid_lengths_doubles(tracer, rays, rows)) ! the same, as there is one solid
+    call c_f_pointer(rows_first(rows), first, [count + 1])
+    call c_f_pointer(rows_shape_id(rows), solid, [first(count + 1)])
+    call c_f_pointer(rows_length(rows), length, [first(count + 1)])
+    good = good .and. size(length) == 2
+    good = good .and. all(solid == 0) .and. all(length == [10, 12])
     call rows_release(rows)
     call tracer_release(tracer)
     if (.not. good) error stop 1

@@ -64,6 +64,9 @@ inline void check_same(const RowsHandle& in_c, const CrossingRows& rows) {
     CHECK(is_same(raylane_rows_normal_x(c), rows.normal_x));
     CHECK(is_same(raylane_rows_normal_y(c), rows.normal_y));
     CHECK(is_same(raylane_rows_normal_z(c), rows.normal_z));
+    CHECK(is_same(raylane_rows_normal_double_x(c), rows.normal_double_x));
+    CHECK(is_same(raylane_rows_normal_double_y(c), rows.normal_double_y));
+    CHECK(is_same(raylane_rows_normal_double_z(c), rows.normal_double_z));
     CHECK(raylane_rows_length(c) == nullptr);
     CHECK(raylane_rows_material(c) == nullptr);
     CHECK(raylane_rows_on_surface(c) == nullptr);
@@ -74,6 +77,13 @@ inline void check_same(const RowsHandle& in_c, const LengthRows& rows) {
     CHECK(is_same(raylane_rows_material(in_c.get()), rows.material));
     CHECK(is_same(raylane_rows_length(in_c.get()), rows.length));
     CHECK(raylane_rows_shape_id(in_c.get()) == nullptr);
+}
+
+inline void check_same(const RowsHandle& in_c, const SolidLengthRows& rows) {
+    check_offsets(in_c, rows.first);
+    CHECK(is_same(raylane_rows_shape_id(in_c.get()), rows.shape_id));
+    CHECK(is_same(raylane_rows_length(in_c.get()), rows.length));
+    CHECK(raylane_rows_material(in_c.get()) == nullptr);
 }
 
 inline void check_same(const RowsHandle& in_c, const SolidRows& rows) {
@@ -109,6 +119,20 @@ inline void check_lengths(const SceneHandle& in_c, const Scene& scene, const Dou
     Tracer(scene).path_lengths(rays.span(), rows);
     check_same(made<RowsHandle>([&](raylane_rows** to) {
                    return raylane_path_lengths_doubles(tracer.get(), &asked, to);
+               }),
+               rows);
+}
+
+/// The same for lengths inside of solids.
+inline void check_solid_lengths(const SceneHandle& in_c, const Scene& scene,
+                                const DoubleRays& rays) {
+    const TracerHandle tracer = tracer_of(in_c);
+    std::uint64_t refused = 77;
+    const raylane_double_rays asked = to_c(rays, refused);
+    SolidLengthRows rows;
+    Tracer(scene).solid_lengths(rays.span(), rows);
+    check_same(made<RowsHandle>([&](raylane_rows** to) {
+                   return raylane_solid_lengths_doubles(tracer.get(), &asked, to);
                }),
                rows);
 }

@@ -30,9 +30,9 @@ BothScenes overlapping_balls() {
 }
 
 RowsHandle crossings_in_c(const TracerHandle& tracer, const raylane_rays& rays, std::size_t most,
-                          bool normals) {
+                          int normals) {
     return made<RowsHandle>([&](raylane_rows** to) {
-        return raylane_crossings(tracer.get(), &rays, most, normals ? 1 : 0, to);
+        return raylane_crossings(tracer.get(), &rays, most, normals, to);
     });
 }
 
@@ -62,8 +62,8 @@ TEST_CASE("rows of float rays and points in C are those of C++") {
     const raylane_rays in_c = to_c(rays, refused);
     CrossingRows crossings;
     for (const std::size_t most : {0, 1, 2})
-        for (const bool normals : {false, true}) {
-            tracer.crossings(rays.span(), crossings, {most, normals});
+        for (const int normals : {0, 1, 2, 3}) {
+            tracer.crossings(rays.span(), crossings, {most, normals % 2 != 0, normals >= 2});
             check_same(crossings_in_c(asked, in_c, most, normals), crossings);
             CHECK(refused == 1);
             refused = 77;
@@ -76,6 +76,15 @@ TEST_CASE("rows of float rays and points in C are those of C++") {
                lengths);
     CHECK(refused == 1);
     CHECK(std::count(lengths.material.begin(), lengths.material.end(), 1) > 10);
+
+    SolidLengthRows of_solids;
+    tracer.solid_lengths(rays.span(), of_solids);
+    refused = 77;
+    check_same(made<RowsHandle>([&](raylane_rows** to) {
+                   return raylane_solid_lengths(asked.get(), &in_c, to);
+               }),
+               of_solids);
+    CHECK(refused == 1);
 
     const raylane_points points = {rays.size(), rays.x.data(), rays.y.data(), rays.z.data(),
                                    nullptr};
@@ -92,6 +101,7 @@ TEST_CASE("rows of double rays and points in C are those of C++") {
     const DoubleRays rays = rays_through_all(500, 22);
     check_crossings(scenes.in_c, scenes.in_cpp, rays);
     check_lengths(scenes.in_c, scenes.in_cpp, rays);
+    check_solid_lengths(scenes.in_c, scenes.in_cpp, rays);
 
     Random random(23);
     std::vector<double> x, y, z;
@@ -112,6 +122,85 @@ TEST_CASE("rows of double rays and points in C are those of C++") {
                }),
                solids);
     CHECK(refused == 1);
+    refused = 77;
+
+    std::vector<ShapeId> cell(x.size(), 77), same_cell(x.size());
+    std::vector<MaterialIndex> material(x.size(), 77), same_material(x.size());
+    std::vector<std::uint8_t> on_surface(x.size(), 77), same_on(x.size());
+    Tracer(scenes.in_cpp).cells(DoublePointSpan{x, y, z}, {same_cell, same_material, same_on});
+    const raylane_cell_columns columns = {cell.data(), material.data(), on_surface.data()};
+    REQUIRE(raylane_cells_doubles(asked.get(), &points, &columns) == RAYLANE_OK);
+    CHECK(cell == same_cell);
+    CHECK(material == same_material);
+    CHECK(on_surface == same_on);
+    CHECK(refused == 1);
+    CHECK(std::count(cell.begin(), cell.end(), 1) > 0);
+    const std::vector<float> nx(x.begin(), x.end()), ny(y.begin(), y.end()), nz(z.begin(), z.end());
+    const raylane_points floats = {x.size(), nx.data(), ny.data(), nz.data(), nullptr};
+    Tracer(scenes.in_cpp).cells(PointSpan{nx, ny, nz}, {.shape_id = same_cell});
+    const raylane_cell_columns ids = {cell.data(), nullptr, nullptr};
+    REQUIRE(raylane_cells(asked.get(), &floats, &ids) == RAYLANE_OK);
+    CHECK(cell == same_cell);
+}
+
+TEST_CASE("rays that continue from hits in C are those of C++") {
+    const BothScenes scenes = overlapping_balls();
+    const TracerHandle asked = tracer_of(scenes.in_c);
+    DoubleRays rays = rays_through_all(300, 24);
+    const std::size_t n = rays.size();
+    Hits found(n);
+    std::vector<std::uint8_t> face(n);
+    std::vector<double> t(n);
+    HitSpan hits = found.span();
+    hits.face = face;
+    hits.t_double = t;
+    Tracer(scenes.in_cpp).intersect(rays.span(), hits);
+    std::vector<double> d[3];
+    Random random(25);
+    for (std::size_t i = 0; i < n; ++i)
+        for (auto& column : d)
+            column.push_back(random.uniform(-1.0, 1.0));
+    const OnwardRays<double> truth = onward(rays.span(), hits, d[0], d[1], d[2]);
+
+    std::uint64_t refused = 77;
+    raylane_double_rays in_c = to_c(rays, refused);
+    raylane_hits from_c{};
+    from_c.t_double = t.data();
+    from_c.normal_x = found.nx.data();
+    from_c.normal_y = found.ny.data();
+    from_c.normal_z = found.nz.data();
+    from_c.shape_id = found.shape.data();
+    from_c.face = face.data();
+    std::vector<std::uint8_t> inward(n, 77);
+    auto& [x, y, z] = rays.origin; // the new origins replace the old ones
+    REQUIRE(raylane_onward_doubles(&in_c, &from_c, d[0].data(), d[1].data(), d[2].data(), x.data(),
+                                   y.data(), z.data(), inward.data()) == RAYLANE_OK);
+    CHECK(inward == truth.inward);
+    for (std::size_t i = 0; i < n; ++i) {
+        const bool any = found.shape[i] != no_shape;
+        CHECK((any ? x[i] == truth.origin_x[i] && z[i] == truth.origin_z[i] : std::isnan(y[i])));
+    }
+    in_c.direction_x = d[0].data();
+    in_c.direction_y = d[1].data();
+    in_c.direction_z = d[2].data();
+    in_c.t_max = nullptr;
+    in_c.origin_shape = from_c.shape_id;
+    in_c.origin_face = from_c.face;
+    in_c.origin_inward = inward.data();
+    std::vector<std::uint64_t> counts(n), same(n);
+    CHECK(raylane_count_crossings_doubles(asked.get(), &in_c, counts.data()) == RAYLANE_OK);
+    Tracer(scenes.in_cpp).count_crossings(truth.span(), same);
+    CHECK(counts == same);
+    CHECK(refused ==
+          static_cast<std::uint64_t>(std::count(found.shape.begin(), found.shape.end(), no_shape)));
+    CHECK(std::count(counts.begin(), counts.end(), 0) < static_cast<std::ptrdiff_t>(n - 20));
+
+    CHECK(raylane_onward_doubles(&in_c, &from_c, d[0].data(), nullptr, d[2].data(), x.data(),
+                                 y.data(), z.data(), inward.data()) == RAYLANE_INVALID_VALUE);
+    CHECK(std::string(raylane_error_text()) == "direction_y: must not be NULL");
+    from_c.face = nullptr;
+    CHECK(raylane_onward_doubles(&in_c, &from_c, d[0].data(), d[1].data(), d[2].data(), x.data(),
+                                 y.data(), z.data(), inward.data()) == RAYLANE_INVALID_VALUE);
 }
 
 TEST_CASE("rows in C tell of mistakes and take NULL") {
@@ -125,6 +214,9 @@ TEST_CASE("rows in C tell of mistakes and take NULL") {
     raylane_rows* rows = nullptr;
     says(raylane_crossings(asked.get(), nullptr, 0, 0, &rows), "rays: must not be NULL");
     says(raylane_crossings(asked.get(), &no_rays, 0, 0, nullptr), "rows: must not be NULL");
+    for (const int normals : {-1, 4})
+        says(raylane_crossings(asked.get(), &no_rays, 0, normals, &rows),
+             "normals: must be from 0 to 3, got " + std::to_string(normals));
     says(raylane_crossings(nullptr, &no_rays, 0, 0, &rows), "tracer: must not be NULL");
     says(raylane_contains(asked.get(), nullptr, &rows), "points: must not be NULL");
     says(raylane_contains(nullptr, &no_points, &rows), "tracer: must not be NULL");
@@ -136,7 +228,7 @@ TEST_CASE("rows in C tell of mistakes and take NULL") {
     says(raylane_contains(asked.get(), &without_y, &rows), "y: must not be NULL");
     CHECK(rows == nullptr);
 
-    const RowsHandle empty = crossings_in_c(asked, no_rays, 0, true);
+    const RowsHandle empty = crossings_in_c(asked, no_rays, 0, RAYLANE_NORMALS);
     CHECK(raylane_rows_count(empty.get()) == 0);
     REQUIRE(raylane_rows_first(empty.get()) != nullptr);
     CHECK(raylane_rows_first(empty.get())[0] == 0);

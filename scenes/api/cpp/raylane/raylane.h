@@ -27,6 +27,8 @@ extern "C" {
 /** Returns the version of the library that the program runs with, such as "0.1.0". RAYLANE_VERSION
  * is the version of this header. */
 RAYLANE_API const char* raylane_version(void);
+/** Returns the same version as a number, to compare with RAYLANE_VERSION_NUMBER. */
+RAYLANE_API int raylane_version_number(void);
 
 typedef enum raylane_status {
     RAYLANE_OK = 0,
@@ -43,7 +45,9 @@ typedef enum raylane_status {
 RAYLANE_API const char* raylane_error_text(void);
 
 typedef struct raylane_builder raylane_builder;
+typedef struct raylane_transform raylane_transform;
 typedef struct raylane_solid raylane_solid;
+typedef struct raylane_group raylane_group;
 typedef struct raylane_scene raylane_scene;
 typedef struct raylane_tracer raylane_tracer;
 typedef struct raylane_rows raylane_rows;
@@ -153,6 +157,22 @@ enum { RAYLANE_SRGB, RAYLANE_LINEAR };
 enum { RAYLANE_REGULAR, RAYLANE_STRATIFIED };
 enum { RAYLANE_BOX_FILTER, RAYLANE_GAUSSIAN, RAYLANE_BLACKMAN_HARRIS };
 enum { RAYLANE_FAST, RAYLANE_ROBUST, RAYLANE_EXACT, RAYLANE_PLAIN_DOUBLE };
+/** Types of shapes, and the numbers of each: those of its struct in double, in the same order. */
+enum {
+    RAYLANE_SPHERE,
+    RAYLANE_PLANE,
+    RAYLANE_DISC,
+    RAYLANE_TRIANGLE,
+    RAYLANE_SMOOTH_TRIANGLE,
+    RAYLANE_BOX,
+    RAYLANE_OPEN_CYLINDER,
+    RAYLANE_CAPPED_CYLINDER,
+    RAYLANE_OPEN_CONE,
+    RAYLANE_CAPPED_CONE,
+    RAYLANE_QUADRIC,
+    RAYLANE_ELLIPSOID
+};
+#define RAYLANE_MAX_NUMBERS 19 /**< of a quadric */
 
 /** Fields of Material in material.hpp. */
 typedef struct raylane_material {
@@ -196,6 +216,13 @@ typedef struct raylane_camera {
     float field_of_view, height, lens_radius, focus_distance;
 } raylane_camera;
 
+/** A camera that raylane_build() places, same as AutoCamera in surroundings.hpp. */
+typedef struct raylane_auto_camera {
+    uint8_t projection;
+    raylane_vec3 direction, up;
+    float field_of_view, zoom, depth_cue;
+} raylane_auto_camera;
+
 typedef struct raylane_outline {
     float width;
     raylane_vec3 color;
@@ -220,17 +247,42 @@ RAYLANE_API raylane_material raylane_default_material(void);
 RAYLANE_API raylane_light raylane_default_light(void);
 RAYLANE_API raylane_fog raylane_default_fog(void);
 RAYLANE_API raylane_camera raylane_default_camera(void);
+RAYLANE_API raylane_auto_camera raylane_default_auto_camera(void);
 RAYLANE_API raylane_settings raylane_default_settings(void);
+
+/** Give the values that files know by name, same as material_preset() and catalogue_glass() in
+ * material.hpp, named_view() in surroundings.hpp and color_from_srgb() in vector.hpp. Fail for an
+ * unknown name; the error text lists all. B and C: three numbers each, for raylane_material::glass.
+ */
+RAYLANE_API raylane_status raylane_material_preset(const char* name, raylane_material* material);
+RAYLANE_API raylane_status raylane_catalogue_glass(const char* name, double* B, double* C);
+RAYLANE_API raylane_status raylane_named_view(const char* name, raylane_auto_camera* camera);
+RAYLANE_API raylane_status raylane_color_from_srgb(const char* text, raylane_vec3* color);
+/** Gives the box with faces across the axes and these opposite corners, lower < upper. */
+RAYLANE_API raylane_status raylane_aligned_box(raylane_double_vec3 lower, raylane_double_vec3 upper,
+                                               raylane_double_box* box);
 
 RAYLANE_API raylane_status raylane_builder_create(raylane_builder** builder);
 RAYLANE_API void raylane_builder_release(raylane_builder* builder);
 
 RAYLANE_API raylane_status raylane_add_material(raylane_builder* builder,
                                                 const raylane_material* material, uint32_t* index);
+/** The same with a name, which is copied. raylane_save() writes it. */
+RAYLANE_API raylane_status raylane_add_named_material(raylane_builder* builder,
+                                                      const raylane_material* material,
+                                                      const char* name, uint32_t* index);
 RAYLANE_API raylane_status raylane_add_light(raylane_builder* builder, const raylane_light* light);
 RAYLANE_API raylane_status raylane_set_fog(raylane_builder* builder, const raylane_fog* fog);
 RAYLANE_API raylane_status raylane_set_camera(raylane_builder* builder,
                                               const raylane_camera* camera);
+/** Sets SceneBuilder::auto_camera, which replaces the camera. NULL: the camera counts. */
+RAYLANE_API raylane_status raylane_set_auto_camera(raylane_builder* builder,
+                                                   const raylane_auto_camera* camera);
+/** Sets SceneBuilder::camera_lights: not 0 adds two lights that follow the camera. Default: 0. */
+RAYLANE_API raylane_status raylane_set_camera_lights(raylane_builder* builder, int lights);
+/** Sets SceneBuilder::wavelengths: `count` of them in nanometres, at most 64. */
+RAYLANE_API raylane_status raylane_set_wavelengths(raylane_builder* builder,
+                                                   const double* wavelengths, size_t count);
 RAYLANE_API raylane_status raylane_set_background(raylane_builder* builder, raylane_vec3 color);
 /** Sets SceneBuilder::merge_duplicates. 0: shapes with equal numbers and the same material stay
  * apart. Default: 1, they count as the first of them. */
@@ -280,6 +332,10 @@ RAYLANE_API raylane_status raylane_add_ellipsoids(raylane_builder* builder,
 RAYLANE_API raylane_status raylane_add_polygon(raylane_builder* builder,
                                                const raylane_triangle* triangles, size_t count,
                                                uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_smooth_polygon(raylane_builder* builder,
+                                                      const raylane_smooth_triangle* triangles,
+                                                      size_t count, uint32_t material,
+                                                      uint32_t* first);
 
 /** The same for shapes in double. */
 RAYLANE_API raylane_status raylane_add_spheres_doubles(raylane_builder* builder,
@@ -331,6 +387,50 @@ RAYLANE_API raylane_status raylane_add_polygon_doubles(raylane_builder* builder,
                                                        const raylane_double_triangle* triangles,
                                                        size_t count, uint32_t material,
                                                        uint32_t* first);
+RAYLANE_API raylane_status raylane_add_smooth_polygon_doubles(
+    raylane_builder* builder, const raylane_double_smooth_triangle* triangles, size_t count,
+    uint32_t material, uint32_t* first);
+
+/** Generators of many shapes, same as Sphereflake and Lattice in generators.hpp. */
+typedef struct raylane_sphereflake {
+    raylane_vec3 center;
+    float radius;
+    int depth;
+    raylane_vec3 up;
+} raylane_sphereflake;
+typedef struct raylane_lattice {
+    raylane_double_vec3 corner;
+    int n;
+    float spacing, sphere_radius, strut_radius;
+} raylane_lattice;
+RAYLANE_API raylane_sphereflake raylane_default_sphereflake(void);
+RAYLANE_API raylane_lattice raylane_default_lattice(void);
+/** Add the shapes of a generator. *first is the first id; `first` may be NULL. With
+ * RAYLANE_NO_MATERIAL, struts have the material of the spheres. */
+RAYLANE_API raylane_status raylane_add_sphereflake(raylane_builder* builder,
+                                                   const raylane_sphereflake* flake,
+                                                   uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_lattice(raylane_builder* builder,
+                                               const raylane_lattice* lattice, uint32_t material,
+                                               uint32_t strut_material, uint32_t* first);
+
+/** Create an affine map x -> M x + t in exact numbers, same as Transform in transform.hpp: the
+ * identity, or the three rows of M, each followed by its element of t, 12 numbers. To transform a
+ * transformed object rounds again: combine the maps by raylane_transform_then() to round once. */
+RAYLANE_API raylane_status raylane_transform_create(raylane_transform** transform);
+RAYLANE_API raylane_status raylane_transform_matrix(const double* rows,
+                                                    raylane_transform** transform);
+RAYLANE_API void raylane_transform_release(raylane_transform* transform);
+/** Change a map: it is then followed by another one. `by`: factors, degrees about the axes x, y and
+ * z one after the other, or lengths. A call that fails changes nothing. */
+RAYLANE_API raylane_status raylane_transform_scale(raylane_transform* transform,
+                                                   raylane_double_vec3 by);
+RAYLANE_API raylane_status raylane_transform_rotate(raylane_transform* transform,
+                                                    raylane_double_vec3 by);
+RAYLANE_API raylane_status raylane_transform_translate(raylane_transform* transform,
+                                                       raylane_double_vec3 by);
+RAYLANE_API raylane_status raylane_transform_then(raylane_transform* transform,
+                                                  const raylane_transform* next);
 
 /** Create solids, same as Solid in solid.hpp: a solid of one shape, or of other solids. The caller
  * releases each of them, and may do so before those that are made of it. `material`: an index, or
@@ -391,11 +491,85 @@ RAYLANE_API raylane_status raylane_solid_difference(const raylane_solid* whole,
 RAYLANE_API raylane_status raylane_solid_clipped(const raylane_solid* whole,
                                                  const raylane_solid* const* by, size_t count,
                                                  uint32_t material, raylane_solid** solid);
+/** The solid with each number of its shapes transformed and rounded once, same as
+ * Solid::transformed() in solid.hpp. Parts keep their materials. */
+RAYLANE_API raylane_status raylane_solid_transformed(const raylane_solid* solid,
+                                                     const raylane_transform* transform,
+                                                     raylane_solid** transformed);
+/** The solid with another material. Parts that have their own material keep it. */
+RAYLANE_API raylane_status raylane_solid_of_material(const raylane_solid* solid, uint32_t material,
+                                                     raylane_solid** result);
 RAYLANE_API void raylane_solid_release(raylane_solid* solid);
 
 /** Adds a solid, same as SceneBuilder::add(solid, material). *first is the id of its first part;
  * the ids of the other parts follow. `first` may be NULL. */
 RAYLANE_API raylane_status raylane_add_solid(raylane_builder* builder, const raylane_solid* solid,
+                                             uint32_t material, uint32_t* first);
+
+/** Groups: objects with a common transform or material, same as Group in group.hpp. Members are
+ * shapes, solids, and the members of other groups. Members with RAYLANE_NO_MATERIAL take the
+ * material of the group, of a group around it or of raylane_add_group(). */
+RAYLANE_API raylane_status raylane_group_create(raylane_group** group);
+RAYLANE_API void raylane_group_release(raylane_group* group);
+/** Returns the number of members. */
+RAYLANE_API size_t raylane_group_size(const raylane_group* group);
+/** Add `count` shapes to a group. If a shape is invalid, the shapes before it have been added, and
+ * the error text gives its number. A float counts exactly as the double of the same value. */
+RAYLANE_API raylane_status raylane_group_add_spheres(raylane_group* group,
+                                                     const raylane_double_sphere* shapes,
+                                                     size_t count, uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_planes(raylane_group* group,
+                                                    const raylane_double_plane* shapes,
+                                                    size_t count, uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_discs(raylane_group* group,
+                                                   const raylane_double_disc* shapes, size_t count,
+                                                   uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_triangles(raylane_group* group,
+                                                       const raylane_double_triangle* shapes,
+                                                       size_t count, uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_smooth_triangles(
+    raylane_group* group, const raylane_double_smooth_triangle* shapes, size_t count,
+    uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_boxes(raylane_group* group,
+                                                   const raylane_double_box* shapes, size_t count,
+                                                   uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_open_cylinders(raylane_group* group,
+                                                            const raylane_double_cylinder* shapes,
+                                                            size_t count, uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_capped_cylinders(raylane_group* group,
+                                                              const raylane_double_cylinder* shapes,
+                                                              size_t count, uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_open_cones(raylane_group* group,
+                                                        const raylane_double_cone* shapes,
+                                                        size_t count, uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_capped_cones(raylane_group* group,
+                                                          const raylane_double_cone* shapes,
+                                                          size_t count, uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_quadrics(raylane_group* group,
+                                                      const raylane_double_quadric* shapes,
+                                                      size_t count, uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_ellipsoids(raylane_group* group,
+                                                        const raylane_double_ellipsoid* shapes,
+                                                        size_t count, uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_solid(raylane_group* group, const raylane_solid* solid,
+                                                   uint32_t material);
+RAYLANE_API raylane_status raylane_group_add_group(raylane_group* group,
+                                                   const raylane_group* members, uint32_t material);
+/** The group with each number of its shapes transformed and rounded once, same as
+ * Group::transformed() in group.hpp. */
+RAYLANE_API raylane_status raylane_group_transformed(const raylane_group* group,
+                                                     const raylane_transform* transform,
+                                                     raylane_group** transformed);
+/** The group with the material for members without one. */
+RAYLANE_API raylane_status raylane_group_of_material(const raylane_group* group, uint32_t material,
+                                                     raylane_group** result);
+/** The union of the members, which are solids and half-spaces, for use as a part of another solid.
+ * Fails if the group is empty. */
+RAYLANE_API raylane_status raylane_solid_group(const raylane_group* group, uint32_t material,
+                                               raylane_solid** solid);
+/** Adds all members of a group as objects of the scene. A builder takes a group any number of
+ * times. *first is the id of the first shape; `first` may be NULL. */
+RAYLANE_API raylane_status raylane_add_group(raylane_builder* builder, const raylane_group* group,
                                              uint32_t material, uint32_t* first);
 
 /** Builds the scene. Leaves the builder empty, even if the call fails, unless it fails because the
@@ -407,15 +581,30 @@ RAYLANE_API raylane_status raylane_load(const char* path, raylane_scene** scene)
  * messages, in the search for included files and in the choice of the format. */
 RAYLANE_API raylane_status raylane_parse(const char* text, size_t length, const char* name,
                                          raylane_scene** scene);
+/** Reads atoms from memory, same as parse_atoms() in scene.hpp. `representations`: `count` texts
+ * such as "ligand: sticks"; NULL for the usual one. */
+RAYLANE_API raylane_status raylane_parse_atoms(const char* text, size_t length, const char* name,
+                                               int show_cell, const char* const* representations,
+                                               size_t count, raylane_scene** scene);
+/** The same from a file, same as load_atoms() in scene.hpp. */
+RAYLANE_API raylane_status raylane_load_atoms(const char* path, int show_cell,
+                                              const char* const* representations, size_t count,
+                                              raylane_scene** scene);
 /** Writes a scene to a file in the format of its ending: .json, .rl, .nff or .pov. Same as save()
  * in scene.hpp, without remarks. */
 RAYLANE_API raylane_status raylane_save(const raylane_scene* scene, const char* path);
 RAYLANE_API void raylane_scene_release(raylane_scene* scene);
 RAYLANE_API size_t raylane_shape_count(const raylane_scene* scene);
 RAYLANE_API size_t raylane_material_count(const raylane_scene* scene);
-/** Gives a material of the scene. Fails if none has this index. */
+/** Gives a material of the scene. Fails if none has this index. The texts of a formula are valid
+ * until the calling thread's next call of this function or of raylane_material_preset(). */
 RAYLANE_API raylane_status raylane_scene_material(const raylane_scene* scene, uint32_t index,
                                                   raylane_material* material);
+/** Gives the name of a material, empty if it has none. Stores at most `size` bytes with the final
+ * 0, and the length of the whole name in *length. `name` may be NULL if `size` is 0; `length` may
+ * be NULL. */
+RAYLANE_API raylane_status raylane_scene_material_name(const raylane_scene* scene, uint32_t index,
+                                                       char* name, size_t size, size_t* length);
 /** Gives the index of a shape's material, and the id of the solid that a shape is a part of, same
  * as Scene::material_of and Scene::solid_of in scene.hpp. Fail if no shape has this id. */
 RAYLANE_API raylane_status raylane_scene_material_of(const raylane_scene* scene, uint32_t shape_id,
@@ -427,6 +616,80 @@ RAYLANE_API raylane_status raylane_scene_solid_of(const raylane_scene* scene, ui
 RAYLANE_API void raylane_scene_bounds(const raylane_scene* scene, raylane_vec3* lower,
                                       raylane_vec3* upper);
 RAYLANE_API raylane_settings raylane_scene_settings(const raylane_scene* scene);
+RAYLANE_API raylane_camera raylane_scene_camera(const raylane_scene* scene);
+RAYLANE_API raylane_fog raylane_scene_fog(const raylane_scene* scene);
+RAYLANE_API raylane_vec3 raylane_scene_background(const raylane_scene* scene);
+/** Gives the lights of a scene: at most `size` of them, and their number in *count. `lights` may be
+ * NULL if `size` is 0. */
+RAYLANE_API raylane_status raylane_scene_lights(const raylane_scene* scene, raylane_light* lights,
+                                                size_t size, size_t* count);
+
+/** Gives a shape with exactly the numbers that it was given, same as Scene::shape() in scene.hpp.
+ * *type is RAYLANE_SPHERE to RAYLANE_ELLIPSOID. `numbers`: RAYLANE_MAX_NUMBERS doubles, of which
+ * the first ones are the members of the type's struct in double. Fails if no shape has this id. */
+RAYLANE_API raylane_status raylane_scene_shape(const raylane_scene* scene, uint32_t shape_id,
+                                               int* type, double* numbers);
+/** Give the shapes of a type with exactly the numbers that they were given, in the order of their
+ * ids, same as Scene::shapes() in scene.hpp. Store at most `size` ids, materials and shapes, and
+ * the number of all in *count. Arrays that are not wanted may be NULL, also all of them. */
+RAYLANE_API raylane_status raylane_scene_spheres(const raylane_scene* scene, uint32_t* ids,
+                                                 uint32_t* materials, raylane_double_sphere* shapes,
+                                                 size_t size, size_t* count);
+RAYLANE_API raylane_status raylane_scene_planes(const raylane_scene* scene, uint32_t* ids,
+                                                uint32_t* materials, raylane_double_plane* shapes,
+                                                size_t size, size_t* count);
+RAYLANE_API raylane_status raylane_scene_discs(const raylane_scene* scene, uint32_t* ids,
+                                               uint32_t* materials, raylane_double_disc* shapes,
+                                               size_t size, size_t* count);
+RAYLANE_API raylane_status raylane_scene_triangles(const raylane_scene* scene, uint32_t* ids,
+                                                   uint32_t* materials,
+                                                   raylane_double_triangle* shapes, size_t size,
+                                                   size_t* count);
+RAYLANE_API raylane_status raylane_scene_smooth_triangles(const raylane_scene* scene, uint32_t* ids,
+                                                          uint32_t* materials,
+                                                          raylane_double_smooth_triangle* shapes,
+                                                          size_t size, size_t* count);
+RAYLANE_API raylane_status raylane_scene_boxes(const raylane_scene* scene, uint32_t* ids,
+                                               uint32_t* materials, raylane_double_box* shapes,
+                                               size_t size, size_t* count);
+RAYLANE_API raylane_status raylane_scene_open_cylinders(const raylane_scene* scene, uint32_t* ids,
+                                                        uint32_t* materials,
+                                                        raylane_double_cylinder* shapes,
+                                                        size_t size, size_t* count);
+RAYLANE_API raylane_status raylane_scene_capped_cylinders(const raylane_scene* scene, uint32_t* ids,
+                                                          uint32_t* materials,
+                                                          raylane_double_cylinder* shapes,
+                                                          size_t size, size_t* count);
+RAYLANE_API raylane_status raylane_scene_open_cones(const raylane_scene* scene, uint32_t* ids,
+                                                    uint32_t* materials,
+                                                    raylane_double_cone* shapes, size_t size,
+                                                    size_t* count);
+RAYLANE_API raylane_status raylane_scene_capped_cones(const raylane_scene* scene, uint32_t* ids,
+                                                      uint32_t* materials,
+                                                      raylane_double_cone* shapes, size_t size,
+                                                      size_t* count);
+RAYLANE_API raylane_status raylane_scene_quadrics(const raylane_scene* scene, uint32_t* ids,
+                                                  uint32_t* materials,
+                                                  raylane_double_quadric* shapes, size_t size,
+                                                  size_t* count);
+RAYLANE_API raylane_status raylane_scene_ellipsoids(const raylane_scene* scene, uint32_t* ids,
+                                                    uint32_t* materials,
+                                                    raylane_double_ellipsoid* shapes, size_t size,
+                                                    size_t* count);
+
+/** Creates a scene with the same shapes and another camera, same as Scene::seen_by(). */
+RAYLANE_API raylane_status raylane_seen_by(const raylane_scene* scene, const raylane_camera* camera,
+                                           raylane_scene** seen);
+/** Gives a perspective camera that shows all bounded shapes, same as Scene::camera_on_all().
+ * `direction`: line of sight, of any length except zero. `aspect`: width divided by height. */
+RAYLANE_API raylane_status raylane_camera_on_all(const raylane_scene* scene, raylane_vec3 direction,
+                                                 float aspect, raylane_camera* camera);
+/** Gives the rays of an image, same as camera_rays() in camera_rays.hpp: those that
+ * raylane_render() traces through the centres of pixels. `origins` and `directions`: 3 x height x
+ * width numbers, the x of all rays, then all y, then all z. Ray y width + x belongs to pixel (x,
+ * y). */
+RAYLANE_API raylane_status raylane_camera_rays(const raylane_camera* camera, int width, int height,
+                                               double* origins, double* directions);
 /** Creates a scene whose spheres have moved, same as Scene::with_positions() in scene.hpp.
  * `positions`: `count` centres, one for each sphere that is not a part of a constructed solid. */
 RAYLANE_API raylane_status raylane_with_positions(const raylane_scene* scene,
@@ -488,6 +751,21 @@ RAYLANE_API raylane_status raylane_count_crossings_doubles(const raylane_tracer*
                                                            const raylane_double_rays* rays,
                                                            uint64_t* counts);
 
+/** Give the rays that continue from hits in new directions, same as onward() in tracer.hpp. Store
+ * their origins, and the sides for raylane_rays::origin_inward. The other members of the new rays
+ * are the directions, and the hits' shape_id and face as origin_shape and origin_face. `hits` must
+ * have t or t_double (for doubles the better choice), the three normals, shape_id and face. If a
+ * ray hit nothing, its new origin is NaN, so it is refused. Origins may be stored over the old
+ * ones. */
+RAYLANE_API raylane_status raylane_onward(const raylane_rays* rays, const raylane_hits* hits,
+                                          const float* direction_x, const float* direction_y,
+                                          const float* direction_z, float* origin_x,
+                                          float* origin_y, float* origin_z, uint8_t* inward);
+RAYLANE_API raylane_status raylane_onward_doubles(
+    const raylane_double_rays* rays, const raylane_hits* hits, const double* direction_x,
+    const double* direction_y, const double* direction_z, double* origin_x, double* origin_y,
+    double* origin_z, uint8_t* inward);
+
 /** Points, structure of arrays of `count` values each, same as PointSpan in tracer.hpp. `refused`:
  * as for rays. */
 typedef struct raylane_points {
@@ -501,9 +779,26 @@ typedef struct raylane_double_points {
     uint64_t* refused;
 } raylane_double_points;
 
+/** Output arrays for the cells of points, same as CellSpan in tracer.hpp. NULL: not wanted. */
+typedef struct raylane_cell_columns {
+    uint32_t *shape_id, *material;
+    uint8_t* on_surface;
+} raylane_cell_columns;
+/** Find the cell of each point, same as Tracer::cells in tracer.hpp: of the solids that it is
+ * inside of, the one that was added last. */
+RAYLANE_API raylane_status raylane_cells(const raylane_tracer* tracer, const raylane_points* points,
+                                         const raylane_cell_columns* cells);
+RAYLANE_API raylane_status raylane_cells_doubles(const raylane_tracer* tracer,
+                                                 const raylane_double_points* points,
+                                                 const raylane_cell_columns* cells);
+
+/** Normals of crossings: floats, doubles, or the sum of both. */
+enum { RAYLANE_NO_NORMALS = 0, RAYLANE_NORMALS = 1, RAYLANE_NORMALS_DOUBLE = 2 };
+
 /** Create rows of results, one for each ray or point, which the caller releases. The queries are
  * those of Tracer in tracer.hpp, with the same results. `most`: maximum number of crossings of each
- * ray, nearest first; 0: all. `normals`: 0 leaves out the columns of normals. */
+ * ray, nearest first; 0: all. `normals`: RAYLANE_NO_NORMALS, RAYLANE_NORMALS,
+ * RAYLANE_NORMALS_DOUBLE or the sum of the last two: the columns of normals. */
 RAYLANE_API raylane_status raylane_crossings(const raylane_tracer* tracer, const raylane_rays* rays,
                                              size_t most, int normals, raylane_rows** rows);
 RAYLANE_API raylane_status raylane_crossings_doubles(const raylane_tracer* tracer,
@@ -521,6 +816,12 @@ RAYLANE_API raylane_status raylane_path_lengths(const raylane_tracer* tracer,
 RAYLANE_API raylane_status raylane_path_lengths_doubles(const raylane_tracer* tracer,
                                                         const raylane_double_rays* rays,
                                                         raylane_rows** rows);
+/** Measures the length of each ray inside of each solid. */
+RAYLANE_API raylane_status raylane_solid_lengths(const raylane_tracer* tracer,
+                                                 const raylane_rays* rays, raylane_rows** rows);
+RAYLANE_API raylane_status raylane_solid_lengths_doubles(const raylane_tracer* tracer,
+                                                         const raylane_double_rays* rays,
+                                                         raylane_rows** rows);
 RAYLANE_API void raylane_rows_release(raylane_rows* rows);
 
 /** Returns the number of rows. */
@@ -530,9 +831,10 @@ RAYLANE_API size_t raylane_rows_count(const raylane_rows* rows);
 RAYLANE_API const uint64_t* raylane_rows_first(const raylane_rows* rows);
 /** Return columns of first[count] elements, valid until the rows are released. A column is NULL if
  * it has no elements or if the query has no such column:
- * - crossings: t, shape_id, entering, face, tied, touching; normal_x, normal_y, normal_z if wanted;
+ * - crossings: t, shape_id, entering, face, tied, touching; normals if wanted;
  * - contains: shape_id, inside, on_surface;
- * - path lengths: material, length. */
+ * - path lengths: material, length;
+ * - solid lengths: shape_id, length. */
 RAYLANE_API const double* raylane_rows_t(const raylane_rows* rows);
 RAYLANE_API const double* raylane_rows_length(const raylane_rows* rows);
 RAYLANE_API const uint32_t* raylane_rows_shape_id(const raylane_rows* rows);
@@ -546,6 +848,9 @@ RAYLANE_API const uint8_t* raylane_rows_on_surface(const raylane_rows* rows);
 RAYLANE_API const float* raylane_rows_normal_x(const raylane_rows* rows);
 RAYLANE_API const float* raylane_rows_normal_y(const raylane_rows* rows);
 RAYLANE_API const float* raylane_rows_normal_z(const raylane_rows* rows);
+RAYLANE_API const double* raylane_rows_normal_double_x(const raylane_rows* rows);
+RAYLANE_API const double* raylane_rows_normal_double_y(const raylane_rows* rows);
+RAYLANE_API const double* raylane_rows_normal_double_z(const raylane_rows* rows);
 
 /** Progress of a rendering, same as Progress in image.hpp. `rgb` holds the linear components of the
  * tile's upper left pixel and then of its row; each next row starts floats_a_row floats later.
