@@ -14,7 +14,7 @@ import tempfile
 
 source, raylane = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
 PAGES = ["README.md", "CONTRIBUTING.md", "bench/README.md"] + [
-    f"scenes/{folder}README.md" for folder in ("", "tool/", "api/cpp/", "api/python/", "web/")]
+    f"scenes/{folder}README.md" for folder in ("", "tool/", "api/cpp/", "api/c/", "api/python/", "web/")]
 ELSEWHERE = {
     "./bootstrap.sh": ".ci/run",
     "cmake": ".ci/run, and packages in .ci/nightly",

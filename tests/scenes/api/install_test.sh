@@ -139,6 +139,13 @@ EOF
     rm ball.png
     in_c/build/hits_in_c
     [ -s ball.png ] || fail "no picture from C alone"
+    echo "the program of the page for C builds and runs"
+    sed -n '/^```c$/,/^```$/p' "$source/scenes/api/c/README.md" | sed '1d;$d' >of_page.c
+    sed 's/hits_in_c "[^"]*"/hits_in_c of_page.c/' in_c/CMakeLists.txt >CMakeLists.txt
+    quietly "$cmake" -S . -B of_page -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
+        -DCMAKE_C_COMPILER="$c_compiler" -DCMAKE_C_FLAGS="$flags"
+    quietly "$cmake" --build of_page
+    [ "$(of_page/hits_in_c)" = "4 inf" ] || fail "wrong t in C"
 fi
 if [ -n "$in_c" ] && command -v gfortran >/dev/null; then
     echo "a project in Fortran alone finds it, builds and runs"

@@ -88,7 +88,7 @@ TEST_CASE("help prints each page that it lists and the help of commands") {
     const ToolFixture fixture;
     const std::string list = said(fixture, {"help"});
     const std::set<std::string> topics = all_of(list, "\n  ([a-z]+) ");
-    CHECK(topics.size() == 9);
+    CHECK(topics.size() == 10);
     for (const std::string& topic : topics) {
         CAPTURE(topic);
         CHECK(said(fixture, {"help", topic}).starts_with("# "));
