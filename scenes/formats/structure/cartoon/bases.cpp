@@ -44,7 +44,7 @@ std::optional<Rings> rings_of(const Structure& structure, const BackboneResidue&
 class Bases {
   public:
     Bases(const Structure& structure, const Path& path, const AddShape& add)
-        : structure_(structure), path_(path), curve_(path), add_(add) {}
+        : structure_(structure), curve_(path), add_(add) {}
 
     /// Adds a base, and returns true, unless it lacks atoms. `index` is that of its residue in the
     /// path.
@@ -124,7 +124,6 @@ class Bases {
     }
 
     const Structure& structure_;
-    const Path& path_;
     Curve curve_;
     const AddShape& add_;
 };
