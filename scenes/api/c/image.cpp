@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 using namespace raylane;
 using namespace raylane::c;
@@ -15,28 +16,61 @@ raylane_progress to_c(const Progress& progress) {
             tile.width,      tile.height,           tile.rgb,      tile.floats_a_row};
 }
 
+template <class Value>
+void give(const std::vector<Value>& values, Value* to) {
+    if (to != nullptr) std::copy(values.begin(), values.end(), to);
+}
+
+raylane_status render_to(const raylane_scene* scene, const raylane_render_options& from,
+                         const raylane_image& to) {
+    const Scene& drawn = checked("scene", scene).scene;
+    RenderOptions options;
+    options.settings =
+        from.settings != nullptr ? converted<Settings>(*from.settings) : drawn.settings();
+    options.settings->alpha = to.alpha != nullptr || drawn.settings().alpha;
+    options.threads = from.threads;
+    options.precision = enum_from_int<Precision>("precision", from.precision);
+    if (from.crop_width != 0 || from.crop_height != 0)
+        options.crop = {from.crop_x, from.crop_y, from.crop_width, from.crop_height};
+    options.layers = to.depth != nullptr || to.normal != nullptr || to.shape_id != nullptr ||
+                     to.material != nullptr || to.samples != nullptr;
+    const std::optional<Image> image = render(drawn, options, [&](const Progress& done) {
+        if (from.progress == nullptr) return true;
+        const raylane_progress told = to_c(done);
+        return from.progress(&told, from.user) != 0;
+    });
+    if (!image) return failed(RAYLANE_CANCELLED, "cancelled");
+    give(image->rgb, to.rgb);
+    give(image->alpha, to.alpha);
+    give(image->layers.depth, to.depth);
+    give(image->layers.normal, to.normal);
+    give(image->layers.shape_id, to.shape_id);
+    give(image->layers.material, to.material);
+    give(image->layers.samples, to.samples);
+    return RAYLANE_OK;
+}
+
 } // namespace
 
 raylane_status raylane_render(const raylane_scene* scene, const raylane_settings* settings,
                               int threads, int precision, raylane_progress_callback progress,
                               void* user, float* rgb) {
     return guarded([&] {
-        static_cast<void>(checked("rgb", rgb));
-        const Scene& drawn = checked("scene", scene).scene;
-        RenderOptions options;
-        if (settings != nullptr) {
-            options.settings = converted<Settings>(*settings);
-            options.settings->alpha = drawn.settings().alpha;
-        }
-        options.threads = threads;
-        options.precision = enum_from_int<Precision>("precision", precision);
-        const std::optional<Image> image = render(drawn, options, [&](const Progress& done) {
-            if (progress == nullptr) return true;
-            const raylane_progress told = to_c(done);
-            return progress(&told, user) != 0;
-        });
-        if (!image) return failed(RAYLANE_CANCELLED, "cancelled");
-        std::copy(image->rgb.begin(), image->rgb.end(), rgb);
-        return RAYLANE_OK;
+        raylane_image image{};
+        image.rgb = &checked("rgb", rgb);
+        return render_to(scene, {settings, threads, precision, 0, 0, 0, 0, progress, user}, image);
+    });
+}
+
+raylane_render_options raylane_default_render_options(void) {
+    return {nullptr, 0, RAYLANE_EXACT, 0, 0, 0, 0, nullptr, nullptr};
+}
+
+raylane_status raylane_render_image(const raylane_scene* scene,
+                                    const raylane_render_options* options,
+                                    const raylane_image* image) {
+    return guarded([&] {
+        return render_to(scene, options != nullptr ? *options : raylane_default_render_options(),
+                         checked("image", image));
     });
 }

@@ -1,4 +1,5 @@
 #include "tests/scenes/api/c_rows.hpp"
+#include "tests/scenes/files/message_of.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 
 #include <bit>
@@ -354,4 +355,49 @@ TEST_CASE("atoms are read in representations in C") {
     const char* const wrong[] = {nullptr};
     says(raylane_load_atoms(file.path().c_str(), 0, wrong, 1, &none),
          "representations: must not be NULL");
+}
+
+TEST_CASE("parts, alpha and layers of images in C are those of C++") {
+    const std::string text =
+        R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "image": {"width": 24, "height": 16},
+            "background": [0.25, 0.5, 0.75], "materials": {"m": {"ambient": 1}}, "objects": [
+            {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}]})";
+    const SceneHandle scene = made<SceneHandle>(
+        [&](raylane_scene** to) { return raylane_parse(text.data(), text.size(), "a.json", to); });
+    const Scene same = parse(text, "a.json");
+    RenderOptions of_cpp{
+        .settings = same.settings(), .crop = PixelRect{3, 2, 10, 9}, .layers = true};
+    of_cpp.settings->alpha = true;
+    const Image truth = render(same, of_cpp);
+    const std::size_t count = 10 * 9;
+    std::vector<float> rgb(3 * count), alpha(count), depth(count), normal(3 * count);
+    std::vector<std::uint32_t> shape_id(count), material(count), samples(count);
+    raylane_render_options options = raylane_default_render_options();
+    options.crop_x = 3;
+    options.crop_y = 2;
+    options.crop_width = 10;
+    options.crop_height = 9;
+    const raylane_image image = {rgb.data(),      alpha.data(),    depth.data(),  normal.data(),
+                                 shape_id.data(), material.data(), samples.data()};
+    REQUIRE(raylane_render_image(scene.get(), &options, &image) == RAYLANE_OK);
+    CHECK(rgb == truth.rgb);
+    CHECK(alpha == truth.alpha);
+    CHECK(depth == truth.layers.depth);
+    CHECK(normal == truth.layers.normal);
+    CHECK(shape_id == truth.layers.shape_id);
+    CHECK(material == truth.layers.material);
+    CHECK(samples == truth.layers.samples);
+    CHECK(std::count(shape_id.begin(), shape_id.end(), 0U) > 5);
+    CHECK(std::count(alpha.begin(), alpha.end(), 0.0F) > 5);
+
+    std::vector<float> whole(3 * 24 * 16);
+    raylane_image colors{};
+    colors.rgb = whole.data();
+    REQUIRE(raylane_render_image(scene.get(), nullptr, &colors) == RAYLANE_OK);
+    CHECK(whole == render(same).rgb);
+    options.crop_x = 20;
+    says(raylane_render_image(scene.get(), &options, &image), message_of<InvalidValue>([&] {
+             render(same, {.crop = PixelRect{20, 2, 10, 9}});
+         }));
+    says(raylane_render_image(scene.get(), nullptr, nullptr), "image: must not be NULL");
 }

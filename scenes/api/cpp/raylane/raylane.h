@@ -229,8 +229,8 @@ typedef struct raylane_outline {
     float creases;
 } raylane_outline;
 
-/** Settings of surroundings.hpp except alpha, which is always that of the scene. An image with
- * alpha is rendered over black. */
+/** Settings of surroundings.hpp except alpha, which is that of the scene or of raylane_image. An
+ * image with alpha is rendered over black. */
 typedef struct raylane_settings {
     int width, height, grid;
     uint8_t samples, transfer;
@@ -872,6 +872,31 @@ RAYLANE_API raylane_status raylane_render(const raylane_scene* scene,
                                           const raylane_settings* settings, int threads,
                                           int precision, raylane_progress_callback progress,
                                           void* user, float* rgb);
+
+/** Options of raylane_render_image(), same as RenderOptions in image.hpp. `settings` and `progress`
+ * may be NULL. The image has the part with these sides and this upper left pixel, or, if
+ * crop_width and crop_height are 0, all pixels. */
+typedef struct raylane_render_options {
+    const raylane_settings* settings;
+    int threads, precision;
+    int crop_x, crop_y, crop_width, crop_height;
+    raylane_progress_callback progress;
+    void* user;
+} raylane_render_options;
+/** Returns the default values of the C++ struct. */
+RAYLANE_API raylane_render_options raylane_default_render_options(void);
+/** Output arrays of an image with height x width pixels, same as Image and Layers in image.hpp.
+ * NULL: not wanted. If `alpha` is not NULL, the image has alpha, whatever the scene's settings.
+ * `rgb` and `normal` have three floats for each pixel. */
+typedef struct raylane_image {
+    float *rgb, *alpha, *depth, *normal;
+    uint32_t *shape_id, *material, *samples;
+} raylane_image;
+/** Renders an image, or a part of it, with alpha and AOVs if they are wanted. `options` may be
+ * NULL. */
+RAYLANE_API raylane_status raylane_render_image(const raylane_scene* scene,
+                                                const raylane_render_options* options,
+                                                const raylane_image* image);
 /** Writes an image of height x width x 3 floats to a file in the format of its ending. Same as
  * write_image() in image.hpp. transfer: RAYLANE_SRGB or RAYLANE_LINEAR, for 8-bit formats. */
 RAYLANE_API raylane_status raylane_write_image(const char* path, int width, int height,
