@@ -10,7 +10,7 @@ import warnings
 import numpy as np
 import pytest
 import raylane
-from raylane import NO_SHAPE, Hits, InvalidValue, Leaving, Tracer
+from raylane import NO_SHAPE, Hits, InvalidValue, Leaving, Solid, Tracer
 
 
 @pytest.fixture(scope="module")
@@ -519,6 +519,19 @@ def test_cells(ball):
     inside = rows.counts() > 0
     assert np.array_equal(cells.shape_id[inside], rows.shape_id[rows.first[1:][inside].astype(int) - 1])
     assert (cells.shape_id[~inside] == NO_SHAPE).all()
+
+
+def test_points_of_faces_follow_the_rule_of_lines():
+    builder = raylane.SceneBuilder()
+    builder.add_solid(Solid.aligned_box((0, 0, 0), (2, 2, 2)) - Solid.cylinder((1, 1, 0), (0, 0, 2), 0.5))
+    tracer = Tracer(builder.build())
+    points = [[1.5, 1, 1], [1.75, 1, 1], [2, 1, 1], [1, 1, 1]]  # on the hole, in the box, on the box, in the hole
+    solids = tracer.contains(points)
+    assert solids.counts().tolist() == [1, 1, 1, 0]
+    assert solids.on_surface.tolist() == [True, False, True] and solids.inside.tolist() == [False, True, True]
+    assert solids.inside.dtype == bool
+    assert tracer.cells(points).shape_id.tolist() == [NO_SHAPE, 0, 0, NO_SHAPE]
+    assert tracer.solid_lengths(points, [0, 0, 1]).total().tolist() == [0, 1, 1, 0]
 
 
 def test_a_ray_must_start_on_the_shape_that_it_leaves(ball):
