@@ -1,11 +1,8 @@
 #include "scenes/formats/structure/cartoon/cartoon.hpp"
 
 #include "core/shapes/bounds.hpp"
-#include "scenes/formats/structure/cartoon/bases.hpp"
-#include "scenes/formats/structure/cartoon/cylinders.hpp"
-#include "scenes/formats/structure/cartoon/ribbon.hpp"
 #include "scenes/formats/structure/cartoon/secondary_structure.hpp"
-#include "scenes/formats/structure/cartoon/tube.hpp"
+#include "scenes/formats/structure/cartoon/shapes.hpp"
 
 #include <algorithm>
 

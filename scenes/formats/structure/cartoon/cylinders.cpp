@@ -1,4 +1,4 @@
-#include "scenes/formats/structure/cartoon/cylinders.hpp"
+#include "scenes/formats/structure/cartoon/shapes.hpp"
 
 #include <algorithm>
 

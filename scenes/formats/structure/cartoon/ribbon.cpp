@@ -1,7 +1,6 @@
-#include "scenes/formats/structure/cartoon/ribbon.hpp"
-
 #include "core/numbers/elementary.hpp"
 #include "core/shapes/checks.hpp"
+#include "scenes/formats/structure/cartoon/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scenes/formats/structure/cartoon/tube.hpp"
+#include "scenes/formats/structure/cartoon/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

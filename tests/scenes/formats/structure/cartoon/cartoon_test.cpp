@@ -1,7 +1,7 @@
 #include "core/shapes/triangle.hpp"
 #include "scenes/formats/structure/cartoon/cartoon.hpp"
 #include "scenes/formats/structure/cartoon/path.hpp"
-#include "scenes/formats/structure/cartoon/ribbon.hpp"
+#include "scenes/formats/structure/cartoon/shapes.hpp"
 #include "tests/scenes/formats/structure/cartoon/peptide.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random.hpp"
