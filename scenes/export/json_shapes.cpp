@@ -1,7 +1,7 @@
 #include "scenes/export/json_shapes.hpp"
 
 #include "scenes/export/writers.hpp"
-#include "scenes/formats/json/limits.hpp"
+#include "scenes/formats/json/reader.hpp"
 
 #include <algorithm>
 #include <cstddef>

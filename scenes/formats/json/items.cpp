@@ -1,7 +1,7 @@
 #include "scenes/formats/json/items.hpp"
 
 #include "scenes/files/errors.hpp"
-#include "scenes/formats/json/limits.hpp"
+#include "scenes/formats/json/reader.hpp"
 #include "scenes/formats/json/text.hpp"
 
 #include <nlohmann/json.hpp>

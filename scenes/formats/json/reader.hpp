@@ -3,10 +3,14 @@
 #include "core/scene/scene.hpp"
 #include "scenes/files/input_file.hpp"
 
+#include <cstddef>
 #include <map>
 #include <string>
 
 namespace raylane::scenes {
+
+/// The most levels of objects and lists in an object of a scene, for readers and writers.
+inline constexpr std::size_t max_levels = 256;
 
 /// Reads a scene in raylane's own format, whose schema is scenes/raylane-scene.schema.json.
 /// `workers` build the hierarchy, if set. `parameters`: values of "$name" that override those of
