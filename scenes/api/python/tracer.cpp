@@ -300,6 +300,21 @@ py::tuple shape_of(const py::object& origins, const py::object& directions, cons
     return py::tuple(py::cast(RayArrays(origins, directions, rest).axes()));
 }
 
+/// Calls visit(column of each of these) for the columns that HitSpan and CrossingRows share.
+template <class Visit, class... Of>
+void for_each_shared_column(const Visit& visit, Of&... of) {
+    visit(of.t...);
+    visit(of.normal_x...);
+    visit(of.normal_y...);
+    visit(of.normal_z...);
+    visit(of.shape_id...);
+    visit(of.entering...);
+    visit(of.face...);
+    visit(of.normal_double_x...);
+    visit(of.normal_double_y...);
+    visit(of.normal_double_z...);
+}
+
 /// Each query returns the number of refused rays or points, or stores it as "refused".
 std::uint64_t intersect(SharedTracer& tracer, const py::object& origins,
                         const py::object& directions, const py::tuple& rest, const py::tuple& to) {
@@ -320,23 +335,14 @@ std::uint64_t intersect(SharedTracer& tracer, const py::object& origins,
                           .normal_double_z = out<double>(to[10], n, "out.normal_double")};
         rays.share_out(
             tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
-                const auto of = [&](auto span) {
-                    return span.empty() ? span : span.subspan(from, end - from);
+                const auto take_part = [&](auto& span) {
+                    if (!span.empty()) span = span.subspan(from, end - from);
                 };
+                HitSpan hits = all;
+                for_each_shared_column(take_part, hits);
+                take_part(hits.t_double);
                 QueryStatistics statistics;
-                asked.intersect(part,
-                                {.t = of(all.t),
-                                 .normal_x = of(all.normal_x),
-                                 .normal_y = of(all.normal_y),
-                                 .normal_z = of(all.normal_z),
-                                 .shape_id = of(all.shape_id),
-                                 .entering = of(all.entering),
-                                 .face = of(all.face),
-                                 .t_double = of(all.t_double),
-                                 .normal_double_x = of(all.normal_double_x),
-                                 .normal_double_y = of(all.normal_double_y),
-                                 .normal_double_z = of(all.normal_double_z)},
-                                &statistics);
+                asked.intersect(part, hits, &statistics);
                 refused += statistics.refused;
             });
     });
@@ -432,18 +438,9 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
                             &statistics);
             refused += statistics.refused;
             append_rows(all.first, rows.first);
-            append(all.t, rows.t);
-            append(all.shape_id, rows.shape_id);
-            append(all.entering, rows.entering);
-            append(all.face, rows.face);
+            for_each_shared_column([](auto& to, auto& more) { append(to, more); }, all, rows);
             append(all.tied, rows.tied);
             append(all.touching, rows.touching);
-            append(all.normal_x, rows.normal_x);
-            append(all.normal_y, rows.normal_y);
-            append(all.normal_z, rows.normal_z);
-            append(all.normal_double_x, rows.normal_double_x);
-            append(all.normal_double_y, rows.normal_double_y);
-            append(all.normal_double_z, rows.normal_double_z);
         });
     });
     py::dict result;
