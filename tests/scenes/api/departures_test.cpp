@@ -171,14 +171,8 @@ TEST_CASE("onward rays leave the surfaces of hits") {
         for (std::vector<double>& component : away)
             component.push_back(random.uniform(-1, 1));
     }
-    Hits found(rays.size());
-    std::vector<std::uint8_t> face(rays.size());
-    std::vector<double> t_double(rays.size());
-    HitSpan hits = found.span();
-    hits.face = face;
-    hits.t_double = t_double;
-    tracer.intersect(rays.span(), hits);
-    const OnwardRays<double> next = onward(rays.span(), hits, away[0], away[1], away[2]);
+    FullHits found(tracer, rays);
+    const OnwardRays<double> next = onward(rays.span(), found.span(), away[0], away[1], away[2]);
     Hits after(rays.size());
     QueryStatistics statistics;
     tracer.intersect(next.span(), after.span(), &statistics);
@@ -194,8 +188,9 @@ TEST_CASE("onward rays leave the surfaces of hits") {
     }
     CHECK(statistics.refused == misses);
     CHECK(with_face > rays.size() / 4);
-    hits.face = {};
-    CHECK_THROWS_AS(onward(rays.span(), hits, away[0], away[1], away[2]), InvalidValue);
+    HitSpan without_faces = found.span();
+    without_faces.face = {};
+    CHECK_THROWS_AS(onward(rays.span(), without_faces, away[0], away[1], away[2]), InvalidValue);
 }
 
 namespace {
@@ -236,12 +231,8 @@ TEST_CASE("onward rays in tangents go to the side that exact arithmetic finds") 
                 away[1].push_back(sign * tangent.y);
                 away[2].push_back(sign * tangent.z);
             }
-    Hits found(rays.size());
-    std::vector<std::uint8_t> face(rays.size());
-    HitSpan hits = found.span();
-    hits.face = face;
-    tracer.intersect(rays.span(), hits);
-    const OnwardRays<double> next = onward(rays.span(), hits, away[0], away[1], away[2]);
+    FullHits found(tracer, rays);
+    const OnwardRays<double> next = onward(rays.span(), found.span(), away[0], away[1], away[2]);
     CHECK(next.inward == std::vector<std::uint8_t>(rays.size(), 2));
     // On the inside of the plane, its half-space is around the rays.
     const Tracer half = [] {
@@ -267,16 +258,12 @@ TEST_CASE("onward rays are not refused next to a tip or on a tiny shape") {
     const Tracer tracer(builder.build());
     for (const bool to_ball : {false, true}) {
         const Rays rays = to_tips(random, to_ball);
-        Hits found(rays.size());
-        std::vector<std::uint8_t> face(rays.size());
-        HitSpan hits = found.span();
-        hits.face = face;
-        tracer.intersect(rays.span(), hits);
+        FullHits found(tracer, rays);
         std::vector<float> away[3];
         for (std::vector<float>& component : away)
             for (std::size_t i = 0; i < rays.size(); ++i)
                 component.push_back(static_cast<float>(random.uniform(-1, 1)));
-        const OnwardRays<float> next = onward(rays.span(), hits, away[0], away[1], away[2]);
+        const OnwardRays<float> next = onward(rays.span(), found.span(), away[0], away[1], away[2]);
         Hits after(rays.size());
         QueryStatistics statistics;
         CHECK_NOTHROW(tracer.intersect(next.span(), after.span(), &statistics));

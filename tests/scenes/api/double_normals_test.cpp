@@ -64,16 +64,10 @@ TEST_CASE("normals in double round to the normals in float") {
         CHECK(differences(tracer, rays.span()) == 0);
         // Rays that go on from hits, straight and in other directions.
         rays.t_max.assign(rays.size(), endless);
-        Hits hits(rays.size());
-        std::vector<std::uint8_t> face(rays.size());
-        std::vector<double> t(rays.size());
-        HitSpan span = hits.span();
-        span.face = face;
-        span.t_double = t;
-        tracer.intersect(rays.span(), span);
+        FullHits hits(tracer, rays);
         const auto& [x, y, z] = rays.direction;
-        CHECK(differences(tracer, onward(rays.span(), span, x, y, z).span()) == 0);
-        CHECK(differences(tracer, onward(rays.span(), span, y, z, x).span()) == 0);
+        CHECK(differences(tracer, onward(rays.span(), hits.span(), x, y, z).span()) == 0);
+        CHECK(differences(tracer, onward(rays.span(), hits.span(), y, z, x).span()) == 0);
     }
 }
 

@@ -65,6 +65,31 @@ struct Hits {
     }
 };
 
+/// Hits with their faces and t in double.
+struct FullHits : Hits {
+    explicit FullHits(std::size_t count) : Hits(count), face(count, 77), t_double(count, -1.0) {}
+    template <class RayArrays>
+    FullHits(const Tracer& tracer, const RayArrays& rays) : FullHits(rays.size()) {
+        tracer.intersect(rays.span(), span());
+    }
+
+    std::vector<std::uint8_t> face;
+    std::vector<double> t_double;
+
+    HitSpan span() {
+        HitSpan all = Hits::span();
+        all.face = face;
+        all.t_double = t_double;
+        return all;
+    }
+    bool is_same(std::size_t i, const FullHits& other, std::size_t k) const {
+        return t[i] == other.t[k] && nx[i] == other.nx[k] && ny[i] == other.ny[k] &&
+               nz[i] == other.nz[k] && shape[i] == other.shape[k] &&
+               entering[i] == other.entering[k] && face[i] == other.face[k] &&
+               t_double[i] == other.t_double[k];
+    }
+};
+
 /// Owns the arrays of normals in double.
 struct DoubleNormals {
     explicit DoubleNormals(std::size_t count) : x(count, 9.0), y(count, 9.0), z(count, 9.0) {}

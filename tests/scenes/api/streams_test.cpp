@@ -276,31 +276,16 @@ TEST_CASE("rays line by line have the answers that they have alone") {
                                                   {rays.dx.data(), rays.dy.data(), rays.dz.data()}};
             CHECK(order.find(first, parallel));
 
-            Hits hits(rays.size());
-            std::vector<std::uint8_t> face(rays.size(), 77);
-            std::vector<double> t_double(rays.size(), -1.0);
-            HitSpan span = hits.span();
-            span.face = face;
-            span.t_double = t_double;
-            tracer.intersect(rays.span(), span);
+            const FullHits hits(tracer, rays);
             std::vector<std::uint8_t> blocked(rays.size(), 77);
             tracer.occluded(rays.span(), blocked);
             std::size_t found = 0, different = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                Hits alone(1);
-                double t_alone = -1.0;
-                std::uint8_t face_alone = 77;
-                HitSpan span_alone = alone.span();
-                span_alone.t_double = std::span(&t_alone, 1);
-                span_alone.face = std::span(&face_alone, 1);
-                tracer.intersect(rays.part(i, 1), span_alone);
+                FullHits alone(1);
+                tracer.intersect(rays.part(i, 1), alone.span());
                 found += alone.is_none(0) ? 0 : 1;
-                const bool same = hits.t[i] == alone.t[0] && hits.nx[i] == alone.nx[0] &&
-                                  hits.ny[i] == alone.ny[0] && hits.nz[i] == alone.nz[0] &&
-                                  hits.shape[i] == alone.shape[0] &&
-                                  hits.entering[i] == alone.entering[0] && face[i] == face_alone &&
-                                  t_double[i] == t_alone &&
-                                  blocked[i] == (alone.is_none(0) ? 0 : 1);
+                const bool same =
+                    hits.is_same(i, alone, 0) && blocked[i] == (alone.is_none(0) ? 0 : 1);
                 different += same ? 0 : 1;
             }
             CAPTURE(parallel, with_limits, found);
