@@ -7,9 +7,6 @@ module raylane
     integer(c_int32_t), parameter :: no_material = -1 ! RAYLANE_NO_MATERIAL: all bits are set
     integer(c_int), parameter :: exact = 2            ! RAYLANE_EXACT
 
-    type, bind(c) :: vec3
-        real(c_float) :: x, y, z
-    end type
     type, bind(c) :: double_vec3
         real(c_double) :: x, y, z
     end type
@@ -19,27 +16,6 @@ module raylane
     type, bind(c) :: double_sphere
         type(double_vec3) :: center
         real(c_double) :: radius
-    end type
-    type, bind(c) :: pattern
-        integer(c_int8_t) :: kind
-        type(vec3) :: colors(2)
-        real(c_float) :: size
-        integer(c_int8_t) :: axes
-        type(vec3) :: direction, from, to
-        type(c_ptr) :: formula(3)
-    end type
-    type, bind(c) :: sellmeier
-        real(c_double) :: B(3), C(3)
-    end type
-    type, bind(c) :: material
-        type(pattern) :: pattern
-        real(c_float) :: ambient, diffuse, specular, exponent
-        integer(c_int8_t) :: highlight, reflection
-        real(c_float) :: reflectivity, transmission, index
-        type(sellmeier) :: glass
-        type(vec3) :: absorption
-        integer(c_int8_t) :: visible
-        real(c_float) :: opacity
     end type
     type, bind(c) :: double_rays
         integer(c_size_t) :: count
@@ -52,10 +28,6 @@ module raylane
             import
             type(c_ptr) :: error_text
         end function
-        function default_material() bind(c, name="raylane_default_material")
-            import
-            type(material) :: default_material
-        end function
         integer(c_int) function builder_create(builder) bind(c, name="raylane_builder_create")
             import
             type(c_ptr), intent(out) :: builder
@@ -64,12 +36,6 @@ module raylane
             import
             type(c_ptr), value :: builder
         end subroutine
-        integer(c_int) function add_material(builder, added, index) bind(c, name="raylane_add_material")
-            import
-            type(c_ptr), value :: builder
-            type(material), intent(in) :: added
-            integer(c_int32_t), intent(out) :: index
-        end function
         integer(c_int) function solid_box(shape, material, solid) bind(c, name="raylane_solid_box")
             import
             type(double_box), intent(in) :: shape
@@ -237,14 +203,13 @@ contains
 
     function block_with_hole() result(scene)
         type(c_ptr) :: scene, builder, whole, hole, solid
-        integer(c_int32_t) :: steel, first_id
+        integer(c_int32_t) :: first_id
         call check(builder_create(builder))
-        call check(add_material(builder, default_material(), steel))
         call check(solid_box(double_box(double_vec3(-10, -10, -10), double_vec3(20, 0, 0), double_vec3(0, 20, 0), &
                                         double_vec3(0, 0, 20)), no_material, whole))
         call check(solid_sphere(double_sphere(double_vec3(0, 0, 0), 5), no_material, hole))
         call check(solid_difference(whole, [hole], 1_c_size_t, no_material, solid))
-        call check(add_solid(builder, solid, steel, first_id))
+        call check(add_solid(builder, solid, no_material, first_id)) ! the default material
         call solid_release(solid)
         call solid_release(hole)
         call solid_release(whole)
