@@ -1,6 +1,9 @@
 #include "core/numbers/exact.hpp"
 
+#include "core/numbers/nearest_between.hpp"
+
 #include <cmath>
+#include <limits>
 
 namespace raylane::core {
 
@@ -99,6 +102,52 @@ Exact::operator double() const {
     // (x - y) = (x^2 - y^2) / (x + y), which does not cancel.
     const Scaled difference = sum(part, {-irrational.value, irrational.exponent});
     return quotient(norm().approximately(), difference).to_double();
+}
+
+/// Returns the sign of u - v, where u = a - (rational part of b) has the square root of a, and v is
+/// the irrational part of b. If both have one sign, their squares decide, and v^2 is rational.
+int compare(const Exact& a, const Exact& b) {
+    if (a.is_rational() && !b.is_rational()) return -compare(b, a);
+    const Exact u = a - Exact(b.rational_);
+    if (b.is_rational()) return u.sign();
+    const int of_u = u.sign(), of_v = b.root_.sign();
+    if (of_u != of_v) return of_u < of_v ? -1 : 1;
+    return of_u * (u * u - Exact(b.root_ * b.root_ * b.radicand_)).sign();
+}
+
+namespace {
+
+/// Returns the double nearest to a positive number, of which `approximation` has a relative error
+/// of at most 2^-45, unless the number is outside of the range of normal doubles. `order_of`: see
+/// nearest_between().
+template <class Order>
+double nearest_to(double approximation, const Order& order_of) {
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    constexpr double most = std::numeric_limits<double>::max();
+    if (!(approximation > 0x1p-1000 && approximation < 0x1p1000))
+        return nearest_between(least, most, order_of);
+    return nearest_between(approximation * (1.0 - 0x1p-44), approximation * (1.0 + 0x1p-44),
+                           order_of);
+}
+
+} // namespace
+
+double nearest_double(const Exact& number) {
+    const int sign = number.sign();
+    if (sign == 0) return 0.0;
+    const Exact size = sign < 0 ? -number : number;
+    return sign * nearest_to(static_cast<double>(size),
+                             [&](const Dyadic& sum) { return compare(size, Exact(0.5 * sum)); });
+}
+
+double nearest_double_root(const Exact& square) {
+    if (square.sign() == 0) return 0.0;
+    const auto size = static_cast<double>(square);
+    const bool is_usual = size > 0x1p-1000 && size < 0x1p1000;
+    return nearest_to(is_usual ? std::sqrt(size) : 0.0, [&](const Dyadic& sum) {
+        const Dyadic middle = 0.5 * sum;
+        return compare(square, Exact(middle * middle));
+    });
 }
 
 Exact operator-(const Exact& a) {

@@ -33,8 +33,12 @@ class Exact {
     template <std::floating_point Real>
     Exact(Real value) // NOLINT: implicit, exact
         : rational_{Dyadic(static_cast<double>(value)), {}} {}
+    explicit Exact(Dyadic value) : rational_{std::move(value), {}} {}
 
     int sign() const;
+    /// Returns the order of two numbers: -1 if a is less, 0 if they are equal, 1 if a is greater.
+    /// They may come from different square roots.
+    friend int compare(const Exact& a, const Exact& b);
     /// Returns the value with a relative error of at most 2^-48 and the right sign.
     explicit operator double() const;
 
@@ -62,5 +66,13 @@ class Exact {
     Rational root_;
     Rational radicand_; // > 0 unless root_ is 0
 };
+
+int compare(const Exact& a, const Exact& b);
+
+/// Returns the double nearest to a number, ties to even, but never 0 for another number, and never
+/// infinity.
+double nearest_double(const Exact& number);
+/// The same for the square root of a number >= 0.
+double nearest_double_root(const Exact& square);
 
 } // namespace raylane::core

@@ -1,9 +1,8 @@
 #include "core/numbers/exact_root.hpp"
 
-#include <bit>
+#include "core/numbers/nearest_between.hpp"
+
 #include <cmath>
-#include <cstdint>
-#include <type_traits>
 
 namespace raylane::core {
 
@@ -42,22 +41,9 @@ int compare(const ExactRoot& a, const ExactRoot& b) {
 
 template <std::floating_point Real>
 Real ExactRoot::rounded_between(Real low, Real high, int exponent) const {
-    using Bits = std::conditional_t<std::is_same_v<Real, float>, std::uint32_t, std::uint64_t>;
     const Dyadic scale = Dyadic::power_of_2(-exponent - 1);
-    // Bisects over the bit patterns, which are in the order of the numbers for numbers that are not
-    // negative.
-    auto below = std::bit_cast<Bits>(low), above = std::bit_cast<Bits>(high);
-    while (below < above) {
-        const Bits next = below + (above - below) / 2;
-        const Dyadic sum =
-            Dyadic(std::bit_cast<Real>(next)) + Dyadic(std::bit_cast<Real>(Bits(next + 1)));
-        const int side = sign_of(ExactQuadratic::minus(sum * scale));
-        if (side < 0 || (side == 0 && (next & 1) == 0))
-            above = next;
-        else
-            below = next + 1;
-    }
-    return std::bit_cast<Real>(below);
+    return nearest_between(
+        low, high, [&](const Dyadic& sum) { return sign_of(ExactQuadratic::minus(sum * scale)); });
 }
 
 template float ExactRoot::rounded_between(float, float, int) const;

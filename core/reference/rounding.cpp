@@ -1,11 +1,10 @@
 #include "core/reference/rounding.hpp"
 
+#include "core/numbers/nearest_between.hpp"
 #include "core/shapes/shapes.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <type_traits>
 #include <utility>
 
@@ -120,25 +119,13 @@ class ExactDirection : private ExactNormal {
     /// to `last`.
     template <class Real>
     Real rounded(int axis, Real first, Real last) const {
-        using Bits = std::conditional_t<std::is_same_v<Real, float>, std::uint32_t, std::uint64_t>;
         const int sign = sign_of(axis);
         if (sign == 0) return Real(0);
         if (sign < 0) first = -std::exchange(last, -first);
-        // The bit patterns of numbers from 0 to 1 are in order.
-        auto low = std::bit_cast<Bits>(std::clamp(first, Real(0), Real(1)) + Real(0));
-        auto high = std::bit_cast<Bits>(std::clamp(last, Real(0), Real(1)) + Real(0));
-        while (low < high) {
-            const Bits next = low + (high - low) / 2;
-            const Dyadic middle =
-                0.5 * (Dyadic(static_cast<double>(std::bit_cast<Real>(next))) +
-                       Dyadic(static_cast<double>(std::bit_cast<Real>(next + 1))));
-            const int side = compare_square(axis, middle);
-            if (side < 0 || (side == 0 && (next & 1) == 0))
-                high = next;
-            else
-                low = next + 1;
-        }
-        return static_cast<Real>(sign) * std::bit_cast<Real>(low);
+        const auto in_unit = [](Real size) { return std::clamp(size, Real(0), Real(1)) + Real(0); };
+        return static_cast<Real>(sign) *
+               nearest_between(in_unit(first), in_unit(last),
+                               [&](const Dyadic& sum) { return compare_square(axis, 0.5 * sum); });
     }
     /// Returns the component to within 2^-45.
     double approximately(int axis) const {
