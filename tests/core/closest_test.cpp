@@ -1,0 +1,215 @@
+#include "core/reference/closest.hpp"
+#include "core/shapes/closest_point.hpp"
+#include "core/shapes/shapes.hpp"
+#include "tests/oracle/closest.hpp"
+#include "tests/shapes/shapes.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/rounds.hpp"
+
+#include <bit>
+#include <limits>
+#include <vector>
+
+using namespace raylane;
+using namespace raylane::core;
+using oracle::Number;
+using oracle::OnSurface;
+using ray_sets::Random;
+using ray_sets::Target;
+
+/// Closest points of scenes, against all shapes one by one in 100 digits.
+namespace {
+
+/// Returns whether a double is the one nearest to a number, ties to even, or within the rounding
+/// errors of the oracle at this scale.
+bool is_nearest(double got, const Number& wanted, const Number& scale) {
+    if (!std::isfinite(got)) return false;
+    const Number off = abs(Number(got) - wanted);
+    if (off <= oracle::digits_lost() * scale) return true;
+    for (const double towards : {-infinity<double>, infinity<double>}) {
+        const double other = std::nextafter(got, towards);
+        if (!std::isfinite(other)) continue;
+        const Number difference = abs(Number(other) - wanted) - off;
+        if (abs(difference) <= oracle::digits_lost() * scale) {
+            if ((std::bit_cast<std::uint64_t>(got) & 1) != 0) return false;
+        } else if (difference < 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+using AnyDouble = tests::AnyShapeInDouble;
+
+struct TestScene {
+    std::vector<AnyDouble> shapes;
+
+    Scene scene() const {
+        SceneBuilder builder;
+        builder.wants_light = false;
+        builder.merge_duplicates = false;
+        const MaterialIndex material = builder.add_material({});
+        for (const AnyDouble& any : shapes)
+            std::visit([&](const auto& shape) { builder.add(shape, material); }, any);
+        return std::move(builder).build();
+    }
+};
+
+/// Checks an answer against the closest points of each shape.
+void check(const TestScene& of, const Vec3d& point, const Closest& got) {
+    std::vector<oracle::OnSurfaces> each;
+    for (const AnyDouble& any : of.shapes)
+        each.push_back(std::visit(
+            [&]<class Shape>(const Shape& shape) {
+                if constexpr (kind_of<Shape> == Kind::quadric)
+                    return oracle::OnSurfaces();
+                else
+                    return oracle::closest_of(shape, point);
+            },
+            any));
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < each.size(); ++i) {
+        const Number &a = each[i][0].distance, &b = each[best][0].distance;
+        if (a < b - oracle::digits_lost() * (a + b)) best = i;
+    }
+    const oracle::OnSurfaces& wanted = each[best];
+    const Number scale = oracle::size_of(oracle::place(point)) + oracle::size_of(wanted[0].point);
+    CAPTURE(point.x, point.y, point.z, best, got.shape, got.distance, int(got.face));
+    CHECK(got.shape == best);
+    CHECK((got.distance == 0.0) == (wanted[0].distance == 0));
+    CHECK(is_nearest(got.distance, wanted[0].distance, Number(0)));
+    CHECK(int(got.face) == int(wanted[0].face));
+    CAPTURE(got.point.x, got.point.y, got.point.z);
+    if (wanted[0].is_one_of_many) {
+        const Number off = oracle::distance(oracle::place(got.point), oracle::place(point));
+        CHECK(abs(off - wanted[0].distance) <= 4e-16 * scale);
+        return;
+    }
+    CHECK(std::any_of(wanted.begin(), wanted.end(), [&](const OnSurface& one) {
+        bool is_it = one.face == got.face;
+        for (int axis = 0; axis < 3; ++axis)
+            is_it = is_it &&
+                    is_nearest(got.point[axis], one.point[static_cast<std::size_t>(axis)], scale);
+        return is_it;
+    }));
+}
+
+/// Returns a shape whose numbers have all bits of doubles, or those of floats.
+template <class Shape>
+InDouble<Shape> any_double(Random& r, bool lattice) {
+    const InDouble<Shape> shape = to_doubles(Target<Shape>::make(r, lattice));
+    if (lattice || r.integer(0, 1) == 0) return shape;
+    auto numbers = numbers_of(shape);
+    for (double& number : numbers)
+        number *= 1.0 + r.uniform(0.0, 0x1p-24);
+    return shape_of<InDouble<Shape>>(numbers);
+}
+
+/// Returns a point at, near or far from a shape.
+template <class Shape>
+Vec3d any_point(const Shape& shape, Random& r, bool lattice) {
+    using T = Target<InFloat<Shape>>;
+    const InFloat<Shape> in_float = to_floats(shape);
+    const ray_sets::SurfacePoint on = T::surface(in_float, r);
+    const Vec3d center = T::center(in_float);
+    switch (r.integer(0, lattice ? 8 : 6)) {
+    case 0:
+        return r.cube(20.0);
+    case 1:
+        return on.point;
+    case 2:
+        return on.point + on.normal * (r.uniform(-1.0, 1.0) * r.log_uniform(1e-18, 1.0));
+    case 3:
+        return center + (on.point - center) * r.uniform(-1.0, 2.0);
+    case 4:
+        return r.integer(0, 1) == 0 ? center : Vec3d(0.5) * (center + on.point);
+    case 5:
+        return on.point + r.direction() * r.log_uniform(1e3, 1e30);
+    case 6:
+        return convert<double>(ray_sets::rounded(on.point));
+    default:
+        return Vec3d(0.5) * convert<double>(r.small_integers(16));
+    }
+}
+
+template <class Shape>
+void check_one_kind(Random& r, bool lattice) {
+    const InDouble<Shape> shape = any_double<Shape>(r, lattice);
+    const TestScene shapes{{shape}};
+    const Scene scene = shapes.scene();
+    ClosestSearcher searcher(scene);
+    for (int i = 0; i < 8; ++i) {
+        const Vec3d point = any_point(shape, r, lattice);
+        check(shapes, point, searcher.find(point, infinity<double>));
+    }
+}
+
+AnyDouble any_shape(Random& r, bool lattice) {
+    const auto kind = static_cast<Kind>(r.integer(0, kind_count - 1));
+    return with_shape_type(kind, [&]<class Shape>(std::type_identity<Shape>) -> AnyDouble {
+        if constexpr (kind_of<Shape> != Kind::quadric)
+            return any_double<Shape>(r, lattice);
+        else
+            return any_double<Sphere>(r, lattice);
+    });
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("the closest point of a shape is that of 100 digits", "", Sphere, Plane, Disc,
+                   Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone,
+                   CappedCone, Ellipsoid) {
+    Random r(tests::seed(7));
+    for (int i = 0; i < tests::rounds(60, 10, 1000); ++i)
+        for (const bool lattice : {false, true})
+            check_one_kind<TestType>(r, lattice);
+}
+
+TEST_CASE("the closest of many shapes is that of 100 digits") {
+    Random r(tests::seed(8));
+    for (int i = 0; i < tests::rounds(8, 2, 100); ++i)
+        for (const bool lattice : {false, true}) {
+            TestScene shapes;
+            for (int k = 0; k < 40; ++k)
+                shapes.shapes.push_back(any_shape(r, lattice));
+            const Scene scene = shapes.scene();
+            ClosestSearcher searcher(scene);
+            for (const AnyDouble& any : shapes.shapes) {
+                const Vec3d point = std::visit(
+                    [&](const auto& shape) { return any_point(shape, r, lattice); }, any);
+                check(shapes, point, searcher.find(point, infinity<double>));
+            }
+        }
+}
+
+TEST_CASE("a limit of the distance compares with the answer") {
+    const TestScene shapes{{SphereOf<double>{Vec3d(0.0), 1.0}}};
+    const Scene scene = shapes.scene();
+    ClosestSearcher searcher(scene);
+    for (const Vec3d point : {Vec3d(0.3, 0.7, 1.9), Vec3d(1e-3, 0.2, 0.1), Vec3d(5.0, 0.0, 0.0)}) {
+        const double distance = searcher.find(point, infinity<double>).distance;
+        CHECK(searcher.find(point, distance).shape == 0);
+        const Closest none = searcher.find(point, std::nextafter(distance, 0.0));
+        CHECK(none.shape == no_shape);
+        CHECK(none.distance == infinity<double>);
+        CHECK(std::isnan(none.point.x));
+    }
+    CHECK(searcher.find(Vec3d(0.0, 1.0, 0.0), 0.0).shape == 0);
+    CHECK(searcher.find(Vec3d(0.0, 1.0, 0.0), -1.0).shape == no_shape);
+}
+
+TEST_CASE("distances at the ends of the range of doubles are not rounded to 0 or infinity") {
+    const TestScene shapes{{PlaneOf<double>{Vec3d(0.0), Vec3d(0.0, 0.0, 1.0)},
+                            SphereOf<double>{Vec3d(0.0, 0.0, -1e30), 1e29}}};
+    const Scene scene = shapes.scene();
+    ClosestSearcher searcher(scene);
+    const double least = std::numeric_limits<double>::denorm_min();
+    const double most = std::numeric_limits<double>::max();
+    CHECK(searcher.find(Vec3d(1.0, 2.0, least), infinity<double>).distance == least);
+    CHECK(searcher.find(Vec3d(1.0, 2.0, -most), infinity<double>).distance == most);
+    CHECK(searcher.find(Vec3d(most, most, most), infinity<double>).distance == most);
+    const TestScene sphere{{SphereOf<double>{Vec3d(0.0, 0.0, 0.0), 1e29}}};
+    const Scene alone = sphere.scene();
+    CHECK(ClosestSearcher(alone).find(Vec3d(most, most, most), infinity<double>).distance == most);
+}
