@@ -1,5 +1,6 @@
 #include "simd/stream/stream_tracer.hpp"
 
+#include "simd/stream/closest_worker.hpp"
 #include "simd/stream/row_worker.hpp"
 #include "simd/stream/worker.hpp"
 #include "simd/threads/default_rounding.hpp"
@@ -158,6 +159,17 @@ std::size_t StreamTracer::cells(const PointStream<Real>& points, const CellStrea
                   });
 }
 
+template <class Real>
+std::size_t StreamTracer::closest(const PointStream<Real>& points, const double* max_distance,
+                                  const ClosestStream& closest) const {
+    core::require_closest_points(data_->scene());
+    return answer(closest_workers_, points.count,
+                  [&](ClosestWorker& worker, std::size_t first, std::size_t count) {
+                      return worker.find(part_of(points, first, count), from(max_distance, first),
+                                         part_of(closest, first));
+                  });
+}
+
 #define RAYLANE_INSTANTIATE(Real)                                                                  \
     template std::size_t StreamTracer::nearest(const RayStream<Real>&, const HitStream&,           \
                                                const NormalStream&) const;                         \
@@ -169,7 +181,9 @@ std::size_t StreamTracer::cells(const PointStream<Real>& points, const CellStrea
     template std::size_t StreamTracer::path_lengths(const RayStream<Real>&, core::Bodies,          \
                                                     LengthRows&) const;                            \
     template std::size_t StreamTracer::containing(const PointStream<Real>&, SolidRows&) const;     \
-    template std::size_t StreamTracer::cells(const PointStream<Real>&, const CellStream&) const;
+    template std::size_t StreamTracer::cells(const PointStream<Real>&, const CellStream&) const;  \
+    template std::size_t StreamTracer::closest(const PointStream<Real>&, const double*,            \
+                                               const ClosestStream&) const;
 RAYLANE_INSTANTIATE(float)
 RAYLANE_INSTANTIATE(double)
 #undef RAYLANE_INSTANTIATE

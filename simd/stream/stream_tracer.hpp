@@ -15,6 +15,7 @@
 
 namespace raylane::simd {
 
+class ClosestWorker;
 class RowWorker;
 class SceneData;
 class StreamWorker;
@@ -71,6 +72,11 @@ class StreamTracer {
     /// Finds the cell of each point.
     template <class Real>
     std::size_t cells(const PointStream<Real>& points, const CellStream& cells) const;
+    /// Finds the closest surface point of each point, within a distance, or null. Throws
+    /// InvalidValue as core::require_closest_points().
+    template <class Real>
+    std::size_t closest(const PointStream<Real>& points, const double* max_distance,
+                        const ClosestStream& closest) const;
 
   private:
     /// Split of a call among threads: `count` parts of `size` rays.
@@ -94,6 +100,7 @@ class StreamTracer {
 
     mutable Pool<StreamWorker> workers_;
     mutable Pool<RowWorker> row_workers_;
+    mutable Pool<ClosestWorker> closest_workers_;
 };
 
 } // namespace raylane::simd

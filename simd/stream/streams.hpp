@@ -42,6 +42,14 @@ struct CellStream {
     std::uint8_t* on_surface = nullptr;
 };
 
+/// The closest surface point of each point, as in core::Closest. Null: not requested.
+struct ClosestStream {
+    double* distance = nullptr;
+    double* point[3] = {};
+    core::ShapeId* shape = nullptr;
+    std::uint8_t* face = nullptr;
+};
+
 /// Normals of hits as doubles, by ray: those of HitStream, but each component is the double nearest
 /// to the true one. Null: not requested.
 struct NormalStream {
@@ -89,7 +97,7 @@ inline HitStream part_of(const HitStream& hits, std::size_t first) {
             from(hits.touching, first)};
 }
 
-/// Return `count` points from `first` on, and their cells.
+/// Return `count` points from `first` on, their cells and their closest points.
 template <class Real>
 PointStream<Real> part_of(const PointStream<Real>& points, std::size_t first, std::size_t count) {
     return {count, {points.at[0] + first, points.at[1] + first, points.at[2] + first}};
@@ -97,6 +105,14 @@ PointStream<Real> part_of(const PointStream<Real>& points, std::size_t first, st
 
 inline CellStream part_of(const CellStream& cells, std::size_t first) {
     return {from(cells.shape, first), from(cells.material, first), from(cells.on_surface, first)};
+}
+
+inline ClosestStream part_of(const ClosestStream& closest, std::size_t first) {
+    return {from(closest.distance, first),
+            {from(closest.point[0], first), from(closest.point[1], first),
+             from(closest.point[2], first)},
+            from(closest.shape, first),
+            from(closest.face, first)};
 }
 
 inline NormalStream part_of(const NormalStream& normals, std::size_t first) {

@@ -165,6 +165,24 @@ void find_cells(const simd::StreamTracer& tracer, const BasicPointSpan<Real>& po
     store(tracer.cells(stream, to), statistics);
 }
 
+template <class Real>
+void find_closest(const simd::StreamTracer& tracer, const BasicPointSpan<Real>& points,
+                  const ClosestSpan& closest, std::span<const double> max_distance,
+                  QueryStatistics* statistics) {
+    const simd::PointStream<Real> stream = stream_of(points);
+    const auto wanted = [&](const char* name, auto span) {
+        return optional(name, span, stream.count, "points");
+    };
+    const simd::ClosestStream to{wanted("distance", closest.distance),
+                                 {wanted("point_x", closest.point_x),
+                                  wanted("point_y", closest.point_y),
+                                  wanted("point_z", closest.point_z)},
+                                 wanted("shape_id", closest.shape_id),
+                                 wanted("face", closest.face)};
+    const double* const limits = wanted("max_distance", max_distance);
+    store(library::translated([&] { return tracer.closest(stream, limits, to); }), statistics);
+}
+
 template <class Real, class AnyRows>
 void find_lengths(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& rays,
                   core::Bodies bodies, AnyRows& rows, QueryStatistics* statistics) {
@@ -324,6 +342,16 @@ void Tracer::cells(const PointSpan& points, const CellSpan& cells,
 void Tracer::cells(const DoublePointSpan& points, const CellSpan& cells,
                    QueryStatistics* statistics) const {
     find_cells(*tracer_, points, cells, statistics);
+}
+
+void Tracer::closest(const PointSpan& points, const ClosestSpan& closest,
+                     std::span<const double> max_distance, QueryStatistics* statistics) const {
+    find_closest(*tracer_, points, closest, max_distance, statistics);
+}
+
+void Tracer::closest(const DoublePointSpan& points, const ClosestSpan& closest,
+                     std::span<const double> max_distance, QueryStatistics* statistics) const {
+    find_closest(*tracer_, points, closest, max_distance, statistics);
 }
 
 void Tracer::path_lengths(const RaySpan& rays, LengthRows& rows,

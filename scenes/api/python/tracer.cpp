@@ -502,8 +502,8 @@ py::dict solid_lengths(SharedTracer& tracer, const py::object& origins,
                    });
 }
 
-/// Calls begin(axes of the results), then query(tracer, points, from, to) for parts of the points,
-/// without Python's lock.
+/// Calls begin(axes of the results), which may broadcast these with others, then query(tracer,
+/// points, from, to) for parts of the points, without Python's lock.
 template <class Begin, class Query>
 void ask_points(const SharedTracer& tracer, const py::object& points, const Begin& begin,
                 const Query& query) {
@@ -512,7 +512,7 @@ void ask_points(const SharedTracer& tracer, const py::object& points, const Begi
     broadcast(axes, array, {3}, "points");
     begin(axes);
     by_type(points, py::none(), py::none(), py::none(), [&]<class Real>(std::type_identity<Real>) {
-        const Rows<Real> rows(flattened(array, {3}, axes), {3}, "points");
+        const Rows<Real> rows(flattened(array, {3}, axes), {3}, "points", count_of(axes));
         Room<Real> room[3];
         in_turn(rows.count(), max_rows, [&](std::size_t from, std::size_t to) {
             const auto [x, y, z] = rows.parts(from, to, room);
@@ -584,6 +584,49 @@ py::dict cells(const SharedTracer& tracer, const py::object& points) {
     return result;
 }
 
+py::dict closest(const SharedTracer& tracer, const py::object& points,
+                 const py::object& max_distance) {
+    const py::array limits = any_array(max_distance, "max_distance");
+    py::array_t<double> distance, point;
+    py::array_t<ShapeId> shape_id;
+    py::array_t<std::uint8_t> face;
+    Values<double> limit;
+    Room<double> room;
+    ClosestSpan all;
+    std::uint64_t refused = 0;
+    ask_points(
+        tracer, points,
+        [&](Axes& axes) {
+            broadcast(axes, limits, {}, "max_distance");
+            const std::size_t count = count_of(axes);
+            limit = {flattened(limits, {}, axes), count, "max_distance"};
+            distance = py::array_t<double>(axes);
+            point = py::array_t<double>(joined({3}, axes));
+            shape_id = py::array_t<ShapeId>(axes);
+            face = py::array_t<std::uint8_t>(axes);
+            double* const to = point.mutable_data();
+            all = {{distance.mutable_data(), count},  {to, count},
+                   {to + count, count},               {to + 2 * count, count},
+                   {shape_id.mutable_data(), count}, {face.mutable_data(), count}};
+        },
+        [&](const Tracer& asked, const auto& some, std::size_t from, std::size_t to) {
+            const auto part = [&](auto span) { return span.subspan(from, to - from); };
+            QueryStatistics statistics;
+            asked.closest(some,
+                          {part(all.distance), part(all.point_x), part(all.point_y),
+                           part(all.point_z), part(all.shape_id), part(all.face)},
+                          limit.column().part(from, to, room), &statistics);
+            refused += statistics.refused;
+        });
+    py::dict result;
+    result["distance"] = distance;
+    result["point"] = point;
+    result["shape_id"] = shape_id;
+    result["face"] = face;
+    result["refused"] = refused;
+    return result;
+}
+
 } // namespace
 
 void bind_tracer(py::module_& module) {
@@ -605,7 +648,8 @@ void bind_tracer(py::module_& module) {
         .def("path_lengths", &path_lengths)
         .def("solid_lengths", &solid_lengths)
         .def("contains", &contains)
-        .def("cells", &cells);
+        .def("cells", &cells)
+        .def("closest", &closest);
 }
 
 } // namespace raylane::python

@@ -779,6 +779,23 @@ typedef struct raylane_double_points {
     uint64_t* refused;
 } raylane_double_points;
 
+/** Output arrays for closest points, same as ClosestSpan in tracer.hpp. NULL: not wanted. */
+typedef struct raylane_closest_points {
+    double *distance, *point_x, *point_y, *point_z;
+    uint32_t* shape_id;
+    uint8_t* face;
+} raylane_closest_points;
+
+/** Find the surface point that is closest to each point, same as Tracer::closest in tracer.hpp.
+ * `max_distance` has one element for each point; NULL: infinity. */
+RAYLANE_API raylane_status raylane_closest(const raylane_tracer* tracer,
+                                           const raylane_points* points, const double* max_distance,
+                                           const raylane_closest_points* closest);
+RAYLANE_API raylane_status raylane_closest_doubles(const raylane_tracer* tracer,
+                                                   const raylane_double_points* points,
+                                                   const double* max_distance,
+                                                   const raylane_closest_points* closest);
+
 /** Output arrays for the cells of points, same as CellSpan in tracer.hpp. NULL: not wanted. */
 typedef struct raylane_cell_columns {
     uint32_t *shape_id, *material;

@@ -200,6 +200,19 @@ struct CellSpan {
     std::span<std::uint8_t> on_surface{}; ///< 1 if the point is exactly on the solid's surface
 };
 
+/// Output arrays for the surface points that are closest to n points. Each span has length n, or
+/// length 0 if its values are not wanted.
+struct ClosestSpan {
+    /// In the scene's unit: the double nearest to the true distance, but 0 only for a point on a
+    /// surface, and never infinite. Infinity where no shape is within max_distance.
+    std::span<double> distance{};
+    /// The closest point: each component is the double nearest to the true one. NaN where no shape
+    /// is within max_distance.
+    std::span<double> point_x{}, point_y{}, point_z{};
+    std::span<ShapeId> shape_id{};  ///< no_shape where no shape is within max_distance
+    std::span<std::uint8_t> face{}; ///< same as HitSpan::face; on an edge, the lowest of its faces
+};
+
 /// Lengths of n rays inside of materials, in compressed rows. The lengths of ray i are the elements
 /// first[i] to first[i + 1] - 1, in the order of their materials.
 struct LengthRows {
@@ -346,6 +359,29 @@ class Tracer {
                QueryStatistics* statistics = nullptr) const;
     void cells(const DoublePointSpan& points, const CellSpan& cells,
                QueryStatistics* statistics = nullptr) const;
+
+    /// Finds the surface point that is closest to each point, and its distance. A tie occurs only if
+    /// two distances are equal in real arithmetic. Then the lower id counts. All sides of surfaces
+    /// count, also those that Material::visible hides.
+    ///
+    /// If several points of the shape are closest, the result is one of them:
+    /// - for the centre of a sphere, the one with the largest z;
+    /// - for a point on the axis of a disc, cylinder or cone, the one in the direction axis x e. Here
+    ///   e is the coordinate axis along which the axis has its smallest component, the first of
+    ///   several;
+    /// - for a box, the one on the lowest face;
+    /// - for an ellipsoid or a quadric, any of them, but always the same one.
+    ///
+    /// `max_distance` has length n, or length 0 for infinity. Shapes farther away do not count. It
+    /// compares with the distance as it is answered. A point whose max_distance is NaN is refused.
+    /// Results are exact at any precision. Throws InvalidValue, field "scene", if the scene has
+    /// constructed solids, which are not supported, and otherwise the same exceptions as cells.
+    void closest(const PointSpan& points, const ClosestSpan& closest,
+                 std::span<const double> max_distance = {},
+                 QueryStatistics* statistics = nullptr) const;
+    void closest(const DoublePointSpan& points, const ClosestSpan& closest,
+                 std::span<const double> max_distance = {},
+                 QueryStatistics* statistics = nullptr) const;
 
     /// Measures the length of each ray, from t_min to t_max, inside of the solids of each material.
     /// A stretch inside of several solids of one material counts once. A stretch inside of solids

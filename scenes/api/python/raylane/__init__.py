@@ -18,7 +18,7 @@ from ._raylane import version as __version__
 from ._scene import Scene, SceneBuilder, parse
 from ._shapes import Shapes
 from ._solids import Solid, Transform
-from ._tracer import NO_SHAPE, Cells, Crossings, Hits, Leaving, Lengths, SolidLengths, Solids, Tracer
+from ._tracer import NO_SHAPE, Cells, Closest, Crossings, Hits, Leaving, Lengths, SolidLengths, Solids, Tracer
 from ._values import AutoCamera, Camera, Fog, Light, Material, Outline, Pattern, Sellmeier, Settings
 
 __all__ = [
@@ -28,6 +28,7 @@ __all__ = [
     "Camera",
     "Cancelled",
     "Cells",
+    "Closest",
     "Crossings",
     "Fog",
     "Group",

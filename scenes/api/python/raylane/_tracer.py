@@ -266,6 +266,22 @@ class Cells(Fields):
     """(...): true if the point is exactly on the solid's surface."""
 
 
+@dataclass(eq=False)
+class Closest(Fields):
+    """The surface points that are closest to points, in arrays of the points' shape, written (...) here."""
+
+    distance: Doubles
+    """(...): in the scene's unit, the number nearest to the true distance, but 0 only for a point on a surface, and
+    never infinite. Infinity where no shape is within ``max_distance``."""
+    point: Doubles
+    """(..., 3): the closest point. Each component is the number nearest to the true one. NaN where no shape is within
+    ``max_distance``."""
+    shape_id: Ids
+    """(...): the id of the shape, or ``NO_SHAPE`` where no shape is within ``max_distance``."""
+    face: Bytes
+    """(...): the part of the shape's surface, same as :attr:`Hits.face`; on an edge, the lowest of its faces."""
+
+
 @dataclass(repr=False, eq=False)
 class Lengths(_Rows):
     """Lengths of n rays inside of materials: a row for each ray, in the order of the materials."""
@@ -496,6 +512,30 @@ class Tracer:
         _warn(columns.pop("refused"), "point")
         return Cells(**columns)
 
+    def closest(self, points: ArrayLike, max_distance: ArrayLike = np.inf) -> Closest:
+        """Returns the surface point that is closest to each point, as :class:`Closest`. Always exact.
+
+        A tie occurs only if two distances are equal in real arithmetic. Then the lower id counts. All sides of surfaces
+        count, also those that ``Material.visible`` hides.
+
+        If several points of the shape are closest, the result is one of them:
+
+        - for the centre of a sphere, the one with the largest z
+        - for a point on the axis of a disc, cylinder or cone, the one in the direction axis x e, where e is the
+          coordinate axis along which the axis has its smallest component, the first of several
+        - for a box, the one on the lowest face
+        - for an ellipsoid or a quadric, any of them, but always the same one
+
+        ``points``: (..., 3). ``max_distance``: a number or an array, which broadcasts with (...). Shapes farther away do
+        not count. It compares with the distance as it is answered. A point with an infinite or NaN coordinate, or with
+        a ``max_distance`` of NaN, is refused: the call warns with a ``RuntimeWarning``. Raises :class:`InvalidValue`,
+        with the field ``scene``, if the scene has constructed solids, which are not supported.
+        """
+        columns = self._tracer.closest(points, max_distance)
+        _warn(columns.pop("refused"), "closest")
+        columns["point"] = np.moveaxis(columns["point"], 0, -1)
+        return Closest(**columns)
+
 
 _REFUSED = {
     "ray": (
@@ -504,13 +544,19 @@ _REFUSED = {
         "a component is infinite or NaN, a direction is 0, or a limit is NaN",
     ),
     "point": ("and is in no solid", "and are in no solid", "a coordinate is infinite or NaN"),
+    "closest": (
+        "and has no closest point",
+        "and have no closest point",
+        "a coordinate is infinite or NaN, or a max_distance is NaN",
+    ),
 }
 
 
 def _warn(refused: int, of: str = "ray", stacklevel: int = 3) -> None:
     if refused:
         one, several, reason = _REFUSED[of]
-        subject = f"1 {of} is refused, {one}" if refused == 1 else f"{refused} {of}s are refused, {several}"
+        what = "ray" if of == "ray" else "point"
+        subject = f"1 {what} is refused, {one}" if refused == 1 else f"{refused} {what}s are refused, {several}"
         warnings.warn(f"{subject}: {reason}", RuntimeWarning, stacklevel)
 
 
