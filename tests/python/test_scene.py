@@ -267,6 +267,8 @@ def test_masked_values_are_refused():
     refused("radii", builder.add_spheres, np.ones((2, 3)), [1, ma.masked], material=red)
     refused("position", builder.add_light, position=masked(3))
     refused("point", raylane.Solid.half_space, masked(3), (0, 1, 0), material=red)
+    refused("lower", builder.add_aligned_boxes, [masked(3), masked(3)], (2, 2, 2), material=red)
+    refused("upper", raylane.Solid.aligned_box, (0, 0, 0), masked(3), material=red)
     # Masked arrays without masked entries, which netCDF4 returns, are accepted like other arrays.
     builder.add_spheres(ma.array(np.arange(6.0).reshape(2, 3), mask=False), ma.ones(2), material=red)
     builder.add_light(position=(0, 0, 9))

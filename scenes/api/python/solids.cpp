@@ -68,6 +68,7 @@ void bind_solids(py::module_& module) {
         return with_material(
             PlaneOf<double>{vector_of(point, "point"), vector_of(normal, "normal")}, material);
     });
+    module.def("refuse_masked", &refuse_masked);
     module.def("box_solid", [](const py::object& corner, const py::object& edges,
                                const py::object& material) {
         const Rows<double> edge(edges, {3, 3}, "edges", 1);

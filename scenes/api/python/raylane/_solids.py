@@ -203,11 +203,10 @@ def made(solid: Solid) -> _raylane.Solid:
     return solid._solid
 
 
-def aligned(lower: ArrayLike, upper: ArrayLike) -> Any:
+def aligned(lower: ArrayLike, upper: ArrayLike) -> Tuple[Any, Any]:
     """Returns the corners and the edges of axis-aligned boxes. Raises InvalidValue unless lower < upper."""
     for name, values in (("lower", lower), ("upper", upper)):
-        if np.ma.is_masked(values):
-            raise InvalidValue(name, "must have no masked values: omit them, or fill them by numpy.ma.filled()")
+        _raylane.refuse_masked(values, name)
     low, high = np.asarray(lower, np.float64), np.asarray(upper, np.float64)
     for name, corner in (("lower", low), ("upper", high)):
         if corner.ndim not in (1, 2) or corner.shape[-1] != 3:
