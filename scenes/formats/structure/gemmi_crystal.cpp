@@ -160,6 +160,7 @@ Model model_of(const gemmi::SmallStructure& structure) {
             if (std::any_of(places.begin(), places.end(), is_here)) continue;
             places.push_back(at);
             all.atoms.push_back(image_of(sites[i], cell, at, operations[operation].mat));
+            all.atoms.back().serial = static_cast<int>(operation) + 1;
         }
     }
     model.chains.push_back({"", {std::move(all)}});

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <gemmi/cif.hpp>
 #include <gemmi/pdb.hpp>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -245,14 +244,17 @@ Models read_cif(std::string_view text, const std::string& name, std::vector<std:
         const bool has_small = is_small(document);
         for (gemmi::cif::Block& block : document.blocks) {
             if (!has_small) {
-                std::vector<Model> of_block = models_of(block);
-                std::move(of_block.begin(), of_block.end(), std::back_inserter(models));
-                read_secondary(block, result.secondary);
+                for (Model& model : models_of(block)) {
+                    model.entry = result.secondary_of_entry.size();
+                    models.push_back(std::move(model));
+                }
+                read_secondary(block, result.secondary_of_entry.emplace_back());
                 continue;
             }
             if (std::optional<Model> crystal = crystal_in(block, remarks))
                 models.push_back(*std::move(crystal));
         }
+        if (has_small || document.blocks.empty()) result.secondary_of_entry.emplace_back();
         return result;
     } catch (const std::exception& error) {
         throw Refused(error.what());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,7 +15,7 @@ struct Atom {
     double at[3]; ///< angstrom
     int element;  ///< atomic number; 0: unknown
     std::string name;
-    int serial = 0;
+    int serial = 0; ///< in a crystal: the number of the operation of symmetry, from 1
     float b_factor = 0.0F, occupancy = 1.0F; ///< B is 8 pi^2 U
     char conformer = '\0'; ///< name of one of several places that exclude each other
     bool has_u = false;
@@ -53,12 +54,13 @@ struct Model {
     /// A small molecule's crystal has one residue without a name, with all atoms in the cell.
     std::vector<Chain> chains;
     bool is_small = false;
+    std::size_t entry = 0; ///< index of the block that it is in
 };
 
-/// The models of a file, and the helices and strands that they share.
+/// The models of a file, and the helices and strands that those of a block share.
 struct Models {
     std::vector<Model> models;
-    std::vector<SecondaryRange> secondary;
+    std::vector<std::vector<SecondaryRange>> secondary_of_entry; ///< at least one
 };
 
 /// A refusal by gemmi. Its message begins with the name of the file, perhaps with a line.

@@ -84,6 +84,7 @@ class ModelReader : public FrameReader {
             for (std::size_t k = 0; k < 3; ++k)
                 frame.cell.edges[k] = {model.edges[k][0], model.edges[k][1], model.edges[k][2]};
         frame.properties = {{"b_factor", {}}, {"occupancy", {}}};
+        if (model.is_small) frame.properties.push_back({"symmetry", {}});
         KindTable kinds(frame.of_kind);
         std::unordered_map<int, AtomIndex> atom_of;
         for (const gemmi_files::Chain& chain : model.chains) {
@@ -161,7 +162,10 @@ class ModelReader : public FrameReader {
                 const auto& u = atom.u;
                 frame.anisotropies.push_back({at, {u[0], u[1], u[2], u[3], u[4], u[5]}});
             }
-            if (is_small) continue;
+            if (is_small) {
+                frame.properties[2].values.push_back(static_cast<float>(atom.serial));
+                continue;
+            }
             frame.residues.push_back(index);
             atom_of.emplace(atom.serial, at);
         }
@@ -434,8 +438,10 @@ std::unique_ptr<FrameReader> open_cif(InputFile& file, const ReaderOptions& opti
         std::vector<ModelAndBonds> models;
         std::vector<std::string> remarks;
         gemmi_files::Models read = gemmi_files::read_cif(text, file.name(), remarks);
-        for (gemmi_files::Model& model : read.models)
-            models.push_back({std::move(model), {}, 0});
+        for (gemmi_files::Model& model : read.models) {
+            const std::size_t entry = model.entry;
+            models.push_back({std::move(model), {}, entry});
+        }
         if (models.empty())
             throw BadInput(file.name(), "", "must have a table _atom_site, got none");
         for (const std::string& remark : remarks)
@@ -444,8 +450,8 @@ std::unique_ptr<FrameReader> open_cif(InputFile& file, const ReaderOptions& opti
         return std::make_unique<ModelReader>(
             file.name(), std::move(models),
             SharedRecords{.bonds = {},
-                          .bonds_of_entry = {{}},
-                          .secondary_of_entry = {std::move(read.secondary)}});
+                          .bonds_of_entry = std::vector<Directed>(read.secondary_of_entry.size()),
+                          .secondary_of_entry = std::move(read.secondary_of_entry)});
     } catch (const gemmi_files::Refused& refused) {
         fail(file.name(), refused.what());
     }

@@ -140,4 +140,12 @@ TEST_CASE("mmCIF files name helices and strands") {
         [](InputFile& file, const ReaderOptions& options) { return open_cif(file, options); },
         text);
     CHECK(classes_of(read.at(0)) == "-HHH-EE");
+    // Each block has its ranges.
+    std::string other = text;
+    other.replace(other.find("HELX_P A 2 A 4"), 14, "HELX_P A 5 A 7");
+    const std::vector<Structure> both = frames(
+        [](InputFile& file, const ReaderOptions& options) { return open_cif(file, options); },
+        text + other.replace(0, 6, "data_b"));
+    CHECK(classes_of(both.at(0)) == "-HHH-EE");
+    CHECK(classes_of(both.at(1)) == "----HHH");
 }
