@@ -31,6 +31,10 @@ constexpr std::pair<std::string_view, Format> endings[] = {
     {".lammpstrj", Format::lammps_dump},
     {".data", Format::lammps_data},
     {".lmp", Format::lammps_data},
+    {".sdf", Format::mol},
+    {".mol", Format::mol},
+    {".mol2", Format::mol2},
+    {".pqr", Format::pqr},
 };
 
 constexpr std::string_view blanks = " \t\r\v\f";
@@ -145,6 +149,32 @@ bool looks_like_cif(const std::vector<std::string_view>& lines) {
     return false;
 }
 
+/// Returns true if the fourth line ends with the version of MOL.
+bool looks_like_mol(const std::vector<std::string_view>& lines) {
+    if (lines.size() < 4) return false;
+    const std::string_view counts = trimmed(lines[3]);
+    return counts.ends_with("V2000") || counts.ends_with("V3000");
+}
+
+/// Returns true if the first line that is no comment is a section of Tripos.
+bool looks_like_mol2(const std::vector<std::string_view>& lines) {
+    for (const std::string_view line : lines)
+        if (const std::string_view word = first_word(line); !word.empty() && word[0] != '#')
+            return word.starts_with("@<TRIPOS>");
+    return false;
+}
+
+/// Refuses trajectories that have positions only, in binary.
+void refuse_trajectory(const std::string& name, const std::string& ending) {
+    for (const std::string_view binary : {".xtc", ".trr", ".dcd"})
+        if (ending == binary)
+            throw BadInput(name, "",
+                           "has positions without elements: in Python, "
+                           "raylane.from_mdanalysis(MDAnalysis.Universe(\"topology.pdb\", \"" +
+                               printable(std::filesystem::path(name).filename().string(), 200) +
+                               "\")) reads it with its topology");
+}
+
 bool is_count(std::string_view line) {
     const std::string_view text = trimmed(line);
     return !text.empty() && to_int(text).value_or(-1) >= 0;
@@ -185,6 +215,7 @@ Format format_of(InputFile& file) {
     std::filesystem::path name = file.name();
     std::string ending = ending_of(name);
     if (ending == ".gz") ending = ending_of(name.stem());
+    refuse_trajectory(file.name(), ending);
     for (const auto& [known, format] : endings)
         if (ending == known) {
             if (format != Format::built) file.take_as_text();
@@ -206,6 +237,8 @@ Format format_of(InputFile& file) {
     if (lines[0].starts_with("ITEM: ")) return Format::lammps_dump;
     if (looks_like_pdb(lines)) return Format::pdb;
     if (looks_like_cif(lines)) return Format::cif;
+    if (looks_like_mol(lines)) return Format::mol;
+    if (looks_like_mol2(lines)) return Format::mol2;
     if (looks_like_xyz(lines)) return Format::xyz;
     if (looks_like_gro(lines)) return Format::gro;
     if (looks_like_nff(head)) return Format::nff;
@@ -213,7 +246,9 @@ Format format_of(InputFile& file) {
     throw BadInput(
         file.name(), "",
         "must be a scene (.json, .nff, .pov, Tachyon .dat, or .rl from \"raylane build\") or atoms "
-        "(.pdb, mmCIF or CIF .cif, .xyz, .gro, LAMMPS .dump or .data), got another format");
+        "(.pdb, .pqr, mmCIF or CIF .cif, .xyz, .gro, .mol, .sdf, .mol2, LAMMPS .dump or .data), "
+        "got "
+        "another format");
 }
 
 } // namespace raylane::scenes

@@ -5,7 +5,22 @@
 namespace raylane::scenes {
 
 /// The formats of input files.
-enum class Format { json, nff, pov, tachyon, built, pdb, cif, xyz, gro, lammps_dump, lammps_data };
+enum class Format {
+    json,
+    nff,
+    pov,
+    tachyon,
+    built,
+    pdb,
+    cif,
+    xyz,
+    gro,
+    lammps_dump,
+    lammps_data,
+    mol,
+    mol2,
+    pqr
+};
 
 /// Returns true for formats of atoms. These have no appearance; the user chooses how to draw them.
 constexpr bool is_structure(Format format) {

@@ -38,16 +38,21 @@ void draw(const core::Scene& scene) {
 }
 
 void read(std::string_view text, Format format) {
-    constexpr const char* endings[] = {"json", "nff", "pov", "dat",       "rl", "pdb",
-                                       "cif",  "xyz", "gro", "lammpstrj", "lmp"};
+    constexpr const char* endings[] = {"json", "nff", "pov",       "dat", "rl",  "pdb",  "cif",
+                                       "xyz",  "gro", "lammpstrj", "lmp", "mol", "mol2", "pqr"};
     const std::string name = std::string("a.") + endings[static_cast<int>(format)];
     scenes::LoadOptions options;
     options.on_remark = [](const std::string&) {};
     if (scenes::is_structure(format)) { // in one of several styles
         const auto& styles = scenes::named_styles();
         options.drawing.style = styles[text.size() % styles.size()].second;
-        options.drawing.ellipsoids = text.find("U_11") != std::string_view::npos ||
-                                     text.find("ANISOU") != std::string_view::npos;
+        if (text.find("U_11") != std::string_view::npos ||
+            text.find("ANISOU") != std::string_view::npos)
+            options.drawing.ellipsoids = static_cast<scenes::Ellipsoids>(text.size() % 4);
+        if (text.size() % 7 == 1) options.drawing.boundary = options.drawing.whole = true;
+        options.drawing.show_axes = text.size() % 16 == 1;
+        options.drawing.hydrogen_bonds = text.size() % 6 == 1;
+        if (text.size() % 10 == 1) options.drawing.polyhedra = {"C O 1"};
         options.drawing.show_cell = text.size() % 4 == 1;
         if (text.size() % 8 == 1) options.drawing.repeat = {2, 1, 2};
         if (text.size() % 5 == 1) options.drawing.opacity = 0.5F;

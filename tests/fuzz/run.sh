@@ -10,7 +10,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 seconds=${1:-600}
 [ $# -eq 0 ] || shift
-formats=${*:-"built cif formula gro json lammps_data lammps_dump nff pdb picture pov tachyon xyz calls solids engines c"}
+formats=${*:-"built cif formula gro json lammps_data lammps_dump mol mol2 nff pdb picture pov pqr tachyon xyz calls solids engines c"}
 build=${BUILD:-build/fuzz}
 
 mkdir -p build/fuzz/findings

@@ -2,9 +2,12 @@
 
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/structure/displacement.hpp"
+#include "scenes/formats/structure/hydrogen_bond_layer.hpp"
+#include "scenes/formats/structure/ortep.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace raylane::scenes {
 
@@ -32,7 +35,7 @@ class LayerShapes {
     }
 
   private:
-    bool has(AtomIndex atom) const { return atoms_.representations[atom] == layer_.representation; }
+    bool has(AtomIndex atom) const { return layer_.has(atoms_, atom); }
     MaterialIndex material_of(AtomIndex atom) {
         return palette_.of(layer_.colors.of(atom), [&] { return layer_.colors.meaning_of(atom); });
     }
@@ -48,64 +51,96 @@ class LayerShapes {
     }
 
     void add_atoms() {
-        std::vector<char> has_ellipsoid;
         const Style style = *layer_.look.style;
-        if (atoms_.ellipsoids)
-            has_ellipsoid = add_displacements();
+        if (atoms_.ellipsoids != Ellipsoids::none)
+            find_displacements();
         else if (style == Style::spheres || style == Style::balls)
-            has_ellipsoid = add_shapes();
-        for (AtomIndex atom = 0; atom < structure_.size(); ++atom) {
-            if (!has(atom) || (!has_ellipsoid.empty() && has_ellipsoid[atom] != 0)) continue;
-            const MaterialIndex material = material_of(atom);
-            const float radius = displaced_radius(atom).value_or(layer_.radii.of(atom));
-            for (const Vec3f& image : atoms_.images)
-                add(core::Sphere{structure_.positions[atom] + image, radius}, material,
-                    {atom, atom});
-        }
+            find_shapes();
+        atoms_.for_each([&](AtomIndex atom, const Vec3f& at) {
+            if (!has(atom)) return;
+            if (const auto* const axes = axes_of_atom(atom))
+                add_ellipsoid(atom, at, *axes);
+            else
+                add(core::Sphere{at, displaced_radius(atom).value_or(radius_of_ball(atom))},
+                    material_of(atom), {atom, atom});
+        });
+    }
+
+    /// Returns the semi-axes of an atom that is an ellipsoid, or null.
+    const std::array<Vec3d, 3>* axes_of_atom(AtomIndex atom) const {
+        return ellipsoid_of_.empty() || ellipsoid_of_[atom] == 0 ? nullptr
+                                                                 : &axes_[ellipsoid_of_[atom] - 1];
+    }
+    void set_axes(AtomIndex atom, const std::array<Vec3d, 3>& axes) {
+        ellipsoid_of_.resize(structure_.size());
+        axes_.push_back(axes);
+        ellipsoid_of_[atom] = axes_.size();
+    }
+
+    /// Beside ellipsoids with ellipses, atoms without displacements, such as hydrogen, are small.
+    float radius_of_ball(AtomIndex atom) const {
+        constexpr float share = 0.6F;
+        const bool is_small = atoms_.ellipsoids > Ellipsoids::plain;
+        return (is_small ? share : 1.0F) * layer_.radii.of(atom);
     }
 
     /// Returns the radius of an isotropic displacement that is rendered.
     std::optional<float> displaced_radius(AtomIndex atom) const {
-        if (!atoms_.ellipsoids || structure_.isotropies.empty() ||
+        if (atoms_.ellipsoids == Ellipsoids::none || structure_.isotropies.empty() ||
             !(structure_.isotropies[atom] > 0.0F))
             return std::nullopt;
-        return static_cast<float>(
-            radius_of_displacement(static_cast<double>(structure_.isotropies[atom])));
+        return static_cast<float>(atoms_.deviations *
+                                  std::sqrt(static_cast<double>(structure_.isotropies[atom])));
     }
 
-    std::vector<char> add_displacements() {
+    void find_displacements() {
         if (structure_.anisotropies.empty())
             throw BadInput("--ellipsoids", "", file_ + " has no anisotropic displacements");
-        std::vector<char> done(structure_.size());
-        for (const Anisotropy& of : structure_.anisotropies) {
-            if (!has(of.atom)) continue;
-            const auto axes = axes_of(of);
-            if (!axes) continue;
-            add_ellipsoid(of.atom,
-                          {core::convert<float>((*axes)[0]), core::convert<float>((*axes)[1]),
-                           core::convert<float>((*axes)[2])});
-            done[of.atom] = 1;
-        }
-        return done;
+        for (const Anisotropy& of : structure_.anisotropies)
+            if (has(of.atom))
+                if (const auto axes = axes_of(of, atoms_.deviations)) set_axes(of.atom, *axes);
     }
 
-    /// Adds the atoms that are not balls, in the same proportion to their size as balls.
-    std::vector<char> add_shapes() {
-        std::vector<char> done(structure_.shapes.empty() ? 0 : structure_.size());
+    /// Finds the atoms that are not balls, in the same proportion to their size as balls.
+    void find_shapes() {
         for (const auto& [atom, axes] : structure_.shapes) {
             if (!has(atom)) continue;
             const float size = layer_.radii.share_of_shape(atom);
-            add_ellipsoid(atom, {size * axes[0], size * axes[1], size * axes[2]});
-            done[atom] = 1;
+            set_axes(atom,
+                     {core::convert<double>(size * axes[0]), core::convert<double>(size * axes[1]),
+                      core::convert<double>(size * axes[2])});
         }
-        return done;
     }
 
-    void add_ellipsoid(AtomIndex atom, const std::array<Vec3f, 3>& axes) {
+    void add_ellipsoid(AtomIndex atom, const Vec3f& at, const std::array<Vec3d, 3>& axes) {
         const MaterialIndex material = material_of(atom);
-        for (const Vec3f& image : atoms_.images)
-            add(core::Ellipsoid{structure_.positions[atom] + image, axes[0], axes[1], axes[2]},
-                material, {atom, atom});
+        const core::Ellipsoid whole = ellipsoid_at(at, axes);
+        const bool has_ellipses =
+            *layer_.look.opacity == 1.0F &&
+            (atoms_.ellipsoids == Ellipsoids::ellipses || atoms_.ellipsoids == Ellipsoids::octants);
+        if (has_ellipses && atoms_.ellipsoids == Ellipsoids::octants) {
+            add_without_octant(atom, whole, material);
+            return;
+        }
+        add(whole, material, {atom, atom});
+        if (!has_ellipses) return;
+        for (const core::Ellipsoid& rim : principal_ellipses(whole))
+            add(rim, ellipse_material(), {atom, atom});
+    }
+
+    void add_without_octant(AtomIndex atom, const core::Ellipsoid& whole, MaterialIndex material) {
+        const std::uint32_t color = layer_.colors.of(atom);
+        const MaterialIndex of_cut =
+            palette_.of(darker(color), [&] { return layer_.colors.meaning_of(atom) + ", octant"; });
+        const core::Solid solid =
+            without_octant(whole, atoms_.to_camera, material, ellipse_material(), of_cut);
+        builder_.add_solid(solid, material);
+        if (atoms_of_shape_ != nullptr)
+            atoms_of_shape_->insert(atoms_of_shape_->end(), core::count_parts(solid), {atom, atom});
+    }
+
+    MaterialIndex ellipse_material() {
+        return palette_.of(0x303030, [] { return std::string("ellipse"); });
     }
 
     void add_bonds() {
@@ -122,10 +157,17 @@ class LayerShapes {
                 continue;
             const int sticks = *layer_.look.style == Style::licorice ? 1 : bond.order;
             if (sticks == 1) {
-                add_stick(bond, a, b, 1.0F);
+                const Vec3d way = 1.0 / core::length(b - a) * (b - a);
+                add_stick(bond, a + hidden_length(of_a, way) * way,
+                          b - hidden_length(of_b, way) * way, 1.0F);
                 continue;
             }
             const Vec3d side = beside(all, bond, a, b);
+            if (sticks == Bond::aromatic) {
+                add_stick(bond, a - apart * side, b - apart * side, share_of_stick);
+                add_dashes(bond, a + apart * side, b + apart * side);
+                continue;
+            }
             for (int k = 0; k < sticks; ++k) {
                 const double by = (k - 0.5 * (sticks - 1)) * 2.0 * apart / (sticks - 1);
                 add_stick(bond, a + by * side, b + by * side, share_of_stick);
@@ -137,6 +179,19 @@ class LayerShapes {
     bool is_inside(AtomIndex of_a, AtomIndex of_b, const Vec3d& a, const Vec3d& b) const {
         return core::length(b - a) <=
                static_cast<double>(layer_.radii.of(of_a) + layer_.radii.of(of_b));
+    }
+
+    /// Returns the distance from an ellipsoid's centre to its surface along a direction of length
+    /// 1, if its octant is cut out, where a stick would be visible; otherwise 0.
+    double hidden_length(AtomIndex atom, const Vec3d& way) const {
+        const auto* const axes = axes_of_atom(atom);
+        if (axes == nullptr || atoms_.ellipsoids != Ellipsoids::octants) return 0.0;
+        double sum = 0.0;
+        for (const Vec3d& axis : *axes) {
+            const double part = core::dot(way, axis) / core::dot(axis, axis);
+            sum += part * part;
+        }
+        return 0.98 / std::sqrt(sum);
     }
 
     /// Adds a stick in the colours of both atoms, which meet in the middle of its visible part.
@@ -160,6 +215,20 @@ class LayerShapes {
         if (has(atoms[1])) add_part(middle, b, atoms[1]);
     }
 
+    /// Adds dashes along the middle of a bond, on the inside of a ring.
+    void add_dashes(const Bond& bond, const Vec3d& a, const Vec3d& b) {
+        const AtomPair atoms = {atoms_.original(bond.a), atoms_.original(bond.b)};
+        for (const auto& [from, to] : dashes_of(a, b)) {
+            const Vec3d middle = 0.5 * (from + to);
+            const bool is_first = core::dot(middle - a, b - a) < 0.5 * core::dot(b - a, b - a);
+            const AtomIndex of = atoms[is_first ? 0 : 1];
+            if (!has(of)) continue;
+            add(core::CappedCylinder{core::convert<float>(from), core::convert<float>(to - from),
+                                     share_of_stick * layer_.radii.stick_of(of)},
+                material_of(of), atoms);
+        }
+    }
+
     double share_of_first(const AtomPair& atoms, double distance) const {
         if (!has(atoms[0]) || !has(atoms[1])) return 0.5; // another layer has the other half
         const auto larger =
@@ -175,12 +244,18 @@ class LayerShapes {
         for (AtomIndex i = 0; i < one_.size(); ++i)
             one_[i] = another_[i] = i;
         const auto note = [&](AtomIndex of, AtomIndex other) {
-            (one_[of] == of ? one_ : another_)[of] = other;
+            if (one_[of] == of)
+                one_[of] = other;
+            else if (another_[of] == of)
+                another_[of] = other;
         };
-        for (const Bond& bond : atoms_.bonds) {
-            note(bond.a, bond.b);
-            note(bond.b, bond.a);
-        }
+        // In a ring, the neighbours are those of the ring.
+        for (const bool is_aromatic : {true, false})
+            for (const Bond& bond : atoms_.bonds) {
+                if ((bond.order == Bond::aromatic) != is_aromatic) continue;
+                note(bond.a, bond.b);
+                note(bond.b, bond.a);
+            }
     }
 
     /// Returns a direction across a bond, of length 1, in the plane of an adjacent bond.
@@ -212,9 +287,16 @@ class LayerShapes {
     std::vector<AtomPair>* atoms_of_shape_;
     TransparentSolids& transparent_;
     std::vector<AtomIndex> one_, another_;
+    std::vector<std::size_t> ellipsoid_of_; // by atom: one above the index of its axes; 0: a ball
+    std::vector<std::array<Vec3d, 3>> axes_;
 };
 
 } // namespace
+
+bool AtomLayer::has(const DrawnAtoms& atoms, AtomIndex atom) const {
+    return atoms.representations[atom] == representation &&
+           (has_kind.empty() || has_kind[atoms.structure.kinds[atom]] != 0);
+}
 
 void TransparentSolids::add_to(core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape) {
     for (auto& [key, one] : solids_) {

@@ -16,6 +16,8 @@
 
 namespace raylane::scenes {
 
+struct DrawnAtoms;
+
 /// A look of the atoms of a representation.
 struct AtomLayer {
     std::size_t representation; ///< index
@@ -23,6 +25,10 @@ struct AtomLayer {
     Look look;                  ///< with a style and an opacity
     AtomColors colors;
     AtomRadii radii;
+    std::vector<char> has_kind = {}; ///< by kind; empty: the look is that of all kinds
+
+    /// Returns true if an atom of the structure has the look.
+    bool has(const DrawnAtoms& atoms, AtomIndex atom) const;
 };
 
 /// The parts of a drawing that its layers share.
@@ -32,16 +38,32 @@ struct DrawnAtoms {
     const Structure& structure;
     std::vector<std::uint16_t> representations = {}; ///< of each atom: index, or `hidden`
     std::vector<char> shows_bonds = {};              ///< by representation
-    bool ellipsoids = false;                         ///< ellipsoids of displacements
-    std::vector<core::Vec3f> images = {};            ///< positions of the cells
-    /// Images of the atoms side by side, if there are several or if the file has bonds.
+    Ellipsoids ellipsoids = Ellipsoids::none;
+    double deviations = 0.0;              ///< length of ellipsoids' semi-axes.
+    core::Vec3d to_camera{0.0};           ///< from the atoms
+    std::vector<core::Vec3f> images = {}; ///< positions of the cells
+    /// Images of the atoms side by side, if there are several or if the file has bonds, or the
+    /// atoms that fill a crystal's cells.
     std::optional<Structure> repeated = {};
+    std::vector<AtomIndex> originals = {}; ///< of a crystal's atoms; empty: see original()
+    std::size_t complete = 0; ///< number of the first atoms of all() that have all of their bonds
     std::vector<Bond> bonds = {}; ///< of all(); may be empty if no representation shows bonds
 
     const Structure& all() const { return repeated ? *repeated : structure; }
     /// Returns the atom of which this one is an image.
     AtomIndex original(AtomIndex atom) const {
-        return atom % static_cast<AtomIndex>(structure.size());
+        return originals.empty() ? atom % static_cast<AtomIndex>(structure.size())
+                                 : originals[atom];
+    }
+    /// Calls visit(atom, position) for all images of all atoms.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (AtomIndex i = 0; i < originals.size(); ++i)
+            visit(originals[i], repeated->positions[i]);
+        if (!originals.empty()) return;
+        for (AtomIndex atom = 0; atom < structure.size(); ++atom)
+            for (const core::Vec3f& image : images)
+                visit(atom, structure.positions[atom] + image);
     }
     bool shows_bonds_of(AtomIndex atom) const {
         const std::uint16_t of = representations[atom];

@@ -28,7 +28,7 @@ std::vector<float> by_kind(const Structure& structure, const SizeWords& words, f
 
 bool has_sticks(Style style) {
     return style != Style::spheres && style != Style::envelope && style != Style::points &&
-           !shows_chains(style);
+           style != Style::polyhedra && !shows_chains(style);
 }
 
 AtomRadii::AtomRadii(const Structure& structure, const Look& look, float usual,
@@ -70,6 +70,7 @@ float AtomRadii::of_style(AtomIndex atom) const {
         return licorice_stick;
     case Style::points:
         return std::min(dot_size, 0.5F * full(atom));
+    case Style::polyhedra:
     case Style::cartoon:
     case Style::cylinders:
     case Style::tube:

@@ -24,15 +24,18 @@ bool is_between_metals(const Structure& structure, const Bond& bond) {
     return is_metal(structure.element(bond.a)) && is_metal(structure.element(bond.b));
 }
 
-/// Returns 1 for each element whose atoms form a metal, by their bonds.
-std::vector<char> metallic_elements(const Structure& structure, const std::vector<Bond>& bonds) {
+/// Returns 1 for each element whose atoms form a metal, by the bonds of the first atoms.
+std::vector<char> metallic_elements(const Structure& structure, const std::vector<Bond>& bonds,
+                                    std::size_t count) {
     std::vector<std::size_t> atoms(element_count), to_metals(element_count),
         to_others(element_count);
-    for (AtomIndex atom = 0; atom < structure.size(); ++atom)
+    for (AtomIndex atom = 0; atom < count; ++atom)
         ++atoms[structure.element(atom)];
     for (const Bond& bond : bonds)
         for (const AtomIndex atom : {bond.a, bond.b})
-            ++(is_between_metals(structure, bond) ? to_metals : to_others)[structure.element(atom)];
+            if (atom < count)
+                ++(is_between_metals(structure, bond) ? to_metals
+                                                      : to_others)[structure.element(atom)];
     std::vector<char> is_metallic(element_count);
     for (Element z = 1; z < element_count; ++z)
         if (is_metal(z) && to_metals[z] > 0 && to_metals[z] >= atoms[z] &&
@@ -47,23 +50,31 @@ bool is_before(const Bond& x, const Bond& y) {
 
 } // namespace
 
-std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_atoms,
-                             std::vector<char>* is_metallic) {
-    std::vector<Bond> bonds = structure.bonds;
-    std::vector<AtomIndex> atoms;
+float longest_bond(const Structure& structure) {
     float longest = tolerance;
+    for (const AtomKind& kind : structure.of_kind)
+        if (const float radius = data_of(kind.element).covalent_radius; radius > 0.0F)
+            longest = std::max(
+                longest, std::max(2 * radius + tolerance, reach_of(kind.element, kind.element)));
+    return longest;
+}
+
+std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_atoms,
+                             std::vector<char>* is_metallic, std::span<const AtomIndex> originals) {
+    std::vector<Bond> bonds = structure.bonds;
+    const std::size_t count = structure.size() - originals.size();
+    const auto original = [&](AtomIndex atom) {
+        return atom < count ? atom : originals[atom - count];
+    };
+    std::vector<AtomIndex> atoms;
     if (!structure.has_all_bonds)
-        for (AtomIndex atom = 0; atom < structure.size(); ++atom) {
-            const Element z = structure.element(atom);
-            const float radius = data_of(z).covalent_radius;
-            if (radius == 0.0F) continue;
-            longest = std::max(longest, std::max(2 * radius + tolerance, reach_of(z, z)));
-            atoms.push_back(atom);
-        }
+        for (AtomIndex atom = 0; atom < structure.size(); ++atom)
+            if (data_of(structure.element(atom)).covalent_radius > 0.0F) atoms.push_back(atom);
     // Atoms that would have too many bonds, and among them those of metals with each other.
     std::vector<char> is_crowded(structure.size()), is_dense_metal(structure.size());
-    const AtomGrid grid(structure.positions, atoms, longest);
+    const AtomGrid grid(structure.positions, atoms, longest_bond(structure));
     grid.for_each([&](AtomIndex a, const AtomGrid::Near& others) {
+        if (a >= count) return; // an image
         const Element of_a = structure.element(a);
         const std::size_t before = bonds.size();
         std::size_t looked_at = 0, neighbours = 0, metals = 0;
@@ -81,7 +92,7 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
             } else if (++neighbours > max_bonds) {
                 return false;
             }
-            if (!is_too_near && a < b) bonds.push_back({a, b, 1});
+            if (!is_too_near && a < b && a < count) bonds.push_back({a, b, 1});
             return true;
         });
         if (has_room) return;
@@ -93,19 +104,20 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
         bonds.erase(std::remove_if(found, bonds.end(), is_wrong), bonds.end());
     };
     remove_found([&](const Bond& bond) {
-        return is_crowded[bond.a] != 0 || is_crowded[bond.b] != 0 ||
+        const AtomIndex a = original(bond.a), b = original(bond.b);
+        return is_crowded[a] != 0 || is_crowded[b] != 0 ||
                (is_between_metals(structure, bond) &&
-                (is_dense_metal[bond.a] != 0 || is_dense_metal[bond.b] != 0));
+                (is_dense_metal[a] != 0 || is_dense_metal[b] != 0));
     });
-    const std::vector<char> metallic = metallic_elements(structure, bonds);
+    const std::vector<char> metallic = metallic_elements(structure, bonds, count);
     remove_found([&](const Bond& bond) {
         return is_between_metals(structure, bond) && (metallic[structure.element(bond.a)] == 0 ||
                                                       metallic[structure.element(bond.b)] == 0);
     });
     if (is_metallic != nullptr) *is_metallic = metallic;
     if (crowded_atoms != nullptr)
-        *crowded_atoms =
-            static_cast<std::size_t>(std::count(is_crowded.begin(), is_crowded.end(), 1));
+        *crowded_atoms = static_cast<std::size_t>(std::count(
+            is_crowded.begin(), is_crowded.begin() + static_cast<std::ptrdiff_t>(count), 1));
     std::sort(bonds.begin(), bonds.end(), is_before);
     bonds.erase(std::unique(bonds.begin(), bonds.end(),
                             [](const Bond& x, const Bond& y) { return x.a == y.a && x.b == y.b; }),

@@ -3,6 +3,7 @@
 #include "scenes/formats/structure/structure.hpp"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace raylane::scenes {
@@ -26,7 +27,14 @@ inline constexpr std::size_t max_bonds = 24; ///< of an atom, besides the file's
 /// So the time is linear in the atoms even if they lie on top of each other. `crowded_atoms`, if
 /// given, receives the number of crowded atoms, and `is_metallic` 1 for each element that is
 /// metallic.
+///
+/// `originals`: the last atoms of the structure are images of these atoms in other cells. Bonds of
+/// two images are omitted, and averages are those of the originals.
 std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_atoms = nullptr,
-                             std::vector<char>* is_metallic = nullptr);
+                             std::vector<char>* is_metallic = nullptr,
+                             std::span<const AtomIndex> originals = {});
+
+/// Returns the largest distance at which atoms of the structure may be bonded, in angstrom.
+float longest_bond(const Structure& structure);
 
 } // namespace raylane::scenes

@@ -22,7 +22,7 @@ ChainLook chain_look_of(const Look& look) {
 
 std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
                             core::SceneBuilder& builder, TransparentSolids& transparent,
-                            std::vector<AtomPair>* atoms_of_shape) {
+                            std::vector<AtomPair>* atoms_of_shape, bool is_only_look) {
     const float opacity = *layer.look.opacity;
     Palette palette(builder, opacity);
     const auto add = [&]<class Shape>(const Shape& shape, core::MaterialIndex material,
@@ -53,7 +53,7 @@ std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
         throw BadInput(layer.option, "",
                        "must be a style of atoms here: the selection has no proteins or nucleic "
                        "acids of two residues");
-    return rest.remark(atoms.structure);
+    return rest.remark(atoms.structure, is_only_look);
 }
 
 } // namespace raylane::scenes

@@ -7,10 +7,11 @@
 namespace raylane::scenes {
 
 /// Adds the chains of a layer whose style shows chains, like add_layer(). Returns a message about
-/// residues that could not be drawn, or an empty text. Throws BadInput if no chain has two residues
-/// of the layer.
+/// residues that could not be drawn, or an empty text. `is_only_look`: no other look shows the
+/// residues that are not in chains, so the message names them. Throws BadInput if no chain has two
+/// residues of the layer.
 std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
                             core::SceneBuilder& builder, TransparentSolids& transparent,
-                            std::vector<AtomPair>* atoms_of_shape);
+                            std::vector<AtomPair>* atoms_of_shape, bool is_only_look);
 
 } // namespace raylane::scenes

@@ -92,6 +92,10 @@ std::uint32_t ramp_at(double share, std::string_view palette) {
     return color_between(ramp, std::round(std::clamp(share, 0.0, 1.0) * 64.0) / 64.0);
 }
 
+std::uint32_t darker(std::uint32_t srgb) {
+    return (srgb >> 1 & 0x7F7F7F) + (srgb >> 3 & 0x1F1F1F);
+}
+
 std::vector<std::string_view> palette_names() {
     std::vector<std::string_view> names;
     for (const Ramp& ramp : ramps)

@@ -20,6 +20,9 @@ std::uint32_t color_between(std::span<const std::uint32_t> ramp, double share);
 /// palette_names(), or empty for the first.
 std::uint32_t ramp_at(double share, std::string_view palette = {});
 
+/// Returns a darker shade of a colour.
+std::uint32_t darker(std::uint32_t srgb);
+
 /// Returns the names of palettes. All are perceptually uniform, and ordered for colour-blind
 /// readers as well.
 std::vector<std::string_view> palette_names();

@@ -8,11 +8,14 @@
 
 namespace raylane::scenes {
 
-/// Returns the principal axes, in angstrom, of the surface that holds half of a displacement's
-/// probability, at 1.5382 standard deviations. Returns nothing if the tensor is not an ellipsoid's.
-std::optional<std::array<core::Vec3d, 3>> axes_of(const Anisotropy& displacement);
+/// Returns the radius of a sphere, in standard deviations, that holds a share of a normal
+/// distribution in space: 1.5382 for a half. `probability`: in [0.001, 0.999].
+double deviations_of(double probability);
 
-/// Returns that surface's radius for an isotropic (mean square) displacement in angstrom^2.
-double radius_of_displacement(double isotropic);
+/// Returns the principal axes, in angstrom, of a displacement's surface at a number of standard
+/// deviations. They are perpendicular to each other. Returns nothing if the tensor is not an
+/// ellipsoid's.
+std::optional<std::array<core::Vec3d, 3>> axes_of(const Anisotropy& displacement,
+                                                  double deviations);
 
 } // namespace raylane::scenes

@@ -6,8 +6,14 @@
 #include "scenes/formats/structure/atom_layer.hpp"
 #include "scenes/formats/structure/bonds.hpp"
 #include "scenes/formats/structure/cartoon/chain_colors.hpp"
+#include "scenes/formats/structure/cell_layer.hpp"
 #include "scenes/formats/structure/chain_layer.hpp"
+#include "scenes/formats/structure/crystal.hpp"
+#include "scenes/formats/structure/displacement.hpp"
+#include "scenes/formats/structure/hydrogen_bond_layer.hpp"
 #include "scenes/formats/structure/images.hpp"
+#include "scenes/formats/structure/kind_table.hpp"
+#include "scenes/formats/structure/polyhedra_layer.hpp"
 #include "scenes/formats/structure/selection.hpp"
 
 #include <algorithm>
@@ -21,7 +27,7 @@ using core::Vec3d;
 using core::Vec3f;
 
 constexpr std::size_t max_for_balls = 500;
-constexpr float cell_stick = 0.06F;
+constexpr float small_ball = 0.25F; // of van der Waals' radius
 
 bool has_ramp(const ColorWords& words) {
     return !words.palette.empty() || words.range.has_value();
@@ -77,27 +83,63 @@ class SceneFromAtoms {
         find_usual_radius();
         find_images();
         find_styles();
-        find_bonds();
+        find_camera();
+        if (!fill_crystal()) find_bonds();
         make_layers();
         report_unused_ramps();
         find_ranges();
         report_unmatched();
         builder_.reserve(count_ * atoms_.images.size());
-        TransparentSolids transparent;
-        for (const AtomLayer& layer : layers_)
-            if (!shows_chains(*layer.look.style))
-                add_layer(atoms_, layer, file_, builder_, transparent, atoms_of_shape_);
-            else if (const std::string remark =
-                         add_chain_layer(atoms_, layer, builder_, transparent, atoms_of_shape_);
-                     !remark.empty() && on_remark_ && !drawing_.scale)
-                on_remark_(printable(file_, 4096) + ": " + remark);
-        transparent.add_to(builder_, atoms_of_shape_);
-        if (drawing_.show_cell) add_cell();
+        add_layers();
+        if (drawing_.show_cell) {
+            require_cell("--cell", "to show");
+            add_cell_edges(atoms_, builder_, atoms_of_shape_);
+        }
+        if (drawing_.show_axes) {
+            require_cell("--axes", "whose edges they show");
+            add_axes(atoms_, camera_, builder_, atoms_of_shape_);
+        }
         set_up_view();
         return scale_;
     }
 
   private:
+    void add_layers() {
+        TransparentSolids transparent;
+        for (const AtomLayer& layer : layers_) {
+            if (layer.look.style == Style::polyhedra) {
+                if (add_polyhedra_layer(atoms_, layer, builder_, atoms_of_shape_) == 0)
+                    remark("no polyhedra are drawn: none of the atoms has four bonds");
+            } else if (shows_chains(*layer.look.style)) {
+                remark(add_chain_layer(atoms_, layer, builder_, transparent, atoms_of_shape_,
+                                       !shows_atoms(layer.representation)));
+            } else {
+                add_layer(atoms_, layer, file_, builder_, transparent, atoms_of_shape_);
+            }
+        }
+        transparent.add_to(builder_, atoms_of_shape_);
+        if (drawing_.hydrogen_bonds) add_hydrogen_bonds(atoms_, builder_, atoms_of_shape_);
+    }
+
+    bool shows_atoms(std::size_t representation) const {
+        return std::any_of(layers_.begin(), layers_.end(), [&](const AtomLayer& layer) {
+            return layer.representation == representation && !shows_chains(*layer.look.style);
+        });
+    }
+
+    /// Reports a remark on the file, once for all frames.
+    void remark(const std::string& text) {
+        if (!text.empty() && on_remark_ && !drawing_.scale)
+            on_remark_(printable(file_, 4096) + ": " + text);
+    }
+
+    void require_cell(const char* option, const char* what) const {
+        if (!structure_.cell.any())
+            throw BadInput(option, "",
+                           std::string("must have a cell ") + what + ", but " + file_ +
+                               " has none");
+    }
+
     /// Reports each name that selects nothing, once for all frames.
     void report_unmatched() {
         if (!on_remark_ || drawing_.scale) return;
@@ -123,6 +165,13 @@ class SceneFromAtoms {
             shown_.push_back(std::move(shown));
         }
         if (shown_.empty()) shown_.push_back({"--style", {"all", {usual}}, {0}});
+        for (const std::string& text : drawing_.polyhedra) {
+            const Look look = completed(polyhedra_of("--polyhedra", text), usual);
+            for (Shown& shown : shown_) {
+                shown.what.looks.push_back(look);
+                shown.has_ramp.push_back(0);
+            }
+        }
         if (shown_.size() >= DrawnAtoms::hidden)
             throw BadInput("--show", "", "must not be given more than 65534 times");
     }
@@ -175,6 +224,7 @@ class SceneFromAtoms {
 
     /// Replaces automatic styles.
     void find_styles() {
+        needs_bonds_ = drawing_.hydrogen_bonds;
         std::size_t place = 0;
         for (std::size_t k = 0; k < shown_.size(); ++k) {
             const auto count = static_cast<std::size_t>(
@@ -183,27 +233,106 @@ class SceneFromAtoms {
                 count > max_for_balls || !structure_.radii.empty() ? Style::spheres : Style::balls;
             atoms_.shows_bonds.push_back(0);
             for (Look& look : shown_[k].what.looks) {
+                if (look.style == Style::automatic && !drawing_.polyhedra.empty())
+                    make_small_balls(look);
                 if (look.style == Style::automatic)
                     look.style = drawing_.scale ? drawing_.scale->styles[place] : usual;
                 scale_.styles.push_back(*look.style);
                 ++place;
                 if (has_sticks(*look.style)) atoms_.shows_bonds.back() = 1;
+                needs_bonds_ =
+                    needs_bonds_ || has_sticks(*look.style) || look.style == Style::polyhedra;
             }
         }
     }
 
-    void find_bonds() {
+    /// Among polyhedra, atoms are balls without sticks.
+    static void make_small_balls(Look& look) {
+        look.style = Style::spheres;
+        const auto is_unset = [](const SizeWords& words) {
+            return !words.of_all && words.of_kinds.empty();
+        };
+        if (is_unset(look.radius) && is_unset(look.scale)) look.scale.of_all = small_ball;
+    }
+
+    /// Crystals have parallel projection, and a view that shows the edges of the cell.
+    void find_camera() {
+        camera_ = drawing_.fit_camera;
+        const bool is_crystal = structure_.is_crystal && reciprocal_edges(structure_.cell);
+        std::optional<core::NamedView> view = drawing_.view;
+        if (is_crystal && !view) view = view_of_cell(structure_.cell);
+        if (is_crystal && !drawing_.perspective)
+            camera_.projection = core::Projection::orthographic;
+        if (view) {
+            camera_.direction = view->direction;
+            camera_.up = view->up;
+        }
+        atoms_.to_camera = -core::convert<double>(camera_.direction);
         atoms_.ellipsoids = drawing_.ellipsoids;
-        const std::vector<char>& shows = atoms_.shows_bonds;
-        if (std::find(shows.begin(), shows.end(), 1) == shows.end()) return;
-        if (atoms_.images.size() > 1 || !structure_.bonds.empty())
-            atoms_.repeated = with_images(structure_, drawing_.repeat);
+        atoms_.deviations = deviations_of(static_cast<double>(drawing_.probability));
+    }
+
+    /// Fills the cells of a crystal. Returns false if the atoms are drawn as in the file.
+    bool fill_crystal() {
+        const CrystalLook look{drawing_.repeat, drawing_.boundary.value_or(structure_.is_crystal),
+                               drawing_.whole.value_or(structure_.is_crystal)};
+        if (!look.boundary && !look.whole) return false;
+        if (!structure_.is_crystal)
+            require_cell(look.boundary ? "--boundary" : "--whole", "with faces");
         std::size_t crowded = 0;
-        atoms_.bonds = scenes::find_bonds(atoms_.all(), &crowded, &is_metallic_);
+        const std::optional<PeriodicBonds> bonds =
+            periodic_bonds(structure_, &crowded, &is_metallic_);
+        if (!bonds) return false;
+        report_crowded(crowded);
+        std::vector<AtomCopy> copies = fill_cells(structure_, *bonds, look);
+        atoms_.complete = copies.size();
+        add_neighbours(*bonds, centers(), copies);
+        CrystalAtoms all = atoms_of(structure_, *bonds, copies);
+        atoms_.repeated = std::move(all.structure);
+        atoms_.originals = std::move(all.originals);
+        atoms_.bonds = std::move(all.bonds);
+        return true;
+    }
+
+    /// Returns 1 for the atoms in the middle of polyhedra.
+    std::vector<char> centers() const {
+        std::vector<char> is_center(structure_.size());
+        for (std::size_t k = 0; k < shown_.size(); ++k)
+            for (const Look& look : shown_[k].what.looks) {
+                if (look.style != Style::polyhedra) continue;
+                const std::vector<char> has_kind = kinds_of(look);
+                for (AtomIndex i = 0; i < structure_.size(); ++i)
+                    if (atoms_.representations[i] == k &&
+                        (has_kind.empty() || has_kind[structure_.kinds[i]] != 0))
+                        is_center[i] = 1;
+            }
+        return is_center;
+    }
+
+    /// Returns 1 for the kinds of atoms that a look is for; empty: all.
+    std::vector<char> kinds_of(const Look& look) const {
+        std::vector<char> has_kind(look.kinds.empty() ? 0 : structure_.of_kind.size());
+        for (const std::string& kind : look.kinds)
+            for (const std::size_t index : kinds_named(structure_.of_kind, kind))
+                has_kind[index] = 1;
+        return has_kind;
+    }
+
+    void report_crowded(std::size_t crowded) {
         if (crowded != 0 && on_remark_)
             on_remark_(printable(file_, 4096) + ": " + std::to_string(crowded) +
                        " atoms have more than " + std::to_string(max_bonds) +
                        " others within the length of a bond: they have no bonds");
+    }
+
+    void find_bonds() {
+        if (!needs_bonds_) return;
+        if (atoms_.images.size() > 1 || !structure_.bonds.empty())
+            atoms_.repeated = with_images(structure_, drawing_.repeat);
+        std::size_t crowded = 0;
+        atoms_.bonds = scenes::find_bonds(atoms_.all(), &crowded, &is_metallic_);
+        report_crowded(crowded);
+        atoms_.complete = atoms_.all().size();
     }
 
     void make_layers() {
@@ -212,9 +341,13 @@ class SceneFromAtoms {
                 if (look.color.by.empty() && shows_chains(*look.style) &&
                     !structure_.residues.empty())
                     look.color.by = usual_chain_color(structure_);
+                for (const std::string& kind : look.kinds)
+                    if (kinds_named(structure_.of_kind, kind).empty())
+                        unmatched_.push_back(matches_no_kind("--polyhedra", kind));
                 layers_.push_back(
                     {k, shown_[k].option, look, AtomColors(structure_, look.color, unmatched_),
-                     AtomRadii(structure_, look, scale_.usual_radius, is_metallic_, unmatched_)});
+                     AtomRadii(structure_, look, scale_.usual_radius, is_metallic_, unmatched_),
+                     kinds_of(look)});
             }
     }
 
@@ -297,34 +430,6 @@ class SceneFromAtoms {
         }
     }
 
-    void add_cell() {
-        if (!structure_.cell.any())
-            throw BadInput("--cell", "", "must have a cell to show, but " + file_ + " has none");
-        const core::MaterialIndex gray =
-            Palette(builder_).of(0x808080, [] { return std::string("cell"); });
-        std::array<Vec3f, 3> edges;
-        int flat = 0; // bits of edges without a length, as of a slab or a chain
-        for (std::size_t k = 0; k < 3; ++k) {
-            edges[k] = core::convert<float>(structure_.cell.edges[k]);
-            if (edges[k] == Vec3f(0.0F)) flat |= 1 << k;
-        }
-        for (const Vec3f& image : atoms_.images)
-            for (int corner = 0; corner < 8; ++corner) {
-                if ((corner & flat) != 0) continue;
-                Vec3d at = structure_.cell.origin + core::convert<double>(image);
-                for (int k = 0; k < 3; ++k)
-                    if ((corner >> k & 1) != 0)
-                        at = at + structure_.cell.edges[static_cast<std::size_t>(k)];
-                const auto from = core::convert<float>(at);
-                add(core::Sphere{from, cell_stick}, gray, no_atoms);
-                for (int k = 0; k < 3; ++k)
-                    if (((corner | flat) >> k & 1) == 0)
-                        add(core::CappedCylinder{from, edges[static_cast<std::size_t>(k)],
-                                                 cell_stick},
-                            gray, no_atoms);
-            }
-    }
-
     void set_up_view() {
         builder_.settings.width = drawing_.width;
         builder_.settings.height = drawing_.height;
@@ -339,16 +444,9 @@ class SceneFromAtoms {
         const bool shows_values =
             std::any_of(layers_.begin(), layers_.end(),
                         [](const auto& layer) { return layer.colors.property() != nullptr; });
-        builder_.auto_camera = {.fit_camera = drawing_.fit_camera,
+        builder_.auto_camera = {.fit_camera = camera_,
                                 .lights = true,
                                 .depth_cue = shows_values ? 0.0F : drawing_.depth_cue};
-    }
-
-    /// Adds a shape of the cell.
-    template <class Shape>
-    void add(const Shape& shape, core::MaterialIndex material, const AtomPair& atoms) {
-        builder_.add(shape, material);
-        if (atoms_of_shape_ != nullptr) atoms_of_shape_->push_back(atoms);
     }
 
     const Structure& structure_;
@@ -364,6 +462,8 @@ class SceneFromAtoms {
     DrawnAtoms atoms_;
     std::vector<char> is_metallic_; // by element
     std::vector<AtomLayer> layers_;
+    core::FitCamera camera_;
+    bool needs_bonds_ = false;
 };
 
 } // namespace

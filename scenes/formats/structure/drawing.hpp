@@ -8,6 +8,7 @@
 #include "scenes/formats/structure/structure.hpp"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -32,6 +33,14 @@ struct ShowWords {
     std::string option = "--show"; ///< in messages
 };
 
+/// Ellipsoids of displacements in place of balls.
+enum class Ellipsoids : std::uint8_t {
+    none,
+    plain,
+    ellipses, ///< with the three principal ellipses
+    octants,  ///< and without the octant that faces the camera
+};
+
 /// Options for rendering a structure.
 struct Drawing {
     Style style = Style::automatic;
@@ -41,12 +50,21 @@ struct Drawing {
     std::string select = "all";            ///< in the language of select_atoms
     std::array<int, 3> repeat = {1, 1, 1}; ///< cells side by side along the edges
     bool show_cell = false;                ///< the cell's edges
-    bool ellipsoids = false; ///< ellipsoids and spheres that hold half of a displacement
+    bool show_axes = false;                ///< arrows along its edges, beside the atoms
+    /// See CrystalLook. Unset: as in CrystalLook for crystals, otherwise atoms as in the file.
+    std::optional<bool> boundary{}, whole{};
+    std::vector<std::string> polyhedra{}; ///< in the words of polyhedra_of()
+    Ellipsoids ellipsoids = Ellipsoids::none;
+    bool hydrogen_bonds = false; ///< dashed lines, see find_hydrogen_bonds()
+    float probability = 0.5F;    ///< share of a displacement within its ellipsoid
     core::FitCamera fit_camera{};
-    int width = 1200, height = 900; ///< pixels of the image
-    float opacity = 1.0F;           ///< of atoms and bonds, in (0, 1]
-    float depth_cue = 0.3F;         ///< share of the background in the farthest atoms, in [0, 1);
-                                    ///< unused if colours stand for a property
+    std::optional<core::NamedView> view{}; ///< from where the camera will look; unset: as in
+                                           ///< `fit_camera`, and obliquely at crystals
+    bool perspective = false;              ///< of crystals, too
+    int width = 1200, height = 900;        ///< pixels of the image
+    float opacity = 1.0F;                  ///< of atoms and bonds, in (0, 1]
+    float depth_cue = 0.3F; ///< share of the background in the farthest atoms, in [0, 1);
+                            ///< unused if colours stand for a property
     std::optional<DrawingScale> scale{}; ///< of another frame
     /// If there are any, only the atoms that they select are shown. Each replaces the ones before
     /// it for the atoms that it selects. Their unset words follow from the options above.

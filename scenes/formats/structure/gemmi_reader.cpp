@@ -83,6 +83,7 @@ class ModelReader : public FrameReader {
         if (model.has_cell)
             for (std::size_t k = 0; k < 3; ++k)
                 frame.cell.edges[k] = {model.edges[k][0], model.edges[k][1], model.edges[k][2]};
+        frame.is_crystal = model.is_small && model.has_cell;
         frame.properties = {{"b_factor", {}}, {"occupancy", {}}};
         if (model.is_small) frame.properties.push_back({"symmetry", {}});
         KindTable kinds(frame.of_kind);

@@ -7,25 +7,35 @@ namespace raylane::scenes {
 
 using core::Vec3d;
 
-namespace {
+Vec3d offset_in(const Cell& cell, const std::array<int, 3>& cells) {
+    // An edge that is not a number is unused if there is one cell along it.
+    const auto along = [&](std::size_t edge) {
+        return cells[edge] == 0 ? Vec3d(0.0) : static_cast<double>(cells[edge]) * cell.edges[edge];
+    };
+    return along(0) + along(1) + along(2);
+}
 
-/// Returns the distance, in cells along each edge, to the image of `b` that is nearest to `a`.
-std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& b) {
+std::optional<std::array<Vec3d, 3>> reciprocal_edges(const Cell& cell) {
     const Vec3d &u = cell.edges[0], &v = cell.edges[1], &w = cell.edges[2];
     const double volume = core::dot(u, core::cross(v, w));
-    if (volume == 0.0) return {};
-    const std::array<Vec3d, 3> across = {core::cross(v, w), core::cross(w, u), core::cross(u, v)};
+    if (!(std::abs(volume) > 0.0 && std::abs(volume) < 1e60)) return std::nullopt;
+    const double times = 1.0 / volume;
+    return {{times * core::cross(v, w), times * core::cross(w, u), times * core::cross(u, v)}};
+}
+
+std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& b) {
+    const std::optional<std::array<Vec3d, 3>> across = reciprocal_edges(cell);
+    if (!across) return {};
     std::array<int, 3> cells{};
     const Vec3d way = b - a;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double part = core::dot(way, across[k]) / volume;
+        const double part = core::dot(way, (*across)[k]);
         if (!cell.periodic[k] || !(std::abs(part) < 1e6)) continue;
         cells[k] = -static_cast<int>(std::lround(part));
     }
     // In an oblique cell, one of the surrounding cells may be nearer.
     const auto squared = [&](const std::array<int, 3>& of) {
-        const Vec3d at = way + static_cast<double>(of[0]) * u + static_cast<double>(of[1]) * v +
-                         static_cast<double>(of[2]) * w;
+        const Vec3d at = way + offset_in(cell, of);
         return core::dot(at, at);
     };
     // If images are equally near, the original one is taken.
@@ -42,18 +52,12 @@ std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& 
     return best;
 }
 
-} // namespace
-
 std::vector<Vec3d> offsets_of_images(const Cell& cell, const std::array<int, 3>& repeat) {
     std::vector<Vec3d> offsets;
-    // An edge that is not a number is unused if there is one cell along it.
-    const auto along = [&](std::size_t edge, int cells) {
-        return cells == 0 ? Vec3d(0.0) : static_cast<double>(cells) * cell.edges[edge];
-    };
     for (int u = 0; u < repeat[0]; ++u)
         for (int v = 0; v < repeat[1]; ++v)
             for (int w = 0; w < repeat[2]; ++w)
-                offsets.push_back(along(0, u) + along(1, v) + along(2, w));
+                offsets.push_back(offset_in(cell, {u, v, w}));
     return offsets;
 }
 

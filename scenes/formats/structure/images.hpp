@@ -3,9 +3,20 @@
 #include "scenes/formats/structure/structure.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace raylane::scenes {
+
+/// Returns vectors whose products with a position relative to the cell's origin are the position's
+/// fractions along the edges; nothing for a cell without a volume.
+std::optional<std::array<core::Vec3d, 3>> reciprocal_edges(const Cell& cell);
+
+/// Returns the sum of a number of edges in each direction.
+core::Vec3d offset_in(const Cell& cell, const std::array<int, 3>& cells);
+
+/// Returns the distance, in cells along each edge, to the image of `b` that is nearest to `a`.
+std::array<int, 3> cells_between(const Cell& cell, const core::Vec3d& a, const core::Vec3d& b);
 
 /// Returns the positions of a cell's images, side by side along its edges, in angstrom. The first
 /// is the cell itself.

@@ -65,6 +65,11 @@ bool is_polymer_residue(std::string_view residue) {
     return is_one_of(known, residue);
 }
 
+bool is_water_residue(std::string_view residue) {
+    constexpr std::string_view known[] = {"hoh", "wat", "sol", "h2o", "dod", "tip3", "tip4", "spc"};
+    return is_one_of(known, in_lower_case(residue));
+}
+
 Element element_of_ion(std::string_view name, std::string_view residue) {
     // CHARMM36, toppar_water_ions.str.
     constexpr std::pair<std::string_view, std::string_view> of_charmm[] = {

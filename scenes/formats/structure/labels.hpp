@@ -28,6 +28,9 @@ Element element_of_ion(std::string_view name, std::string_view residue);
 ///   names the first letter is the symbol, or if it is not a symbol, both letters are ("ZN").
 Element element_of_atom(std::string_view name, std::string_view residue);
 
+/// Returns true for names of water in any case, such as "HOH", "SOL" and "TIP3".
+bool is_water_residue(std::string_view residue);
+
 /// Returns true for the 20 amino acids in their states of protonation, caps, and nucleotides.
 bool is_polymer_residue(std::string_view residue);
 

@@ -10,7 +10,7 @@ namespace raylane::scenes {
 namespace {
 
 bool is_water(const Residue& residue) {
-    return is_any_word(residue.name, {"hoh", "wat", "sol", "h2o", "dod", "tip3", "tip4", "spc"});
+    return is_water_residue(residue.name);
 }
 bool is_amino_acid(const Residue& residue) {
     return is_any_word(residue.name,

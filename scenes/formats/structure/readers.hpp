@@ -37,6 +37,12 @@ std::unique_ptr<FrameReader> open_lammps_dump(InputFile& file);
 /// Reads LAMMPS' data of any atom style. The options, or a comment after "Atoms", name the style.
 /// Without them the style follows from the columns. Throws BadInput if several styles fit these.
 std::unique_ptr<FrameReader> open_lammps_data(InputFile& file, const ReaderOptions& options);
+/// Reads MOL and SDF (V2000 and V3000), in which each record is a frame, with formal charges.
+std::unique_ptr<FrameReader> open_mol(InputFile& file);
+/// Reads Tripos' MOL2, in which each molecule is a frame, with charges.
+std::unique_ptr<FrameReader> open_mol2(InputFile& file);
+/// Reads PQR: PDB with a charge and a radius in angstrom for each atom, separated by blanks.
+std::unique_ptr<FrameReader> open_pqr(InputFile& file);
 /// Read PDB, in which each MODEL is a frame, and mmCIF or a small molecule's CIF. Without gemmi,
 /// throw BadInput.
 std::unique_ptr<FrameReader> open_pdb(InputFile& file);

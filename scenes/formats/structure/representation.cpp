@@ -4,6 +4,7 @@
 #include "scenes/files/number.hpp"
 #include "scenes/formats/structure/cartoon/chain_colors.hpp"
 #include "scenes/formats/structure/colors.hpp"
+#include "scenes/formats/structure/elements.hpp"
 #include "scenes/formats/structure/lines.hpp"
 
 #include <algorithm>
@@ -189,10 +190,12 @@ Look look_of(WordList& words, const std::string& option) {
 
 const std::vector<std::pair<std::string_view, Style>>& named_styles() {
     static const std::vector<std::pair<std::string_view, Style>> styles = {
-        {"balls", Style::balls},     {"sticks", Style::sticks},     {"licorice", Style::licorice},
-        {"spheres", Style::spheres}, {"touching", Style::touching}, {"envelope", Style::envelope},
-        {"points", Style::points},   {"cartoon", Style::cartoon},   {"cylinders", Style::cylinders},
-        {"tube", Style::tube},       {"trace", Style::trace}};
+        {"balls", Style::balls},       {"sticks", Style::sticks},
+        {"licorice", Style::licorice}, {"spheres", Style::spheres},
+        {"touching", Style::touching}, {"envelope", Style::envelope},
+        {"points", Style::points},     {"polyhedra", Style::polyhedra},
+        {"cartoon", Style::cartoon},   {"cylinders", Style::cylinders},
+        {"tube", Style::tube},         {"trace", Style::trace}};
     return styles;
 }
 
@@ -206,6 +209,22 @@ Representation representation_of(const std::string& option, const std::string& t
         representation.looks.push_back(look_of(words, option));
     } while (words.take("+"));
     return representation;
+}
+
+Look polyhedra_of(const std::string& option, const std::string& text) {
+    WordList words(option, text, 0);
+    std::vector<std::string> kinds;
+    while (!words.at_end() && (kinds.empty() || element_of(words.word()) != 0)) {
+        kinds.emplace_back(words.word());
+        words.advance();
+    }
+    if (kinds.empty()) words.fail("must be an element or type, got nothing");
+    Look look = look_of(words, option);
+    if (look.style || !words.at_end())
+        throw BadInput(option, "", "must have no style, got \"" + printable(text) + '"');
+    look.style = Style::polyhedra;
+    look.kinds = std::move(kinds);
+    return look;
 }
 
 ColorWords color_words_of(const std::string& option, const std::string& text) {

@@ -19,6 +19,7 @@ enum class Style {
     touching,  ///< spheres with radii at which neighbours touch; sticks where a gap remains
     envelope,  ///< the solvent-accessible surface: spheres larger by 1.4 angstrom
     points,    ///< small balls of one size
+    polyhedra, ///< the convex hulls of bonded neighbours
     cartoon,   ///< ribbons of proteins, tubes and boxes of nucleic acids
     cylinders, ///< a cartoon with cylinders for helices
     tube,      ///< a round tube along each chain
@@ -59,6 +60,7 @@ struct SizeWords {
 
 /// A look of atoms. Unset values are those of the drawing.
 struct Look {
+    std::vector<std::string> kinds = {}; ///< elements or types that have the look; empty: all
     std::optional<Style> style;
     ColorWords color;
     std::optional<float> opacity; ///< in (0, 1]
@@ -76,6 +78,10 @@ struct Representation {
 /// colour, "opacity A", "radius SIZES", "scale SIZES". ": LOOK" may be missing. `option` is the
 /// name in messages. Throws BadInput, with the column.
 Representation representation_of(const std::string& option, const std::string& text);
+
+/// Parses "KIND KIND ... LOOK": the polyhedra around atoms of these elements or types. The look is
+/// in the words of representation_of(), without a style. Throws BadInput, with the column.
+Look polyhedra_of(const std::string& option, const std::string& text);
 
 /// Parses words in any order: "BY" or "carbons BY", "KIND=COLOR", "palette NAME", "range A B".
 /// Throws BadInput, with the column.

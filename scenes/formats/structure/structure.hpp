@@ -33,8 +33,10 @@ struct Residue {
 };
 
 struct Bond {
-    AtomIndex a, b; ///< a < b
-    std::uint8_t order = 1;
+    static constexpr std::uint8_t aromatic = 4;
+
+    AtomIndex a, b;         ///< a < b
+    std::uint8_t order = 1; ///< 1, 2, 3 or aromatic
 };
 
 /// Displacements of an atom as a tensor, in angstrom^2: U11, U22, U33, U12, U13, U23, along the
@@ -89,6 +91,7 @@ struct Structure {
     std::vector<Bond> bonds;              ///< of the file
     bool has_all_bonds = false;           ///< true: there are no others
     Cell cell;
+    bool is_crystal = false; ///< its cells are drawn as those of crystals unless options change it
 
     std::size_t size() const { return positions.size(); }
     Element element(AtomIndex atom) const { return of_kind[kinds[atom]].element; }

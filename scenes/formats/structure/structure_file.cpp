@@ -62,6 +62,12 @@ std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
         return open_lammps_dump(file);
     case Format::lammps_data:
         return open_lammps_data(file, options);
+    case Format::mol:
+        return open_mol(file);
+    case Format::mol2:
+        return open_mol2(file);
+    case Format::pqr:
+        return open_pqr(file);
     case Format::json:
     case Format::nff:
     case Format::pov:

@@ -138,6 +138,11 @@ class XyzReader : public FrameReader {
             lines_.next_atom(atom + 1, count);
             read_atom(frame, kinds);
         }
+        // Larger ones are simulations.
+        constexpr std::size_t max_in_crystal = 500;
+        const auto& periodic = frame.cell.periodic;
+        frame.is_crystal = frame.cell.any() && count <= max_in_crystal &&
+                           std::count(periodic.begin(), periodic.end(), true) >= 2;
         return true;
     }
 

@@ -119,20 +119,6 @@ int ThreadsOption::count() const {
     return value() ? **this : simd::default_threads();
 }
 
-void refuse(const std::string& option, const std::string& must, const std::string& got) {
-    throw BadInput(option, "", "must be " + must + ", got \"" + printable(got) + "\"");
-}
-
-std::vector<std::string_view> parts_of(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    while (true) {
-        const std::size_t end = text.find(separator);
-        parts.push_back(text.substr(0, end));
-        if (end == std::string_view::npos) return parts;
-        text.remove_prefix(end + 1);
-    }
-}
-
 Values<bool> flag() {
     return {"", "", [](const auto&, const auto&) { return true; }};
 }

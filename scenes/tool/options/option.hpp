@@ -2,6 +2,7 @@
 
 #include "core/scene/surroundings.hpp"
 #include "scenes/files/errors.hpp"
+#include "scenes/files/words.hpp"
 #include "simd/wavefront/render.hpp"
 
 #include <filesystem>
@@ -244,27 +245,6 @@ class ThreadsOption : public Option<int> {
     /// Returns the value, or default_threads(), which may depend on the environment.
     int count() const;
 };
-
-/// Throws BadInput: `--spp: must be 1, got "x"`.
-[[noreturn]] void refuse(const std::string& option, const std::string& must,
-                         const std::string& got);
-
-/// Returns the parts of a text such as "1:2:3". There is at least one part; parts may be empty.
-std::vector<std::string_view> parts_of(std::string_view text, char separator);
-
-/// Returns the value of the choice named `text`. Throws BadInput.
-template <class T>
-T choice_named(const std::string& option, const std::string& text,
-               const std::vector<std::pair<std::string_view, T>>& choices) {
-    std::vector<std::string> names;
-    for (const auto& [name, value] : choices) {
-        if (text == name) return value;
-        names.emplace_back(name);
-    }
-    throw BadInput(option, "",
-                   "must be " + alternatives(names) + ", got \"" + printable(text) + "\"" +
-                       suggestion(text, {names.begin(), names.end()}));
-}
 
 template <class T>
 Values<T> choice(const std::vector<std::pair<std::string_view, T>>& choices) {

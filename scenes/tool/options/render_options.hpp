@@ -105,7 +105,7 @@ struct RenderArguments : OptionTable {
     Option<std::string> scene = {
         *this, "SCENE", file_argument(),
         "Scene (JSON, NFF, POV-Ray, Tachyon, or .rl from build) or atoms (PDB, mmCIF, "
-        "CIF, XYZ, GRO, LAMMPS), optionally gzipped; - is standard input."};
+        "CIF, PQR, XYZ, GRO, MOL, SDF, MOL2, LAMMPS), optionally gzipped; - is standard input."};
     Option<std::string> output = {
         *this, "-o,--output",
         file_name().otherwise("the scene's name with .png, in the current folder"),

@@ -4,6 +4,7 @@
 #include "scenes/files/number.hpp"
 #include "scenes/formats/json/parameters.hpp"
 #include "scenes/formats/structure/colors.hpp"
+#include "scenes/formats/structure/drawing_options.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -14,20 +15,6 @@ namespace raylane::scenes {
 
 namespace {
 
-/// Parses a direction such as "1,-1,-0.5". Returns nothing if it is malformed or 0.
-std::optional<core::Vec3f> direction_in(const std::string& text) {
-    const std::vector<std::string_view> parts = parts_of(text, ',');
-    if (parts.size() != 3) return std::nullopt;
-    core::Vec3f direction(0.0F);
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::optional<float> number = to_float(parts[static_cast<std::size_t>(axis)]);
-        if (!number) return std::nullopt;
-        direction[axis] = *number;
-    }
-    if (direction == core::Vec3f(0.0F)) return std::nullopt;
-    return direction;
-}
-
 /// Makes the image `zoom` times as large around the point that the camera looks at.
 void zoom_in(core::Camera& camera, float zoom) {
     camera.height /= zoom;
@@ -36,12 +23,17 @@ void zoom_in(core::Camera& camera, float zoom) {
 }
 
 /// Keeps the size at which the point that the camera looks at is seen.
-void make_orthographic(core::Camera& camera) {
-    if (camera.projection == core::Projection::orthographic) return;
-    const double distance =
-        core::length(core::convert<double>(camera.at) - core::convert<double>(camera.from));
-    camera.projection = core::Projection::orthographic;
-    camera.height = static_cast<float>(2.0 * distance * core::slope_of_view(camera.field_of_view));
+void project(core::Camera& camera, core::Projection projection) {
+    if (camera.projection == projection) return;
+    const core::Vec3d at = core::convert<double>(camera.at);
+    const core::Vec3d back = core::convert<double>(camera.from) - at;
+    const double slope = core::slope_of_view(camera.field_of_view);
+    camera.projection = projection;
+    if (projection == core::Projection::orthographic)
+        camera.height = static_cast<float>(2.0 * core::length(back) * slope);
+    else
+        camera.from = core::convert<float>(at + static_cast<double>(camera.height) /
+                                                    (2.0 * slope * core::length(back)) * back);
 }
 
 constexpr int max_images = 1'000'000;
@@ -115,9 +107,9 @@ core::AutoCamera ViewChange::auto_camera(const core::Scene& scene, core::Camera&
     }
     if (auto_camera.fit_camera) {
         auto_camera.fit_camera->zoom = zoom.value_or(auto_camera.fit_camera->zoom);
-        if (orthographic) auto_camera.fit_camera->projection = core::Projection::orthographic;
+        if (projection) auto_camera.fit_camera->projection = *projection;
     } else {
-        if (orthographic) make_orthographic(camera);
+        if (projection) project(camera, *projection);
         if (zoom) zoom_in(camera, *zoom);
     }
     return auto_camera;
@@ -148,20 +140,7 @@ core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settin
 }
 
 Values<core::NamedView> views() {
-    return {"WAY", "", [](const std::string& option, const std::string& text) -> core::NamedView {
-                std::vector<std::string_view> names;
-                for (const core::NamedView& view : core::named_views()) {
-                    names.push_back(view.name);
-                    if (text == view.name) return view;
-                }
-                const std::optional<core::Vec3f> direction = direction_in(text);
-                if (!direction)
-                    throw BadInput(option, "",
-                                   "must be " + alternatives({names.begin(), names.end()}) +
-                                       ", or a direction such as 1,-1,-0.5, got \"" +
-                                       printable(text) + "\"" + suggestion(text, names));
-                return {"", *direction, core::upright(*direction)};
-            }};
+    return {"WAY", "", view_named};
 }
 
 Values<core::Vec3f> upward_directions() {
@@ -179,11 +158,7 @@ Values<core::Vec3f> upward_directions() {
 }
 
 Values<float> opacities() {
-    return {"A", "above 0 and up to 1", [](const std::string& option, const std::string& text) {
-                const float value = to_float(text).value_or(0.0F);
-                if (!(value > 0.0F && value <= 1.0F)) refuse(option, "above 0 and at most 1", text);
-                return value;
-            }};
+    return {"A", "above 0 and up to 1", opacity_of};
 }
 
 namespace {
@@ -211,6 +186,14 @@ Values<std::string> show_texts() {
     return text_for("WHICH:LOOK", representation_of);
 }
 
+Values<std::string> polyhedra_texts() {
+    return text_for("WHICH", polyhedra_of);
+}
+
+Values<bool> on_or_off() {
+    return {"on|off", "", on_or_off_of};
+}
+
 Values<std::string> palettes() {
     std::vector<std::pair<std::string_view, std::string>> names;
     for (const std::string_view name : palette_names())
@@ -223,27 +206,21 @@ Values<ColorRange> color_ranges() {
 }
 
 Values<std::array<int, 3>> repetitions() {
-    return {"AxBxC", "", [](const std::string& option, const std::string& text) {
-                std::array<int, 3> result{};
-                const std::vector<std::string_view> parts = parts_of(text, 'x');
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    const std::optional<int> number =
-                        parts.size() == 3 ? to_int(parts[axis]) : std::nullopt;
-                    if (!number || *number < 1 || *number > 1000)
-                        refuse(option,
-                               "the number of cells along each edge, from 1 to 1000, such as "
-                               "2x2x1",
-                               text);
-                    result[axis] = *number;
-                }
-                return result;
-            }};
+    return {"AxBxC", "", repeat_of};
 }
 
 Drawing DrawingArguments::drawing() const {
     Drawing drawing;
+    drawing.ellipsoids = octants      ? Ellipsoids::octants
+                         : ellipses   ? Ellipsoids::ellipses
+                         : ellipsoids ? Ellipsoids::plain
+                                      : Ellipsoids::none;
+    if (probability && drawing.ellipsoids == Ellipsoids::none)
+        throw BadInput("--probability", "", "goes with --ellipsoids, --ellipses or --octants");
+    drawing.probability = 0.01F * probability.value_or(50.0F);
     // With ellipsoids, atoms without displacements are balls.
-    drawing.style = style.value_or(ellipsoids ? Style::balls : drawing.style);
+    const bool has_ellipsoids = drawing.ellipsoids != Ellipsoids::none;
+    drawing.style = style.value_or(has_ellipsoids ? Style::balls : drawing.style);
     drawing.color = color.value_or(drawing.color);
     drawing.select = select.value_or(drawing.select);
     drawing.opacity = opacity.value_or(drawing.opacity);
@@ -256,13 +233,19 @@ Drawing DrawingArguments::drawing() const {
     drawing.scale_radii = scale.value_or("");
     drawing.repeat = repeat.value_or(drawing.repeat);
     drawing.show_cell = cell.is_given();
-    drawing.ellipsoids = ellipsoids.is_given();
+    drawing.show_axes = axes.is_given();
+    drawing.hydrogen_bonds = hydrogen_bonds.is_given();
+    drawing.boundary = boundary.value();
+    drawing.whole = whole_molecules.value();
+    drawing.polyhedra = *polyhedra;
     return drawing;
 }
 
 LoadOptions SceneArguments::load_options() const {
     LoadOptions options;
     options.drawing = drawing.drawing();
+    options.drawing.view = view.view.value();
+    options.drawing.perspective = view.perspective.is_given();
     options.atom_style = drawing.atom_style.value_or("");
     options.option_for_atoms = drawing.first_given();
     options.parameters = parameters.values().front();

@@ -115,7 +115,7 @@ struct ViewChange {
     std::optional<core::NamedView> way; ///< for a camera that finds its place
     std::optional<core::Vec3f> up;
     std::optional<float> zoom, depth_cue;
-    bool orthographic = false;
+    std::optional<core::Projection> projection;
     bool turning = false; ///< the camera will turn around the scene
 
     /// Returns the scene's automatic camera with these changes. If the scene keeps its own camera,
@@ -140,7 +140,7 @@ struct ViewArguments : OptionTable {
     explicit ViewArguments(OptionTable& whole) : OptionTable(whole, "Camera") {}
 
     Option<core::NamedView> view = {
-        *this, "--view", views().otherwise(as_in_file, "front").recorded(),
+        *this, "--view", views().otherwise(as_in_file, "front; crystals obliquely").recorded(),
         "Frame all bounded shapes from front, back, left, right, top, bottom, x, y, z or "
         "corner, or looking in a direction such as 1,-1,-0.5."};
     Option<core::Vec3f> up = {
@@ -151,13 +151,18 @@ struct ViewArguments : OptionTable {
                           number(0.01F, 1000.0F, "TIMES").otherwise("1").recorded(),
                           "Magnification."};
     Flag orthographic = {*this, "--orthographic", flag().recorded(),
-                         "Use an orthographic projection."};
+                         "Use an orthographic projection, as crystals do by default."};
+    Flag perspective = {*this, "--perspective", flag().recorded().without({"--orthographic"}),
+                        "Use a perspective projection."};
     Option<float> depth_cue = {*this, "--depth-cue",
                                number(0.0F, 0.99F, "SHARE").otherwise(as_in_file, "0.3").recorded(),
                                "Share of the background in the colour of the farthest shapes."};
 
     ViewChange change() const {
-        return {view.value(), up.value(), zoom.value(), depth_cue.value(), orthographic.is_given()};
+        std::optional<core::Projection> projection;
+        if (orthographic) projection = core::Projection::orthographic;
+        if (perspective) projection = core::Projection::perspective;
+        return {view.value(), up.value(), zoom.value(), depth_cue.value(), projection};
     }
 };
 
@@ -171,10 +176,15 @@ Values<ColorRange> color_ranges();
 /// Numbers of cells along the edges of the unit cell.
 Values<std::array<int, 3>> repetitions();
 
+/// Words of polyhedra, see polyhedra_of().
+Values<std::string> polyhedra_texts();
+Values<bool> on_or_off();
+inline constexpr const char* for_crystals = "on for crystals";
+
 /// Options for the look of atoms.
 struct DrawingArguments : OptionTable {
     explicit DrawingArguments(OptionTable& whole)
-        : OptionTable(whole, "Atoms (PDB, mmCIF, CIF, XYZ, GRO, LAMMPS)") {}
+        : OptionTable(whole, "Atoms (PDB, PQR, mmCIF, CIF, XYZ, GRO, MOL, SDF, MOL2, LAMMPS)") {}
 
     Option<Style> style = {
         *this, "--style",
@@ -235,9 +245,37 @@ struct DrawingArguments : OptionTable {
             .recorded(),
         "Atom style of a LAMMPS data file, such as full or \"hybrid sphere dipole\"."};
     Flag cell = {*this, "--cell", flag().recorded(), "Show the edges of the unit cell."};
+    Flag axes = {*this, "--axes", flag().recorded(),
+                 "Show the directions of the cell's edges as arrows: a red, b green, c blue."};
+    Option<bool> boundary = {
+        *this, "--boundary", on_or_off().otherwise(for_crystals).recorded(),
+        "Show atoms and molecules on faces, edges and corners of the cell on all of them. Crystals "
+        "are CIF files, and XYZ of up to 500 atoms in a periodic cell."};
+    Option<bool> whole_molecules = {
+        *this, "--whole", on_or_off().otherwise(for_crystals).recorded(),
+        "Move atoms into the cell, and molecules as a whole. A molecule is a finite set of bonded "
+        "atoms."};
+    ListOption<std::string> polyhedra = {
+        *this, "--polyhedra", polyhedra_texts().recorded(),
+        "Show the polyhedra of neighbours that are bonded to atoms of elements or types, such as "
+        "Ti or \"Ti Zr opacity 0.6\", in words of --show. Atoms are balls without sticks, unless "
+        "--style is given."};
+    Flag hydrogen_bonds = {
+        *this, "--hydrogen-bonds", flag().recorded(),
+        "Show hydrogen bonds as dashed lines: N, O or F with a hydrogen atom that is less than 2.5 "
+        "angstrom from another of these, at an angle above 120 degrees. Without hydrogen atoms in "
+        "the file: a donor and an acceptor within 3.5 angstrom, both at angles above 90 degrees to "
+        "the atoms bonded to them."};
     Flag ellipsoids = {*this, "--ellipsoids", flag().recorded(),
-                       "Show displacements (ANISOU, U and B) as ellipsoids or spheres of "
-                       "50 % probability."};
+                       "Show displacements (ANISOU, U and B) as ellipsoids or spheres."};
+    Option<float> probability = {*this, "--probability",
+                                 number(1.0F, 99.0F, "PERCENT").otherwise("50").recorded(),
+                                 "Probability that an atom is in its ellipsoid."};
+    Flag ellipses = {*this, "--ellipses", flag().recorded(),
+                     "Show ellipsoids with their principal ellipses."};
+    Flag octants = {*this, "--octants", flag().recorded(),
+                    "Show ellipsoids with principal ellipses, and without the octant that faces "
+                    "the camera."};
 
     Drawing drawing() const;
 };

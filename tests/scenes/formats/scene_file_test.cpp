@@ -89,7 +89,8 @@ TEST_CASE("a file of another kind is distinguished from a scene with a mistake")
     };
     const std::string neither =
         ": must be a scene (.json, .nff, .pov, Tachyon .dat, or .rl from \"raylane build\") or "
-        "atoms (.pdb, mmCIF or CIF .cif, .xyz, .gro, LAMMPS .dump or .data), got another format";
+        "atoms (.pdb, .pqr, mmCIF or CIF .cif, .xyz, .gro, .mol, .sdf, .mol2, LAMMPS .dump or "
+        ".data), got another format";
     const std::string pdb = "HEADER    HYDROLASE\nATOM      1  N   PRO A   1      29.361  39.686\n";
     const std::string obj = "# a cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
     CHECK(error_of(obj, ".obj") == "a.obj" + neither);

@@ -42,11 +42,13 @@ std::vector<Input> inputs() {
         {"bad.json", "{\"objects\": [{\"type\": \"sphere\"}]}"},
         {"bad.pov", "sphere { 0 }"}};
     const std::pair<const char*, const char*> of_seeds[] = {
-        {"a.cif", "cif.small"},   {"m.cif", "cif.macromolecule"},
-        {"a.gro", "gro.plain"},   {"a.lmp", "lammps_data.plain"},
-        {"a.nff", "nff.plain"},   {"a.lammpstrj", "lammps_dump.plain"},
-        {"a.pdb", "pdb.plain"},   {"a.xyz", "xyz.plain"},
-        {"b.xyz", "xyz.extended"}};
+        {"a.cif", "cif.small"},    {"m.cif", "cif.macromolecule"},
+        {"a.gro", "gro.plain"},    {"a.lmp", "lammps_data.plain"},
+        {"a.nff", "nff.plain"},    {"a.lammpstrj", "lammps_dump.plain"},
+        {"a.pdb", "pdb.plain"},    {"a.xyz", "xyz.plain"},
+        {"b.xyz", "xyz.extended"}, {"a.mol", "mol.v2000"},
+        {"b.mol", "mol.v3000"},    {"a.mol2", "mol2.plain"},
+        {"a.pqr", "pqr.plain"}};
     for (const auto& [name, seed] : of_seeds)
         all.push_back({name, tests::content_of(seeds / seed)});
     return all;

@@ -82,7 +82,8 @@ TEST_CASE("a path without a scene file gives an error of one line") {
         {"NFF of nothing", "a.nff", "# nothing\n", "must have a v entity, got none"},
         {"no scene at all", "a", "Dear Sir,\n",
          "must be a scene (.json, .nff, .pov, Tachyon .dat, or .rl from \"raylane build\") or "
-         "atoms (.pdb, mmCIF or CIF .cif, .xyz, .gro, LAMMPS .dump or .data), got another format"},
+         "atoms (.pdb, .pqr, mmCIF or CIF .cif, .xyz, .gro, .mol, .sdf, .mol2, LAMMPS .dump or "
+         ".data), got another format"},
         {"no NFF at all", "a.nff", "Dear Sir,\n",
          R"(line 1: must be one of v, b, l, f, s, c, p and pp, got "Dear")"},
         {"a binary JSON file", "a.json",

@@ -3,6 +3,7 @@
 #include "core/shapes/bounds.hpp"
 #include "scenes/formats/structure/cartoon/secondary_structure.hpp"
 #include "scenes/formats/structure/cartoon/shapes.hpp"
+#include "scenes/formats/structure/labels.hpp"
 
 #include <algorithm>
 
@@ -54,10 +55,27 @@ class Chains {
         for (const BackboneResidue& residue : backbone.without_path)
             if (is_drawn_(residue.first)) remainder_.broken.push_back(residue.residue);
         std::sort(remainder_.broken.begin(), remainder_.broken.end());
+        find_others(backbone);
         return std::move(remainder_);
     }
 
   private:
+    void find_others(const Backbone& backbone) {
+        std::vector<char> is_known(structure_.of_residue.size());
+        for (const Segment& segment : backbone.segments)
+            for (const BackboneResidue& residue : segment)
+                is_known[residue.residue] = 1;
+        for (const BackboneResidue& residue : backbone.without_path)
+            is_known[residue.residue] = 1;
+        for (AtomIndex atom = 0; atom < structure_.residues.size(); ++atom) {
+            const std::uint32_t residue = structure_.residues[atom];
+            if (is_known[residue] != 0 || !is_drawn_(atom)) continue;
+            is_known[residue] = 1;
+            if (!is_water_residue(structure_.of_residue[residue].name))
+                remainder_.others.push_back(residue);
+        }
+    }
+
     void add(const Segment& segment) {
         const bool is_peptide = segment[0].polymer == Polymer::peptide;
         Path path = is_peptide ? path_of_peptide(structure_, segment, secondary_)
@@ -114,16 +132,26 @@ std::string name_of(const Structure& structure, std::uint32_t index) {
 
 } // namespace
 
-std::string ChainRemainder::remark(const Structure& structure) const {
+std::string ChainRemainder::remark(const Structure& structure, bool names_others) const {
     std::string text;
+    const auto list = [&](const std::vector<std::uint32_t>& residues) {
+        constexpr std::size_t most = 3;
+        for (std::size_t i = 0; i < std::min(most, residues.size()); ++i)
+            text += (i == 0 ? "" : ", ") + name_of(structure, residues[i]);
+        if (residues.size() > most) text += ", ...";
+    };
     if (!broken.empty()) {
         text = broken.size() == 1 ? "1 residue could not be drawn"
                                   : std::to_string(broken.size()) + " residues could not be drawn";
         text += ", because CA, P or neighbours are missing: ";
-        constexpr std::size_t most = 3;
-        for (std::size_t i = 0; i < std::min(most, broken.size()); ++i)
-            text += (i == 0 ? "" : ", ") + name_of(structure, broken[i]);
-        if (broken.size() > most) text += ", ...";
+        list(broken);
+    }
+    if (names_others && !others.empty()) {
+        text += text.empty() ? "" : "; ";
+        text += others.size() == 1 ? "1 residue is not part of a chain, and is not drawn: "
+                                   : std::to_string(others.size()) +
+                                         " residues are not parts of chains, and are not drawn: ";
+        list(others);
     }
     if (without_base != 0)
         text += (text.empty() ? "" : "; ") + std::to_string(without_base) +

@@ -26,11 +26,13 @@ struct ChainLook {
 /// The residues that a style of chains omits.
 struct ChainRemainder {
     std::vector<std::uint32_t> broken; ///< of proteins and nucleic acids: no CA, or no neighbour
+    std::vector<std::uint32_t> others; ///< no proteins, nucleic acids or water
     std::size_t without_base = 0;      ///< drawn nucleotides
     std::size_t drawn = 0;             ///< residues
 
-    /// Returns a message for users. It is empty if nothing is missing.
-    std::string remark(const Structure& structure) const;
+    /// Returns a message for users. It is empty if nothing is missing. `names_others`: whether it
+    /// includes `others`.
+    std::string remark(const Structure& structure, bool names_others = true) const;
 };
 
 /// Adds the residues whose CA, P or first atom is drawn. A part of a chain has the same shape as in

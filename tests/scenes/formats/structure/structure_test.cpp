@@ -384,7 +384,7 @@ TEST_CASE("options that cannot be drawn give an error of one line") {
     CHECK(error("a.xyz", one, [](LoadOptions& o) {
               o.drawing.repeat = {1, 2, 1};
           }) == "--repeat: must have a cell to repeat, but a.xyz has none");
-    CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.ellipsoids = true; }) ==
+    CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.ellipsoids = Ellipsoids::plain; }) ==
           "--ellipsoids: a.xyz has no anisotropic displacements");
     CHECK(error("a.xyz", "0\n\n", [](LoadOptions&) {}) ==
           "a.xyz: has no atoms in its first frame; \"--frames 1\" selects the next one, if any");

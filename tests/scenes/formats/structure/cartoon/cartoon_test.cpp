@@ -236,6 +236,25 @@ TEST_CASE("residues that cannot be drawn are counted and named") {
     CHECK(rest.remark(structure).empty());
 }
 
+TEST_CASE("residues that are not in chains are named, except water") {
+    Structure structure = peptide_of(chain_of(alpha(5)));
+    for (const char* const name : {"LIG", "HOH"}) {
+        structure.of_residue.push_back({.name = name, .number = 900, .is_hetero = true});
+        structure.residues.push_back(static_cast<std::uint32_t>(structure.of_residue.size() - 1));
+        structure.positions.emplace_back(30.0F);
+        structure.kinds.push_back(0);
+        structure.names.emplace_back("C1");
+    }
+    ChainRemainder rest;
+    drawn(structure, {}, everything, &rest);
+    CHECK(rest.remark(structure) ==
+          "1 residue is not part of a chain, and is not drawn: LIG 900 in chain A");
+    CHECK(rest.remark(structure, false).empty());
+    drawn(
+        structure, {}, [&](AtomIndex i) { return i + 2 < structure.size(); }, &rest);
+    CHECK(rest.remark(structure).empty());
+}
+
 TEST_CASE("a break in a chain is a gap in each style") {
     Structure structure = peptide_of(chain_of(extended(20)));
     remove_atoms(structure, [](const std::string&, int number) { return number == 10; });

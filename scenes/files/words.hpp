@@ -1,0 +1,34 @@
+#pragma once
+
+#include "scenes/files/errors.hpp"
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// Parts of the values of options.
+namespace raylane::scenes {
+
+/// Throws BadInput: `--spp: must be 1, got "x"`.
+[[noreturn]] void refuse(const std::string& option, const std::string& must,
+                         const std::string& got);
+
+/// Returns the parts of a text such as "1:2:3". There is at least one part; parts may be empty.
+std::vector<std::string_view> parts_of(std::string_view text, char separator);
+
+/// Returns the value of the choice named `text`. Throws BadInput.
+template <class T>
+T choice_named(const std::string& option, const std::string& text,
+               const std::vector<std::pair<std::string_view, T>>& choices) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : choices) {
+        if (text == name) return value;
+        names.emplace_back(name);
+    }
+    throw BadInput(option, "",
+                   "must be " + alternatives(names) + ", got \"" + printable(text) + "\"" +
+                       suggestion(text, {names.begin(), names.end()}));
+}
+
+} // namespace raylane::scenes

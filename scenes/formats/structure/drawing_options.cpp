@@ -1,0 +1,183 @@
+#include "scenes/formats/structure/drawing_options.hpp"
+
+#include "scenes/files/errors.hpp"
+#include "scenes/files/number.hpp"
+#include "scenes/files/words.hpp"
+#include "scenes/formats/structure/colors.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+namespace raylane::scenes {
+
+namespace {
+
+using SetOption =
+    std::function<void(Drawing& drawing, const std::string& option, const std::string&)>;
+
+/// Returns a setter of a text that `parse` accepts.
+template <class Parse>
+SetOption setter_of_text(std::string Drawing::*member, const Parse& parse) {
+    return [=](Drawing& drawing, const std::string& option, const std::string& text) {
+        static_cast<void>(parse(option, text));
+        drawing.*member = text;
+    };
+}
+template <class T, class Parse>
+SetOption setter_of(T Drawing::*member, const Parse& parse) {
+    return [=](Drawing& drawing, const std::string& option, const std::string& text) {
+        drawing.*member = parse(option, text);
+    };
+}
+SetOption setter_of_ellipsoids(Ellipsoids look) {
+    return [=](Drawing& drawing, const std::string& option, const std::string& text) {
+        if (on_or_off_of(option, text)) drawing.ellipsoids = std::max(drawing.ellipsoids, look);
+    };
+}
+
+std::string any_text(const std::string&, const std::string& text) {
+    return text;
+}
+Style style_of(const std::string& option, const std::string& text) {
+    return choice_named(option, text, named_styles());
+}
+std::string palette_named(const std::string& option, const std::string& text) {
+    std::vector<std::pair<std::string_view, std::string>> names;
+    for (const std::string_view name : palette_names())
+        names.emplace_back(name, name);
+    return choice_named(option, text, names);
+}
+
+const std::vector<std::pair<std::string_view, SetOption>>& setters() {
+    static const std::vector<std::pair<std::string_view, SetOption>> all = {
+        {"style", setter_of(&Drawing::style, style_of)},
+        {"color", setter_of_text(&Drawing::color, color_words_of)},
+        {"palette", setter_of(&Drawing::palette, palette_named)},
+        {"range", setter_of(&Drawing::range, range_of)},
+        {"radius", setter_of_text(&Drawing::radius, size_words_of)},
+        {"scale", setter_of_text(&Drawing::scale_radii, size_words_of)},
+        {"select", setter_of(&Drawing::select, any_text)},
+        {"show",
+         [](Drawing& drawing, const std::string& option, const std::string& text) {
+             drawing.show.push_back({text, option});
+         }},
+        {"representations",
+         [](Drawing& drawing, const std::string& option, const std::string& text) {
+             drawing.show.push_back({text, option + "/" + std::to_string(drawing.show.size())});
+         }},
+        {"hide", [](Drawing& drawing, const std::string&,
+                    const std::string& text) { drawing.hide.push_back(text); }},
+        {"opacity", setter_of(&Drawing::opacity, opacity_of)},
+        {"repeat", setter_of(&Drawing::repeat, repeat_of)},
+        {"cell-edges", setter_of(&Drawing::show_cell, on_or_off_of)},
+        {"cell", setter_of(&Drawing::show_cell, on_or_off_of)},
+        {"axes", setter_of(&Drawing::show_axes, on_or_off_of)},
+        {"boundary", setter_of(&Drawing::boundary, on_or_off_of)},
+        {"whole", setter_of(&Drawing::whole, on_or_off_of)},
+        {"polyhedra",
+         [](Drawing& drawing, const std::string& option, const std::string& text) {
+             static_cast<void>(polyhedra_of(option, text));
+             drawing.polyhedra.push_back(text);
+         }},
+        {"hydrogen-bonds", setter_of(&Drawing::hydrogen_bonds, on_or_off_of)},
+        {"ellipsoids", setter_of_ellipsoids(Ellipsoids::plain)},
+        {"ellipses", setter_of_ellipsoids(Ellipsoids::ellipses)},
+        {"octants", setter_of_ellipsoids(Ellipsoids::octants)},
+        {"probability",
+         [](Drawing& drawing, const std::string& option, const std::string& text) {
+             drawing.probability = 0.01F * probability_of(option, text);
+         }},
+        {"view", setter_of(&Drawing::view, view_named)},
+        {"perspective", setter_of(&Drawing::perspective, on_or_off_of)},
+        {"orthographic",
+         [](Drawing& drawing, const std::string& option, const std::string& text) {
+             if (on_or_off_of(option, text))
+                 drawing.fit_camera.projection = core::Projection::orthographic;
+         }},
+    };
+    return all;
+}
+
+} // namespace
+
+Drawing drawing_with(const DrawingOptions& options) {
+    Drawing drawing;
+    for (const auto& [name, text] : options) {
+        std::string dashed = name;
+        std::replace(dashed.begin(), dashed.end(), '_', '-');
+        std::vector<std::string_view> names;
+        const SetOption* set = nullptr;
+        for (const auto& [known, of] : setters()) {
+            names.push_back(known);
+            if (known == dashed) set = &of;
+        }
+        if (set == nullptr)
+            throw BadInput(printable(name, 40), "",
+                           "must be the name of an option" + suggestion(dashed, names));
+        (*set)(drawing, name, text);
+    }
+    // With ellipsoids, atoms without displacements are balls.
+    if (drawing.ellipsoids != Ellipsoids::none && drawing.style == Style::automatic)
+        drawing.style = Style::balls;
+    return drawing;
+}
+
+std::array<int, 3> repeat_of(const std::string& option, const std::string& text) {
+    std::array<int, 3> result{};
+    const std::vector<std::string_view> parts = parts_of(text, 'x');
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::optional<int> number = parts.size() == 3 ? to_int(parts[axis]) : std::nullopt;
+        if (!number || *number < 1 || *number > 1000)
+            refuse(option, "the number of cells along each edge, from 1 to 1000, such as 2x2x1",
+                   text);
+        result[axis] = *number;
+    }
+    return result;
+}
+
+float opacity_of(const std::string& option, const std::string& text) {
+    const float value = to_float(text).value_or(0.0F);
+    if (!(value > 0.0F && value <= 1.0F)) refuse(option, "above 0 and at most 1", text);
+    return value;
+}
+
+float probability_of(const std::string& option, const std::string& text) {
+    const float value = to_float(text).value_or(0.0F);
+    if (!(value >= 1.0F && value <= 99.0F)) refuse(option, "a number from 1 to 99", text);
+    return value;
+}
+
+bool on_or_off_of(const std::string& option, const std::string& text) {
+    return choice_named<bool>(option, text, {{"on", true}, {"off", false}});
+}
+
+std::optional<core::Vec3f> direction_in(const std::string& text) {
+    const std::vector<std::string_view> parts = parts_of(text, ',');
+    if (parts.size() != 3) return std::nullopt;
+    core::Vec3f direction(0.0F);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::optional<float> number = to_float(parts[static_cast<std::size_t>(axis)]);
+        if (!number) return std::nullopt;
+        direction[axis] = *number;
+    }
+    if (direction == core::Vec3f(0.0F)) return std::nullopt;
+    return direction;
+}
+
+core::NamedView view_named(const std::string& option, const std::string& text) {
+    std::vector<std::string_view> names;
+    for (const core::NamedView& view : core::named_views()) {
+        names.push_back(view.name);
+        if (text == view.name) return view;
+    }
+    const std::optional<core::Vec3f> direction = direction_in(text);
+    if (!direction)
+        throw BadInput(option, "",
+                       "must be " + alternatives({names.begin(), names.end()}) +
+                           ", or a direction such as 1,-1,-0.5, got \"" + printable(text) + "\"" +
+                           suggestion(text, names));
+    return {"", *direction, core::upright(*direction)};
+}
+
+} // namespace raylane::scenes
