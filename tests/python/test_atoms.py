@@ -32,9 +32,11 @@ CELL = 8 + 12  # its corners and edges
 def test_the_cell_is_drawn():
     bare = raylane.from_atoms(*WATER)
     cell = [[6, 0, 0], [1, 6, 0], [0, 1, 6]]
-    scene = raylane.from_atoms(*WATER, cell=cell)
+    scene = raylane.from_atoms(*WATER, cell=cell, periodic=False)
     assert scene.shape_count == bare.shape_count + CELL
-    assert np.allclose(scene.bounds[1], [7.06, 7.06, 6.06], atol=0.001)
+    assert np.allclose(scene.bounds[1], [7.02, 7.02, 6.02], atol=0.01)
+    hidden = raylane.from_atoms(*WATER, cell=cell, periodic=False, cell_edges=False)
+    assert hidden.shape_count == bare.shape_count
     middles = []  # of its edges
     for k, edge in enumerate(np.array(cell, float)):
         a, b = (np.array(cell[i], float) for i in range(3) if i != k)
@@ -42,7 +44,7 @@ def test_the_cell_is_drawn():
     inside = raylane.Tracer(scene).contains(np.array(middles))
     assert (inside.counts() > 0).all() and (raylane.Tracer(bare).contains(np.array(middles)).counts() == 0).sum() >= 9
     for none in (np.zeros((3, 3)), [[6, 0, 0], [0, 6, 0], [0, 0, 0]], [[6, 0, 0], [0, 6, 0], [0, 0, 1e-60]]):
-        assert raylane.from_atoms(*WATER, cell=none).shape_count == bare.shape_count
+        assert raylane.from_atoms(*WATER, cell=none, periodic=False).shape_count == bare.shape_count
 
 
 def test_what_no_atoms_are_says_where():
@@ -153,7 +155,9 @@ def test_ase(monkeypatch):
     assert colors_and_places(scene) == colors_and_places(raylane.from_atoms(*WATER))
     salt = ase.build.bulk("NaCl", "rocksalt", a=5.64, cubic=True)
     symbols, places = salt.get_chemical_symbols(), salt.get_positions()
-    assert raylane.from_ase(salt).shape_count == raylane.from_atoms(symbols, places).shape_count + CELL
+    as_given = raylane.from_ase(salt, boundary=False, whole=False)
+    assert as_given.shape_count == raylane.from_atoms(symbols, places).shape_count + CELL
+    assert raylane.from_ase(salt).shape_count == 27 + 2 * 54 + CELL  # atoms, halves of bonds
     slab = ase.Atoms(*WATER, cell=[[6, 0, 0], [0, 6, 0], [0, 0, 0]])
     assert raylane.from_ase(slab).shape_count == scene.shape_count  # a cell of two vectors is not drawn
     assert [s.shape_count for s in raylane.frames([atoms, atoms])] == [scene.shape_count] * 2
@@ -277,3 +281,54 @@ def test_a_palette_without_a_number_is_reported():
         with pytest.warns(UserWarning, match=f"^{text}, because no colour stands for a number: the atoms have none$"):
             raylane.from_atoms(*WATER, **looks)
     raylane.from_atoms(*WATER, style="spheres charge palette magma", properties={"charge": [0, 1, 2]})  # no warning
+
+
+PEROVSKITE = (
+    ["Sr", "Ti", "O", "O", "O"],
+    [[0, 0, 0], [1.95, 1.95, 1.95], [1.95, 1.95, 0], [1.95, 0, 1.95], [0, 1.95, 1.95]],
+    3.9 * np.eye(3),
+)
+
+
+def test_options_have_the_words_of_the_command_line(tmp_path):
+    count = lambda **options: raylane.from_atoms(*PEROVSKITE, cell_edges=False, style="spheres", **options).shape_count
+    assert count() == 8 + 1 + 6
+    assert count(boundary=False) == count(boundary="off") == 5
+    assert count(boundary=False, repeat=(2, 2, 1)) == 20
+    assert count(periodic=False) == 5
+    assert count(periodic=(True, True, False)) == 4 + 1 + 1 + 4
+    assert count(axes=True) == 15 + 7
+    assert count(select="element Ti") == 1
+    assert count(hide=["element O", "element Sr"]) == 1
+    octahedron = 8 + 12 + 6  # faces, edges, corners
+    assert count(polyhedra="Ti") == 15 + octahedron
+    scene = raylane.from_atoms(*PEROVSKITE, polyhedra=["Ti opacity 0.5", "Sr"], view=(1, -1, -0.5), perspective=True)
+    assert scene.shape_count > 15 + octahedron
+    path = tmp_path / "a.xyz"
+    lattice = " ".join(map(str, PEROVSKITE[2].ravel()))
+    lines = [f"{s} {x} {y} {z}" for s, (x, y, z) in zip(*PEROVSKITE[:2])]
+    path.write_text(f'5\nLattice="{lattice}"\n' + "\n".join(lines) + "\n")
+    scene = raylane.load(path, cell=True, polyhedra="Ti opacity 0.5", view="corner", color="gray")
+    assert colors_and_places(scene) == colors_and_places(
+        raylane.from_atoms(*PEROVSKITE, polyhedra="Ti opacity 0.5", view="corner", color="gray")
+    )
+    assert raylane.load(path, style="spheres", boundary=False).shape_count == 5
+
+
+def test_unknown_options_are_refused(tmp_path):
+    for options, text in (
+        (dict(polyhedron="Ti"), 'polyhedron: must be the name of an option, did you mean "polyhedra"?'),
+        (dict(boundary="yes"), 'boundary: must be on or off, got "yes"'),
+        (dict(repeat=(2, 2)), "repeat: must be the number of cells along each edge"),
+        (dict(probability=100), "probability: must be a number from 1 to 99"),
+        (dict(axes=True), "--axes: must have a cell whose edges they show"),
+    ):
+        with pytest.raises(raylane.BadInput) as error:
+            raylane.from_atoms(*WATER, **options)
+        assert str(error.value).startswith(text)
+    with pytest.raises(raylane.InvalidValue, match="color: must be a text, a number, True or False, got {}"):
+        raylane.from_atoms(*WATER, color={})
+    path = tmp_path / "a.json"
+    path.write_text("{}")
+    with pytest.raises(raylane.BadInput, match="cell: goes with a file of atoms"):
+        raylane.load(path, cell=True)

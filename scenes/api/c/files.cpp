@@ -10,11 +10,11 @@ using namespace raylane::c;
 
 namespace {
 
-std::vector<std::string> texts_of(const char* const* representations, std::size_t count) {
-    std::vector<std::string> texts;
-    for (const char* const& text : span_of(representations, count))
-        texts.emplace_back(&checked("representations", text));
-    return texts;
+AtomOptions options_of(const raylane_atom_option* options, std::size_t count) {
+    AtomOptions result;
+    for (const raylane_atom_option& option : span_of("options", options, count))
+        result.emplace_back(&checked("options", option.name), &checked("options", option.value));
+    return result;
 }
 
 } // namespace
@@ -30,22 +30,19 @@ raylane_status raylane_parse(const char* text, size_t length, const char* name,
     });
 }
 
-raylane_status raylane_parse_atoms(const char* text, size_t length, const char* name, int show_cell,
-                                   const char* const* representations, size_t count,
+raylane_status raylane_parse_atoms(const char* text, size_t length, const char* name,
+                                   const raylane_atom_option* options, size_t count,
                                    raylane_scene** scene) {
     return scene_of(scene, [&] {
         const std::string_view atoms{length != 0 ? &checked("text", text) : "", length};
-        return parse_atoms(atoms, &checked("name", name), show_cell != 0,
-                           texts_of(representations, count));
+        return parse_atoms(atoms, &checked("name", name), options_of(options, count));
     });
 }
 
-raylane_status raylane_load_atoms(const char* path, int show_cell,
-                                  const char* const* representations, size_t count,
-                                  raylane_scene** scene) {
-    return scene_of(scene, [&] {
-        return load_atoms(&checked("path", path), show_cell != 0, texts_of(representations, count));
-    });
+raylane_status raylane_load_atoms(const char* path, const raylane_atom_option* options,
+                                  size_t count, raylane_scene** scene) {
+    return scene_of(scene,
+                    [&] { return load_atoms(&checked("path", path), options_of(options, count)); });
 }
 
 raylane_status raylane_save(const raylane_scene* scene, const char* path) {

@@ -6,6 +6,7 @@
 #include "scenes/export/export.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/scene_file.hpp"
+#include "scenes/formats/structure/drawing_options.hpp"
 #include "scenes/images/writer.hpp"
 #include "simd/threads/threads.hpp"
 
@@ -42,17 +43,20 @@ std::filesystem::path file_named(const std::filesystem::path& path) {
     return path == "-" ? "./-" : path;
 }
 
-scenes::LoadOptions options_of(bool show_cell, const std::vector<std::string>& representations,
-                               simd::ParallelWorkers& workers, const OnRemark& on_remark) {
-    scenes::LoadOptions options;
-    options.workers = &workers;
-    options.on_remark = on_remark;
-    options.drawing.show_cell = show_cell;
-    options.option_for_atoms = representations.empty() ? "show_cell" : "representations";
-    for (std::size_t k = 0; k < representations.size(); ++k)
-        options.drawing.show.push_back(
-            {representations[k], "representations/" + std::to_string(k)});
-    return options;
+scenes::LoadOptions atom_options(const AtomOptions& options, core::Workers& workers,
+                                 const OnRemark& on_remark) {
+    scenes::LoadOptions result;
+    result.workers = &workers;
+    result.on_remark = on_remark;
+    scenes::DrawingOptions of_drawing;
+    for (const auto& option : options)
+        if (option.first == "atom-style" || option.first == "atom_style")
+            result.atom_style = option.second;
+        else
+            of_drawing.push_back(option);
+    result.drawing = scenes::drawing_with(of_drawing);
+    if (!options.empty()) result.option_for_atoms = options.front().first;
+    return result;
 }
 
 void require_side(const char* field, int pixels) {
@@ -71,6 +75,15 @@ Scene load(const std::filesystem::path& path, const OnRemark& on_remark) {
     });
 }
 
+Scene load_atoms(const std::filesystem::path& path, const AtomOptions& options,
+                 const OnRemark& on_remark) {
+    return with_file_errors([&] {
+        simd::ParallelWorkers workers;
+        return owning(
+            scenes::load_scene(file_named(path), atom_options(options, workers, on_remark)));
+    });
+}
+
 Scene parse(std::string_view text, const std::string& name, const OnRemark& on_remark) {
     return with_file_errors([&] {
         simd::ParallelWorkers workers;
@@ -79,26 +92,11 @@ Scene parse(std::string_view text, const std::string& name, const OnRemark& on_r
     });
 }
 
-Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
+Scene parse_atoms(std::string_view text, const std::string& name, const AtomOptions& options,
                   const OnRemark& on_remark) {
-    return parse_atoms(text, name, show_cell, std::vector<std::string>(), on_remark);
-}
-
-Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
-                  const std::vector<std::string>& representations, const OnRemark& on_remark) {
     return with_file_errors([&] {
         simd::ParallelWorkers workers;
-        return owning(scenes::parse_scene(
-            name, text, options_of(show_cell, representations, workers, on_remark)));
-    });
-}
-
-Scene load_atoms(const std::filesystem::path& path, bool show_cell,
-                 const std::vector<std::string>& representations, const OnRemark& on_remark) {
-    return with_file_errors([&] {
-        simd::ParallelWorkers workers;
-        return owning(scenes::load_scene(
-            file_named(path), options_of(show_cell, representations, workers, on_remark)));
+        return owning(scenes::parse_scene(name, text, atom_options(options, workers, on_remark)));
     });
 }
 

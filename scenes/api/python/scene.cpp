@@ -199,10 +199,11 @@ void bind_scene(py::module_& module) {
         .def("settings", [](const Scene& scene) { return to_python(scene.settings()); });
 
     module.def("camera_rays", &rays_of);
-    module.def("load", [](const std::filesystem::path& path, const py::object& on_remark) {
+    module.def("load", [](const std::filesystem::path& path, const AtomOptions& options,
+                          const py::object& on_remark) {
         const OnRemark remarks = remarks_to(on_remark);
         const py::gil_scoped_release free;
-        return load(path, remarks);
+        return load_atoms(path, options, remarks);
     });
     module.def("parse",
                [](const py::bytes& text, const std::string& name, const py::object& on_remark) {
@@ -211,21 +212,13 @@ void bind_scene(py::module_& module) {
                    const py::gil_scoped_release free;
                    return parse(view, name, remarks);
                });
-    module.def("parse_atoms",
-               [](const py::bytes& text, const std::string& name, bool show_cell,
-                  const std::vector<std::string>& representations, const py::object& on_remark) {
-                   const OnRemark remarks = remarks_to(on_remark);
-                   const std::string_view view = text;
-                   const py::gil_scoped_release free;
-                   return raylane::parse_atoms(view, name, show_cell, representations, remarks);
-               });
-    module.def("load_atoms",
-               [](const std::filesystem::path& path, bool show_cell,
-                  const std::vector<std::string>& representations, const py::object& on_remark) {
-                   const OnRemark remarks = remarks_to(on_remark);
-                   const py::gil_scoped_release free;
-                   return raylane::load_atoms(path, show_cell, representations, remarks);
-               });
+    module.def("parse_atoms", [](const py::bytes& text, const std::string& name,
+                                 const AtomOptions& options, const py::object& on_remark) {
+        const OnRemark remarks = remarks_to(on_remark);
+        const std::string_view view = text;
+        const py::gil_scoped_release free;
+        return raylane::parse_atoms(view, name, options, remarks);
+    });
     module.def("material_preset",
                [](const std::string& name) { return to_python(material_preset(name)); });
     module.def("catalogue_glass",

@@ -335,26 +335,25 @@ TEST_CASE("mistakes in groups and transforms are reported in C") {
     raylane_transform_release(nullptr);
 }
 
-TEST_CASE("atoms are read in representations in C") {
+TEST_CASE("atoms are read with options in C") {
     const std::string atoms = "2\n\nC 0 0 0\nO 1.2 0 0\n";
-    const char* const looks[] = {"element O: spheres"};
+    const raylane_atom_option looks[] = {{"representations", "element O: spheres"}};
     const SceneHandle one = made<SceneHandle>([&](raylane_scene** to) {
-        return raylane_parse_atoms(atoms.data(), atoms.size(), "a.xyz", 0, looks, 1, to);
+        return raylane_parse_atoms(atoms.data(), atoms.size(), "a.xyz", looks, 1, to);
     });
     CHECK(raylane_shape_count(one.get()) == 1);
     const TemporaryFile file(atoms, ".xyz");
-    const auto count = [&](const char* const* all, std::size_t size) {
+    const auto count = [&](const raylane_atom_option* all, std::size_t size) {
         return raylane_shape_count(made<SceneHandle>([&](raylane_scene** to) {
-                                       return raylane_load_atoms(file.path().c_str(), 0, all, size,
+                                       return raylane_load_atoms(file.path().c_str(), all, size,
                                                                  to);
                                    }).get());
     };
     CHECK(count(looks, 1) == 1);
     CHECK(count(nullptr, 0) == parse(atoms, "a.xyz").shape_count());
     raylane_scene* none = nullptr;
-    const char* const wrong[] = {nullptr};
-    says(raylane_load_atoms(file.path().c_str(), 0, wrong, 1, &none),
-         "representations: must not be NULL");
+    const raylane_atom_option wrong[] = {{"style", nullptr}};
+    says(raylane_load_atoms(file.path().c_str(), wrong, 1, &none), "options: must not be NULL");
 }
 
 TEST_CASE("parts, alpha and layers of images in C are those of C++") {

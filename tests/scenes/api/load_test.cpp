@@ -92,27 +92,51 @@ TEST_CASE("scenes are parsed from text") {
 
 TEST_CASE("atoms are read with or without the edges of their cell") {
     const std::string atom = "1\nLattice=\"3 0 0 0 4 0 0 0 5\"\nC 1 1 1\n";
-    CHECK(parse_atoms(atom, "a.xyz", false).shape_count() == 1);
-    CHECK(parse_atoms(atom, "a.xyz", true).shape_count() == 1 + 8 + 12);
-    CHECK(refusal_of([] { parse_atoms("1\n\nC 1 1 1\n", "a.xyz", true); }) ==
-          "--cell: must have a cell to show, but a.xyz has none");
+    CHECK(parse_atoms(atom, "a.xyz", {{"cell", "off"}}).shape_count() == 1);
+    CHECK(parse_atoms(atom, "a.xyz", {{"cell", "on"}}).shape_count() == 1 + 8 + 12);
+    CHECK(refusal_of([] {
+              parse_atoms("1\n\nC 1 1 1\n", "a.xyz", {{"cell", "on"}});
+          }) == "--cell: must have a cell to show, but a.xyz has none");
 }
 
 TEST_CASE("atoms are read in the representations that select them") {
     const std::string atoms = "2\n\nC 0 0 0\nO 1.2 0 0\n";
+    const auto looks = [](const std::vector<std::string>& texts) {
+        AtomOptions options;
+        for (const std::string& text : texts)
+            options.emplace_back("representations", text);
+        return options;
+    };
     CHECK(
-        parse_atoms(atoms, "a.xyz", false, {"all: points", "element O: licorice"}).shape_count() ==
+        parse_atoms(atoms, "a.xyz", looks({"all: points", "element O: licorice"})).shape_count() ==
         2);
-    CHECK(parse_atoms(atoms, "a.xyz", false, {"element O: spheres"}).shape_count() == 1);
+    CHECK(parse_atoms(atoms, "a.xyz", looks({"element O: spheres"})).shape_count() == 1);
     CHECK(refusal_of([&] {
-              parse_atoms(atoms, "a.xyz", false, {"all", "all: opacity 2"});
+              parse_atoms(atoms, "a.xyz", looks({"all", "all: opacity 2"}));
           }) == "representations/1: column 14: opacity must be above 0 and at most 1, got \"2\"");
     const tests::TemporaryFile file(atoms, ".xyz"), scene(R"({"objects": []})");
-    CHECK(load_atoms(file.path(), false, {"element O: spheres"}).shape_count() == 1);
-    CHECK(load_atoms(file.path(), false).shape_count() == load(file.path()).shape_count());
-    CHECK(refusal_of([&] { load_atoms(scene.path(), false, {"all"}); }) ==
+    CHECK(load_atoms(file.path(), looks({"element O: spheres"})).shape_count() == 1);
+    CHECK(load_atoms(file.path(), {}).shape_count() == load(file.path()).shape_count());
+    CHECK(refusal_of([&] { load_atoms(scene.path(), looks({"all"})); }) ==
           "representations: goes with a file of atoms, but " + scene.path().string() +
               " is a scene");
+}
+
+TEST_CASE("options of atoms have the names and words of the command line") {
+    const std::string salt = "2\nLattice=\"4 0 0 0 4 0 0 0 4\"\nNa 0 0 0\nCl 2 2 2\n";
+    const auto count = [&](const AtomOptions& options) {
+        return parse_atoms(salt, "a.xyz", options).shape_count();
+    };
+    CHECK(count({{"style", "spheres"}}) == 9);
+    CHECK(count({{"style", "spheres"}, {"boundary", "off"}}) == 2);
+    CHECK(count({{"style", "spheres"}, {"repeat", "2x1x1"}, {"cell", "on"}}) == 14 + 2 * 20);
+    CHECK(count({{"show", "element Na: spheres"}, {"show", "element Cl: spheres"}}) == 9);
+    CHECK(refusal_of([&] {
+              count({{"polyhedron", "Na"}});
+          }) == "polyhedron: must be the name of an option, did you mean \"polyhedra\"?");
+    CHECK(refusal_of([&] {
+              parse_atoms("{}", "a.json", {{"cell", "on"}});
+          }) == "cell: goes with a file of atoms, but a.json is a scene");
 }
 
 TEST_CASE("the pages contain the example program that is tested") {

@@ -581,15 +581,18 @@ RAYLANE_API raylane_status raylane_load(const char* path, raylane_scene** scene)
  * messages, in the search for included files and in the choice of the format. */
 RAYLANE_API raylane_status raylane_parse(const char* text, size_t length, const char* name,
                                          raylane_scene** scene);
-/** Reads atoms from memory, same as parse_atoms() in scene.hpp. `representations`: `count` texts
- * such as "ligand: sticks"; NULL for the usual one. */
+/** An option of scenes from atoms, same as AtomOptions in scene.hpp: {"style", "balls"},
+ * {"representations", "ligand: sticks"}. */
+typedef struct raylane_atom_option {
+    const char *name, *value;
+} raylane_atom_option;
+/** Reads atoms from memory with `count` options, same as parse_atoms() in scene.hpp. */
 RAYLANE_API raylane_status raylane_parse_atoms(const char* text, size_t length, const char* name,
-                                               int show_cell, const char* const* representations,
-                                               size_t count, raylane_scene** scene);
-/** The same from a file, same as load_atoms() in scene.hpp. */
-RAYLANE_API raylane_status raylane_load_atoms(const char* path, int show_cell,
-                                              const char* const* representations, size_t count,
-                                              raylane_scene** scene);
+                                               const raylane_atom_option* options, size_t count,
+                                               raylane_scene** scene);
+/** Reads atoms from a file with `count` options, same as load_atoms() in scene.hpp. */
+RAYLANE_API raylane_status raylane_load_atoms(const char* path, const raylane_atom_option* options,
+                                              size_t count, raylane_scene** scene);
 /** Writes a scene to a file in the format of its ending: .json, .rl, .nff or .pov. Same as save()
  * in scene.hpp, without remarks. */
 RAYLANE_API raylane_status raylane_save(const raylane_scene* scene, const char* path);

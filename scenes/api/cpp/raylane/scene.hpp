@@ -16,6 +16,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace raylane::core {
@@ -224,37 +225,35 @@ class SceneBuilder {
 using OnRemark = std::function<void(const std::string& remark)>;
 
 /// Reads a scene from a file. Formats: JSON (see scenes/raylane-scene.schema.json), NFF, POV-Ray,
-/// Tachyon, and files written by save(). From atoms in PDB, mmCIF, CIF, XYZ, GRO or LAMMPS dump or
-/// data files it makes a scene. The file's ending decides the format, or its content if the ending
-/// is unknown. "-" is a file of that name. Also reads the files that the file includes. Throws
-/// BadInput for a malformed or missing file (in JSON with up to ten mistakes), SystemRefused,
-/// std::bad_alloc, and InvalidValue, field "RAYLANE_THREADS", if the value of that environment
-/// variable is invalid.
+/// Tachyon, and files written by save(). From atoms in PDB, PQR, mmCIF, CIF, XYZ, GRO, MOL, SDF,
+/// MOL2 or LAMMPS dump or data files it makes a scene. The file's ending decides the format, or its
+/// content if the ending is unknown. "-" is a file of that name. Also reads the files that the file
+/// includes. Throws BadInput for a malformed or missing file (in JSON with up to ten mistakes),
+/// SystemRefused, std::bad_alloc, and InvalidValue, field "RAYLANE_THREADS", if the value of that
+/// environment variable is invalid.
 RAYLANE_API Scene load(const std::filesystem::path& path, const OnRemark& on_remark = {});
+
+/// Options of scenes from atoms with their values, by name, in the words of the tool's options
+/// without dashes in front: {"style", "balls"}, {"polyhedra", "Ti opacity 0.5"}. The value of a
+/// flag is "on" or "off". Options of which several values are meant are there several times.
+/// {"representations", "ligand: sticks"} is {"show", ...}, whose messages count from 0:
+/// "representations/0: column 9: ...". {"cell", "on"} adds the edges of the unit cell.
+using AtomOptions = std::vector<std::pair<std::string, std::string>>;
+
+/// Does the same for a file of atoms, with options. Throws BadInput also for an unknown option or a
+/// malformed value, with the option's name as the file, and if the file is not one of atoms but
+/// there are options.
+RAYLANE_API Scene load_atoms(const std::filesystem::path& path, const AtomOptions& options,
+                             const OnRemark& on_remark = {});
 
 /// Reads a scene from memory, as load() does. `name` stands for the file's name in messages, in the
 /// search for included files and in the choice of the format by its ending.
 RAYLANE_API Scene parse(std::string_view text, const std::string& name = "scene",
                         const OnRemark& on_remark = {});
 
-/// Reads atoms from memory, as parse() does. `show_cell`: true adds the edges of the unit cell.
-/// Throws BadInput also if `show_cell` is true and the atoms have no cell.
-RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
-                              const OnRemark& on_remark = {});
-
-/// Does the same with representations. Each is a text such as "ligand: sticks carbons orange" or
-/// "protein: spheres white opacity 0.3 + sticks", in the words of the tool's option --show: only
-/// the atoms that they select are visible, and later ones replace earlier ones of the same atoms.
-/// Throws BadInput for a malformed text, as "representations/0: column 9: ...".
-RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
-                              const std::vector<std::string>& representations,
-                              const OnRemark& on_remark = {});
-
-/// Reads atoms from a file, as load() does, with representations. Throws BadInput also for a file
-/// of a scene.
-RAYLANE_API Scene load_atoms(const std::filesystem::path& path, bool show_cell,
-                             const std::vector<std::string>& representations = {},
-                             const OnRemark& on_remark = {});
+/// Reads atoms from memory, with options, as load_atoms() does.
+RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name,
+                              const AtomOptions& options, const OnRemark& on_remark = {});
 
 /// Writes a scene to a file. The file appears complete or not at all. The ending, in upper or lower
 /// case, decides the format:

@@ -9,13 +9,13 @@
 
 import sys as _sys
 
-from ._atoms import frames, from_ase, from_atoms, from_mdanalysis, from_mdtraj, load
+from ._atoms import frames, from_ase, from_atoms, from_mdanalysis, from_mdtraj
 from ._errors import BadInput, InputError, InvalidValue, SystemRefused
 from ._group import Group
 from ._image import Cancelled, Image, Layers, imshow, render
 from ._orbit import orbit
 from ._raylane import version as __version__
-from ._scene import Scene, SceneBuilder, parse
+from ._scene import Scene, SceneBuilder, load, parse
 from ._shapes import Shapes
 from ._solids import Solid, Transform
 from ._tracer import NO_SHAPE, Cells, Closest, Crossings, Hits, Leaving, Lengths, SolidLengths, Solids, Tracer

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
-import re
 from numbers import Integral
 from typing import Any, Callable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -12,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
-from ._errors import BadInput, InvalidValue
+from ._atom_options import looks, read_atoms
+from ._errors import InvalidValue
 from ._scene import Scene, _warn
 
 
@@ -87,77 +86,6 @@ def _column(values: Any, count: int, name: str) -> Tuple[str, List[str]]:
     return f"{name}:R:1", [repr(x) for x in numbers.astype(np.float64).tolist()]
 
 
-def _texts(representations: Optional[Sequence[str]], style: Optional[str]) -> List[str]:
-    """Returns the representations, or that of a style. Raises InvalidValue unless they are texts."""
-    representations = _looks(representations, style)
-    if representations is None:
-        return []
-    if isinstance(representations, str):
-        raise InvalidValue("representations", "must be a list of texts, got one text")
-    for index, text in enumerate(representations):
-        if not isinstance(text, str):
-            raise InvalidValue(f"representations/{index}", f"must be a text, got {text!r:.40}")
-    return list(representations)
-
-
-def _looks(representations: Optional[Sequence[str]], style: Optional[str]) -> Optional[Sequence[str]]:
-    """Returns the representations, or those of a style."""
-    if style is None:
-        return representations
-    if representations is not None:
-        raise InvalidValue("style", "must not be given with representations, which have styles of their own")
-    if not isinstance(style, str):
-        raise InvalidValue("style", f"must be a text, got {style!r:.40}")
-    return [f"all: {style}"]
-
-
-def _of_style(message: str) -> str:
-    """Returns a message about the representation of a style as one about the style."""
-    column = re.match(r"representations/0: column (\d+)", message)
-    if column:
-        return f"style: column {int(column[1]) - len('all: ')}{message[column.end():]}"
-    return message.replace("representations/0", "style").replace("representations: ", "style: ")
-
-
-def _read(
-    read: Callable[[List[str], Callable[[str], object]], _raylane.Scene],
-    representations: Optional[Sequence[str]],
-    style: Optional[str],
-    on_remark: Callable[[str], object],
-) -> Scene:
-    """Returns the scene of ``read(texts, on_remark)``. Messages name the style if there is one."""
-    texts = _texts(representations, style)
-    if style is None:
-        return Scene(read(texts, on_remark))
-    try:
-        return Scene(read(texts, lambda remark: on_remark(_of_style(remark))))
-    except BadInput as error:
-        mistakes = [each._replace(file=_of_style(each.file)) for each in error.errors]
-        raise BadInput(_of_style(str(error)), mistakes) from None
-
-
-def load(
-    path: Union[str, os.PathLike[str]],
-    on_remark: Callable[[str], object] = _warn,
-    *,
-    style: Optional[str] = None,
-    representations: Optional[Sequence[str]] = None,
-) -> Scene:
-    """Reads a scene from a file in JSON, NFF, the languages of POV-Ray or Tachyon, or ``.rl``, or from a file of atoms.
-
-    The file's ending decides the format, or its content if the ending is unknown. ``"-"`` is a file of that name.
-    ``style`` and ``representations``: for files of atoms, as in :func:`from_atoms`. Calls ``on_remark`` for each part of
-    the file that raylane ignores; default: a warning. Raises :class:`BadInput` for a malformed or missing file, in JSON
-    with up to ten mistakes, and :class:`SystemRefused`.
-    """
-    name = os.fspath(path)
-    if style is None and not representations:
-        return Scene(_raylane.load(name, on_remark))
-    return _read(
-        lambda texts, remarks: _raylane.load_atoms(name, False, texts, remarks), representations, style, on_remark
-    )
-
-
 def from_atoms(
     symbols: Sequence[Union[str, int]],
     positions: ArrayLike,
@@ -170,13 +98,16 @@ def from_atoms(
     residue_numbers: Optional[Sequence[int]] = None,
     chains: Optional[Sequence[str]] = None,
     properties: Optional[Mapping[str, ArrayLike]] = None,
+    periodic: Union[bool, Sequence[bool]] = True,
     on_remark: Callable[[str], object] = _warn,
+    **options: Any,
 ) -> Scene:
     """Returns a scene of atoms, in the style of a scene from an XYZ file.
 
-    ``symbols``: n symbols or numbers (0 to 118) of elements, X or 0 for an unknown one. ``positions``: (n, 3), in angstrom. ``cell``: (3, 3), with
-    the cell's vectors as rows, in angstrom; the scene includes its edges unless a vector is zero. Coordinates are
-    finite, from -1e30 to 1e30.
+    ``symbols``: n symbols or numbers (0 to 118) of elements, X or 0 for an unknown one. ``positions``: (n, 3), in
+    angstrom. ``cell``: (3, 3), with the cell's vectors as rows, in angstrom; the scene includes its edges unless a vector
+    is zero, or ``cell_edges`` is False. ``periodic``: whether the cell repeats along its vectors, or along each.
+    Coordinates are finite, from -1e30 to 1e30.
 
     ``style``: the look of all atoms, such as ``"sticks"`` or ``"cartoon rainbow"``. Cartoons, tubes and traces need
     names and residues. ``representations``: texts such as ``"ligand: sticks carbons orange"`` or ``"protein: spheres
@@ -186,9 +117,15 @@ def from_atoms(
     The others, each of length n, are for selections and colours: the atoms' ``names``, the names and numbers of their
     residues, their ``chains``, and ``properties``, which maps names such as ``"charge"`` to numbers.
 
+    Other options have the names of the options of ``raylane render``, with ``_`` for ``-``, and their words as a text, a
+    number, True, or a list: ``color``, ``palette``, ``range``, ``radius``, ``scale``, ``select``, ``hide``, ``opacity``,
+    ``repeat`` (``(2, 2, 1)``), ``axes``, ``boundary``, ``whole``, ``polyhedra`` (``"Ti opacity 0.6"``),
+    ``hydrogen_bonds``, ``view``, ``perspective``, ``orthographic``, and for files with displacements ``ellipsoids``,
+    ``ellipses``, ``octants`` and ``probability``.
+
     Calls ``on_remark`` for names that select nothing; default: a warning. Raises :class:`InvalidValue`, fields
     ``"symbols/0"``, ``"positions/0/2"``, ``"cell/0/2"``, ``"names/0"``, ..., and :class:`BadInput` for a malformed
-    representation, with its column.
+    representation, with its column, and for an unknown option.
     """
     if isinstance(symbols, (str, bytes)):  # the characters of "H2O" would count as elements, 2 as helium
         raise InvalidValue("symbols", f"must be a list of symbols or numbers, got {symbols[:40]!r}")
@@ -208,36 +145,38 @@ def from_atoms(
             columns.append((column, _words(values, count, field)))
     columns += [_column(values, count, name) for name, values in (properties or {}).items()]
     comment = "Properties=" + ":".join(column for column, _ in columns)
-    show_cell = False
+    edges_shown = False
     if cell is not None:
         edges = _numbers(cell, (3, 3), "cell")
         vectors = " ".join(repr(x) for x in edges.ravel().tolist())
-        comment = f'Lattice="{vectors}" {comment}'
-        show_cell = bool(edges.astype(np.float32).any(axis=1).all())
+        flags = " ".join("T" if flag else "F" for flag in np.broadcast_to(np.asarray(periodic, dtype=bool), 3))
+        comment = f'Lattice="{vectors}" pbc="{flags}" {comment}'
+        edges_shown = bool(edges.astype(np.float32).any(axis=1).all())
     text = io.StringIO()
     text.write(f"{count}\n{comment}\n")
     for row in zip(*(values for _, values in columns)):
         text.write(" ".join(row) + "\n")
     data = text.getvalue().encode()
-    return _read(
-        lambda texts, remarks: _raylane.parse_atoms(data, "atoms", show_cell, texts, remarks),
-        representations,
+    return read_atoms(
+        lambda texts, remarks: Scene(_raylane.parse_atoms(data, "atoms", texts, remarks)),
         style,
+        representations,
+        {"cell_edges": edges_shown or None, **options},
         on_remark,
     )
 
 
 def from_ase(
-    atoms: Any, representations: Optional[Sequence[str]] = None, *, style: Optional[str] = None
+    atoms: Any, representations: Optional[Sequence[str]] = None, *, style: Optional[str] = None, **options: Any
 ) -> Scene:
     """Returns a scene of ``ase.Atoms``, with their cell if they have one.
 
-    ``representations`` and ``style``: as in :func:`from_atoms`. Selections know the names, residues and numbers that
-    ASE reads from PDB files, and arrays of one number per atom.
+    ``representations``, ``style`` and other options: as in :func:`from_atoms`. Selections know the names, residues and
+    numbers that ASE reads from PDB files, and arrays of one number per atom.
     """
-    representations = _looks(representations, style)
+    representations = looks(representations, style)
     cell = np.asarray(atoms.get_cell())
-    arrays = atoms.arrays if representations is not None else {}
+    arrays = atoms.arrays if representations is not None or options else {}
     known = ("numbers", "positions", "atomtypes", "residuenames", "residuenumbers")
     properties = {
         "b_factor" if name == "bfactor" else name: values
@@ -248,11 +187,13 @@ def from_ase(
         atoms.get_chemical_symbols(),
         atoms.get_positions(),
         cell if np.any(cell) else None,
+        periodic=atoms.get_pbc(),
         representations=representations,
         names=arrays.get("atomtypes"),
         residue_names=arrays.get("residuenames"),
         residue_numbers=arrays.get("residuenumbers"),
         properties=properties,
+        **options,
     )
 
 
@@ -263,21 +204,21 @@ def _element(name: str) -> str:
 
 
 def from_mdanalysis(
-    atoms: Any, representations: Optional[Sequence[str]] = None, *, style: Optional[str] = None
+    atoms: Any, representations: Optional[Sequence[str]] = None, *, style: Optional[str] = None, **options: Any
 ) -> Scene:
     """Returns a scene of an ``AtomGroup`` or ``Universe`` of MDAnalysis, in its current frame.
 
-    ``representations`` and ``style``: as in :func:`from_atoms`. Selections and colours know names, residues, chains
-    (``chainIDs``, or ``segids`` without them), ``b_factor`` (``tempfactors``), ``occupancy`` and ``charge``.
+    ``representations``, ``style`` and other options: as in :func:`from_atoms`. Selections and colours know names,
+    residues, chains (``chainIDs``, or ``segids`` without them), ``b_factor`` (``tempfactors``), ``occupancy`` and ``charge``.
     """
-    representations = _looks(representations, style)
+    representations = looks(representations, style)
     group = atoms.atoms
     if hasattr(group, "elements"):
         elements = [str(element).strip().capitalize() for element in group.elements]
         symbols = [e if e in _SYMBOLS else _element(str(name)) for e, name in zip(elements, group.names)]
     else:
         symbols = [_element(str(name)) for name in group.names]
-    if representations is None:
+    if representations is None and not options:
         return from_atoms(symbols, group.positions)
     chains = getattr(group, "chainIDs", None)
     if chains is None or not any(chains):
@@ -292,23 +233,29 @@ def from_mdanalysis(
         residue_numbers=getattr(group, "resids", None),
         chains=chains,
         properties={name: getattr(group, of) for name, of in numbers.items() if hasattr(group, of)},
+        **options,
     )
 
 
 def from_mdtraj(
-    trajectory: Any, frame: int = 0, representations: Optional[Sequence[str]] = None, *, style: Optional[str] = None
+    trajectory: Any,
+    frame: int = 0,
+    representations: Optional[Sequence[str]] = None,
+    *,
+    style: Optional[str] = None,
+    **options: Any,
 ) -> Scene:
     """Returns a scene of one frame of a ``Trajectory`` of mdtraj. Converts nanometres to angstrom.
 
-    ``representations`` and ``style``: as in :func:`from_atoms`. Selections know names, residues, and chains by their
-    letters, or by their numbers from 0 if the letters are unknown.
+    ``representations``, ``style`` and other options: as in :func:`from_atoms`. Selections know names, residues, and
+    chains by their letters, or by their numbers from 0 if the letters are unknown.
     """
-    representations = _looks(representations, style)
+    representations = looks(representations, style)
     atoms = list(trajectory.topology.atoms)
     elements = [atom.element.symbol.capitalize() if atom.element is not None else "" for atom in atoms]
     symbols = [e if e in _SYMBOLS else _element(atom.name) for e, atom in zip(elements, atoms)]
     positions = 10.0 * trajectory.xyz[frame].astype(np.float64)
-    if representations is None:
+    if representations is None and not options:
         return from_atoms(symbols, positions)
     residues = [atom.residue for atom in atoms]
     return from_atoms(
@@ -319,20 +266,23 @@ def from_mdtraj(
         residue_names=[residue.name for residue in residues],
         residue_numbers=[residue.resSeq for residue in residues],
         chains=[getattr(residue.chain, "chain_id", None) or str(residue.chain.index) for residue in residues],
+        **options,
     )
 
 
-def frames(trajectory: Any, representations: Optional[Sequence[str]] = None) -> Iterator[Scene]:
+def frames(
+    trajectory: Any, representations: Optional[Sequence[str]] = None, **options: Any
+) -> Iterator[Scene]:
     """Yields a scene for each frame: of mdtraj's trajectory, MDAnalysis' universe or atoms, or ASE's list of atoms.
 
-    ``representations``: as in :func:`from_atoms`.
+    ``representations`` and other options: as in :func:`from_atoms`.
     """
     if hasattr(trajectory, "xyz"):
         for frame in range(len(trajectory.xyz)):
-            yield from_mdtraj(trajectory, frame, representations)
+            yield from_mdtraj(trajectory, frame, representations, **options)
     elif hasattr(trajectory, "universe"):
         for _ in trajectory.universe.trajectory:
-            yield from_mdanalysis(trajectory, representations)
+            yield from_mdanalysis(trajectory, representations, **options)
     else:
         for atoms in trajectory:
-            yield from_ase(atoms, representations)
+            yield from_ase(atoms, representations, **options)

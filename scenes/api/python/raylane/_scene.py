@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import tempfile
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, List, Optional, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
+from ._atom_options import read_atoms
 from ._adding import Adding
 from ._errors import BadInput, InvalidValue
 from ._renamed import ids_in
@@ -383,6 +384,29 @@ class SceneBuilder(Adding):
 
 
 # The default on_remark issues a warning for each part of a file that raylane ignores.
+def load(
+    path: Union[str, os.PathLike[str]],
+    on_remark: Callable[[str], object] = _warn,
+    *,
+    style: Optional[str] = None,
+    representations: Optional[Sequence[str]] = None,
+    **options: Any,
+) -> Scene:
+    """Reads a scene from a file in JSON, NFF, the languages of POV-Ray or Tachyon, or ``.rl``, or from a file of atoms.
+
+    The file's ending decides the format, or its content if the ending is unknown. ``"-"`` is a file of that name.
+    Calls ``on_remark`` for each part of the file that raylane ignores; default: a warning. Raises :class:`BadInput`
+    for a malformed or missing file, in JSON with up to ten mistakes, and :class:`SystemRefused`.
+
+    For files of atoms, ``style``, ``representations`` and the other options are those of :func:`from_atoms`, and
+    ``cell=True`` shows the edges of the cell. :class:`BadInput` also if the file is another scene.
+    """
+    name = os.fspath(path)
+    return read_atoms(
+        lambda texts, remarks: Scene(_raylane.load(name, texts, remarks)), style, representations, options, on_remark
+    )
+
+
 def parse(text: Union[str, bytes], name: str = "scene", on_remark: Callable[[str], object] = _warn) -> Scene:
     """Reads a scene from memory, as :func:`load` does. ``name`` stands for the file's name in messages and in the
     choice of the format.
