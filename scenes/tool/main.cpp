@@ -4,19 +4,25 @@
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/exit.hpp"
 #include "scenes/tool/options/command_line.hpp"
+#include "scenes/tool/options/option_files.hpp"
 #include "scenes/tool/ranks/ranks.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <fcntl.h>
+#include <optional>
 #include <sstream>
+#include <string>
 #include <string_view>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -56,8 +62,19 @@ int run(int argc, const char* const* argv) {
         add_view_command(app),      add_help_command(app),  add_manual_command(app),
         add_completion_command(app)};
     name_commands(app);
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    std::optional<OptionFiles> files;
+    for (const Command& command : commands)
+        if (!arguments.empty() && arguments.front() == command.arguments->get_name() &&
+            command.options != nullptr) {
+            files.emplace(std::vector<std::string>(arguments.begin() + 1, arguments.end()),
+                          *command.options, *commands.front().options);
+            arguments.resize(1);
+            arguments.insert(arguments.end(), files->arguments().begin(), files->arguments().end());
+        }
+    std::reverse(arguments.begin(), arguments.end()); // as CLI11 takes them
     try {
-        app.parse(argc, argv);
+        app.parse(std::move(arguments));
     } catch (const CLI::Success& request) {
         std::ostringstream text;
         const int code = app.exit(request, text, text);
@@ -69,7 +86,12 @@ int run(int argc, const char* const* argv) {
     for (const Command& command : commands)
         if (command.arguments->parsed()) {
             if (!command.by_ranks) each_rank_speaks();
-            return command.run();
+            try {
+                return command.run();
+            } catch (const BadInput& bad) {
+                if (files) throw files->with_place(bad);
+                throw;
+            }
         }
     return bad_input;
 }

@@ -29,7 +29,8 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 1> en
 struct Command {
     CLI::App* arguments;
     std::function<int()> run;
-    bool by_ranks = false; ///< the ranks of a job run it together
+    const OptionTable* options; ///< `run` keeps it
+    bool by_ranks = false;      ///< the ranks of a job run it together
 };
 
 /// The help of a command, besides that of its options.
@@ -48,10 +49,12 @@ template <class Arguments>
 Command add_command(CLI::App& app, const CommandText& text,
                     const std::function<int(const Arguments&)>& run) {
     auto arguments = std::make_shared<Arguments>();
-    return {&add_command(app, text, *arguments), [=] {
+    return {&add_command(app, text, *arguments),
+            [=] {
                 arguments->parse();
                 return run(*arguments);
-            }};
+            },
+            arguments.get()};
 }
 
 Command add_render_command(CLI::App& app);

@@ -250,7 +250,7 @@ Command add_tachyon_command(CLI::App& app) {
     command->set_help_flag();
     command->footer(help);
     command->prefix_command();
-    return {command, [command] { return draw(command->remaining()); }};
+    return {command, [command] { return draw(command->remaining()); }, nullptr};
 }
 
 } // namespace raylane::scenes

@@ -149,6 +149,8 @@ class AnyOption {
 
     /// Throws BadInput.
     virtual void parse() = 0;
+    /// Throws BadInput if the option does not take this value.
+    virtual void check(const std::string& text) const = 0;
     virtual void apply_to(core::Settings&) const {}
     /// Returns the values that an image records; that of a flag is empty.
     virtual std::vector<std::string> recorded(const Rendered&) const;
@@ -199,6 +201,9 @@ class Option : public AnyOption {
     std::string text() const { return values_.text(**this); }
     const OptionProperties& properties() const override { return values_; }
 
+    void check(const std::string& text) const override {
+        static_cast<void>(values_.parse(name(), text));
+    }
     void parse() override {
         if (is_given()) values_.value = values_.parse(name(), texts().front());
     }
@@ -228,6 +233,9 @@ class ListOption : public AnyOption {
     const std::vector<T>& operator*() const { return list_; }
     const OptionProperties& properties() const override { return values_; }
     bool is_list() const override { return true; }
+    void check(const std::string& text) const override {
+        static_cast<void>(values_.parse(name(), text));
+    }
     void parse() override {
         for (const std::string& text : texts())
             list_.push_back(values_.parse(name(), text));
