@@ -26,6 +26,9 @@ class AtomColors {
     const AtomProperty* property() const { return property_; }
     /// Sets the range of the property. Call it before of() if there is a property.
     void set_range(const ColorRange& range) { range_ = range; }
+    const ColorRange& range() const { return range_; }
+    /// Returns false if the atom's colour stands for a number.
+    bool has_name(AtomIndex atom) const { return property_ == nullptr || is_by_kind(atom); }
 
     /// Returns the atom's colour, in sRGB, 0xRRGGBB.
     std::uint32_t of(AtomIndex atom) const;

@@ -26,8 +26,8 @@ class LayerShapes {
                 core::SceneBuilder& builder, TransparentSolids& transparent,
                 std::vector<AtomPair>* atoms_of_shape)
         : atoms_(atoms), structure_(atoms.structure), layer_(layer), file_(file), builder_(builder),
-          palette_(builder, *layer.look.opacity), atoms_of_shape_(atoms_of_shape),
-          transparent_(transparent) {}
+          palette_(builder, *layer.look.opacity, layer.look.finish),
+          atoms_of_shape_(atoms_of_shape), transparent_(transparent) {}
 
     void add_all() {
         add_atoms();
@@ -42,12 +42,8 @@ class LayerShapes {
 
     template <class Shape>
     void add(const Shape& shape, MaterialIndex material, const AtomPair& atoms) {
-        if (*layer_.look.opacity < 1.0F) {
-            transparent_.add(*layer_.look.style, *layer_.look.opacity, shape, material, atoms);
-            return;
-        }
-        builder_.add(shape, material);
-        if (atoms_of_shape_ != nullptr) atoms_of_shape_->push_back(atoms);
+        add_drawn(shape, material, atoms, layer_, atoms_.cuts, builder_, transparent_,
+                  atoms_of_shape_);
     }
 
     void add_atoms() {

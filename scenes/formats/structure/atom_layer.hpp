@@ -4,14 +4,17 @@
 #include "scenes/formats/structure/atom_colors.hpp"
 #include "scenes/formats/structure/atom_radii.hpp"
 #include "scenes/formats/structure/colors.hpp"
+#include "scenes/formats/structure/cut.hpp"
 #include "scenes/formats/structure/drawing.hpp"
 #include "scenes/formats/structure/structure.hpp"
 
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace raylane::scenes {
@@ -48,6 +51,7 @@ struct DrawnAtoms {
     std::vector<AtomIndex> originals = {}; ///< of a crystal's atoms; empty: see original()
     std::size_t complete = 0; ///< number of the first atoms of all() that have all of their bonds
     std::vector<Bond> bonds = {}; ///< of all(); may be empty if no representation shows bonds
+    std::vector<CutPlane> cuts = {};
 
     const Structure& all() const { return repeated ? *repeated : structure; }
     /// Returns the atom of which this one is an image.
@@ -75,12 +79,11 @@ struct DrawnAtoms {
 /// has no walls inside.
 class TransparentSolids {
   public:
-    template <class Shape>
-    void add(Style style, float opacity, const Shape& shape, core::MaterialIndex material,
-             const AtomPair& atoms) {
+    /// Adds a part, which has a material.
+    void add(Style style, float opacity, core::Solid part, const AtomPair& atoms) {
         One& one = solids_[{style, opacity}];
-        one.solid.parts.push_back({.shape = core::to_doubles(shape), .material = material});
-        one.atoms.push_back(atoms);
+        one.atoms.insert(one.atoms.end(), core::count_parts(part), atoms);
+        one.solid.parts.push_back(std::move(part));
     }
     /// Moves the solids into a builder. `atoms_of_shape`, unless null, receives their atoms.
     void add_to(core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape);
@@ -92,6 +95,31 @@ class TransparentSolids {
     };
     std::map<std::pair<Style, float>, One> solids_;
 };
+
+/// Adds the part of a shape that the cuts keep to a builder, or to `transparent`.
+template <class Shape>
+void add_drawn(const Shape& shape, core::MaterialIndex material, const AtomPair& atoms,
+               const AtomLayer& layer, std::span<const CutPlane> cuts, core::SceneBuilder& builder,
+               TransparentSolids& transparent, std::vector<AtomPair>* atoms_of_shape) {
+    auto part = kept_part(shape, cuts, material);
+    if (!part) return;
+    auto* const solid = std::get_if<core::Solid>(&*part);
+    // Triangles enclose nothing by themselves, so they are not parts of solids.
+    if constexpr (!core::AnyTriangle<Shape>)
+        if (*layer.look.opacity < 1.0F) {
+            core::Solid whole{.shape = core::to_doubles(shape), .material = material};
+            transparent.add(*layer.look.style, *layer.look.opacity,
+                            solid != nullptr ? std::move(*solid) : std::move(whole), atoms);
+            return;
+        }
+    const std::size_t before = builder.shape_count();
+    if (solid != nullptr)
+        builder.add_solid(*solid, material);
+    else
+        builder.add(shape, material);
+    if (atoms_of_shape != nullptr)
+        atoms_of_shape->insert(atoms_of_shape->end(), builder.shape_count() - before, atoms);
+}
 
 /// Adds a layer's atoms and bonds to a builder, or to `transparent`. A bond between two
 /// representations that show bonds has a half in the look of each. `file` is the name in messages.

@@ -24,17 +24,10 @@ std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
                             core::SceneBuilder& builder, TransparentSolids& transparent,
                             std::vector<AtomPair>* atoms_of_shape, bool is_only_look) {
     const float opacity = *layer.look.opacity;
-    Palette palette(builder, opacity);
+    Palette palette(builder, opacity, layer.look.finish);
     const auto add = [&]<class Shape>(const Shape& shape, core::MaterialIndex material,
                                       const AtomPair& pair) {
-        // Triangles enclose nothing by themselves, so they are not parts of solids.
-        if constexpr (!core::AnyTriangle<Shape>)
-            if (opacity < 1.0F) {
-                transparent.add(*layer.look.style, opacity, shape, material, pair);
-                return;
-            }
-        builder.add(shape, material);
-        if (atoms_of_shape != nullptr) atoms_of_shape->push_back(pair);
+        add_drawn(shape, material, pair, layer, atoms.cuts, builder, transparent, atoms_of_shape);
     };
     const ChainRemainder rest = add_chains(
         atoms.structure, chain_look_of(layer.look),

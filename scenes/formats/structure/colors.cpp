@@ -136,6 +136,15 @@ core::MaterialIndex Palette::add(std::uint32_t srgb, std::string_view name) {
     material.ambient = 0.0F;
     material.specular = 0.15F;
     material.exponent = 20.0F;
+    if (finish_ == Finish::matte || finish_ == Finish::print) material.specular = 0.0F;
+    if (finish_ == Finish::glossy) {
+        material.specular = 0.7F;
+        material.exponent = 120.0F;
+    }
+    if (finish_ == Finish::flat) {
+        material.ambient = 1.0F;
+        material.diffuse = material.specular = 0.0F;
+    }
     material.opacity = opacity_;
     const core::MaterialIndex index = builder_.add_material(material);
     builder_.name_material(index, name);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
+#include "scenes/formats/structure/representation.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -43,8 +44,9 @@ std::uint32_t color_of_type(std::size_t number);
 /// Materials of atoms, by colour.
 class Palette {
   public:
-    explicit Palette(core::SceneBuilder& builder, float opacity = 1.0F)
-        : builder_(builder), opacity_(opacity) {}
+    explicit Palette(core::SceneBuilder& builder, float opacity = 1.0F,
+                     Finish finish = Finish::usual)
+        : builder_(builder), opacity_(opacity), finish_(finish) {}
 
     /// Returns the material of a colour. A new one has the name that `name_of_new` returns.
     template <class Name>
@@ -61,6 +63,7 @@ class Palette {
 
     core::SceneBuilder& builder_;
     float opacity_;
+    Finish finish_;
     std::unordered_map<std::uint32_t, core::MaterialIndex> index_;
     std::uint32_t last_color_ = 0;
     core::MaterialIndex last_ = 0;

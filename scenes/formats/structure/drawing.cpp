@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 namespace raylane::scenes {
 
@@ -48,6 +49,7 @@ Look completed(Look look, const Look& usual) {
     const auto complete = [](SizeWords& words, const SizeWords& by) {
         if (!words.of_all && words.of_kinds.empty()) words = by;
     };
+    look.finish = usual.finish;
     complete(look.radius, usual.radius);
     complete(look.scale, usual.scale);
     return look;
@@ -62,6 +64,7 @@ Look usual_look(const Drawing& drawing) {
               .scale = {}};
     if (!drawing.palette.empty()) look.color.palette = drawing.palette;
     if (drawing.range) look.color.range = drawing.range;
+    look.finish = drawing.finish;
     if (!drawing.radius.empty()) look.radius = size_words_of("--radius", drawing.radius);
     if (!drawing.scale_radii.empty()) look.scale = size_words_of("--scale", drawing.scale_radii);
     return look;
@@ -88,6 +91,8 @@ class SceneFromAtoms {
         make_layers();
         report_unused_ramps();
         find_ranges();
+        find_keys();
+        find_cuts();
         report_unmatched();
         builder_.reserve(count_ * atoms_.images.size());
         add_layers();
@@ -391,6 +396,52 @@ class SceneFromAtoms {
                     layer.look.color.range.value_or(scale_.ranges[layer.colors.property()->name]));
     }
 
+    /// Finds the meanings of the colours.
+    void find_keys() {
+        constexpr std::size_t most = 64;
+        std::map<std::string, std::uint32_t> entries;
+        std::unordered_set<std::uint32_t> known;
+        for (const AtomLayer& layer : layers_) {
+            if (const AtomProperty* const property = layer.colors.property())
+                add_key({.property = property->name,
+                         .range = layer.colors.range(),
+                         .palette = layer.look.color.palette});
+            known.clear();
+            for (AtomIndex i = 0; i < structure_.size() && entries.size() <= most; ++i) {
+                if (atoms_.representations[i] != layer.representation || !layer.colors.has_name(i))
+                    continue;
+                const std::uint32_t color = layer.colors.of(i);
+                if (known.insert(color).second) entries.emplace(layer.colors.meaning_of(i), color);
+            }
+        }
+        if (!entries.empty() && entries.size() <= most)
+            scale_.keys.push_back({.entries = {entries.begin(), entries.end()}});
+    }
+
+    void add_key(ColorKey key) {
+        const auto is_known = [&](const ColorKey& other) {
+            return other.property == key.property && other.range == key.range &&
+                   other.palette == key.palette;
+        };
+        if (std::none_of(scale_.keys.begin(), scale_.keys.end(), is_known))
+            scale_.keys.push_back(std::move(key));
+    }
+
+    void find_cuts() {
+        atoms_.cuts = drawing_.cuts;
+        if (!drawing_.slab) return;
+        const Vec3d along = core::convert<double>(drawing_.slab->direction);
+        const Vec3d back = -1.0 / core::length(along) * along;
+        core::Bounds bounds;
+        for (AtomIndex i = 0; i < structure_.size(); ++i)
+            if (atoms_.representations[i] != DrawnAtoms::hidden)
+                bounds.include({structure_.positions[i], structure_.positions[i]});
+        const double middle = 0.5 * core::dot(back, core::convert<double>(bounds.lower) +
+                                                        core::convert<double>(bounds.upper));
+        atoms_.cuts.push_back({back, middle + drawing_.slab->to});
+        atoms_.cuts.push_back({-1.0 * back, -(middle + drawing_.slab->from)});
+    }
+
     /// Sets the radius of atoms of unknown elements: they nearly touch if they fill their bounds.
     void find_usual_radius() {
         if (drawing_.scale) {
@@ -439,14 +490,20 @@ class SceneFromAtoms {
             return style == Style::touching || !(has_sticks(style) || shows_chains(style));
         });
         builder_.settings.quality = is_filled ? 40.0F : 46.0F;
-        builder_.background = core::Color(1.0F);
+        builder_.background = drawing_.background;
+        const bool is_print = drawing_.finish == Finish::print;
+        if (is_print) builder_.settings.quality = 50.0F;
+        if (is_print || drawing_.finish == Finish::flat)
+            builder_.settings.outline = {.width = is_print ? 1.5F : 2.0F,
+                                         .color = core::Color(is_print ? 0.02F : 0.0F),
+                                         .creases = is_print ? 180.0F : 60.0F};
         // Paler atoms would have the colours of other values.
         const bool shows_values =
             std::any_of(layers_.begin(), layers_.end(),
                         [](const auto& layer) { return layer.colors.property() != nullptr; });
         builder_.auto_camera = {.fit_camera = camera_,
                                 .lights = true,
-                                .depth_cue = shows_values ? 0.0F : drawing_.depth_cue};
+                                .depth_cue = shows_values || is_print ? 0.0F : drawing_.depth_cue};
     }
 
     const Structure& structure_;

@@ -4,6 +4,7 @@
 #include "core/scene/scene.hpp"
 #include "scenes/files/input_file.hpp"
 #include "scenes/formats/structure/atom_colors.hpp"
+#include "scenes/formats/structure/cut.hpp"
 #include "scenes/formats/structure/representation.hpp"
 #include "scenes/formats/structure/structure.hpp"
 
@@ -17,11 +18,20 @@
 
 namespace raylane::scenes {
 
+/// The meaning of the colours of a drawing's atoms.
+struct ColorKey {
+    std::string property{}; ///< that colours stand for; empty: there are entries
+    ColorRange range{};
+    std::string palette{}; ///< one of palette_names(); empty: the first
+    std::vector<std::pair<std::string, std::uint32_t>> entries{}; ///< names and sRGB colours
+};
+
 /// Properties of a structure as a whole. Several frames should share those of one frame.
 struct DrawingScale {
     float usual_radius = 1.5F;                ///< of atoms of unknown elements
     std::vector<Style> styles = {};           ///< of the looks that leave it open
     std::map<std::string, ColorRange> ranges; ///< of the properties that colours stand for
+    std::vector<ColorKey> keys = {};          ///< of this frame's colours, each once
 
     /// Widens the ranges to those of another frame.
     void include(const DrawingScale& other);
@@ -73,6 +83,10 @@ struct Drawing {
     std::string radius{}, scale_radii{}; ///< in the words of size_words_of(); empty: unset
     std::string palette{};               ///< one of palette_names(); empty: the first
     std::optional<ColorRange> range{};   ///< of a property that colours stand for
+    Finish finish = Finish::usual;
+    core::Color background{1.0F};
+    std::vector<CutPlane> cuts{}; ///< only the parts of atoms on their sides are shown
+    std::optional<Slab> slab{};   ///< the same for two planes across the view
 };
 
 /// The atoms of a shape: an atom, twice; the ends of a bond; or `no_atoms` for the cell's edges.

@@ -34,6 +34,15 @@ constexpr bool shows_chains(Style style) {
 /// Returns the styles with the names that users give, in the order of the help.
 const std::vector<std::pair<std::string_view, Style>>& named_styles();
 
+/// How atoms reflect light.
+enum class Finish : std::uint8_t {
+    usual,  ///< a soft highlight
+    matte,  ///< none
+    glossy, ///< a sharp one
+    flat,   ///< the plain colour, without light and shadow, with outlines
+    print,  ///< no highlight, thin outlines, no depth cue
+};
+
 /// A value for the atoms of an element ("Fe") or of a type ("1", by the label of the file).
 template <class T>
 struct OfKind {
@@ -66,6 +75,7 @@ struct Look {
     std::optional<float> opacity; ///< in (0, 1]
     SizeWords radius;             ///< in angstrom; of sticks, too, in styles without balls
     SizeWords scale;              ///< factors for the radii
+    Finish finish = Finish::usual;
 };
 
 /// The looks of selected atoms, all at once.

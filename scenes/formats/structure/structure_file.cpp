@@ -104,9 +104,14 @@ core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& 
                     file.name(), "",
                     "has no atoms in its first frame; \"--frames 1\" selects the next one, if any");
             std::vector<AtomPair> atoms;
-            draw(structure, drawing, file.name(), builder, legend == nullptr ? nullptr : &atoms,
-                 options.on_remark);
-            if (legend != nullptr) *legend = {std::move(structure), std::move(atoms)};
+            const bool keeps_atoms = legend != nullptr && legend->wants_atoms;
+            DrawingScale drawn = draw(structure, drawing, file.name(), builder,
+                                      keeps_atoms ? &atoms : nullptr, options.on_remark);
+            if (legend != nullptr) legend->colors = std::move(drawn.keys);
+            if (keeps_atoms) {
+                legend->structure = std::move(structure);
+                legend->atoms_of_shape = std::move(atoms);
+            }
         } // frees the structure before the hierarchy takes memory
         return std::move(builder).build();
     });

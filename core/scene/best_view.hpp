@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/scene/fit_camera.hpp"
+
+namespace raylane::core {
+
+class Scene;
+
+/// Returns the view in which the centres of the bounded shapes extend farthest across the image,
+/// then upward, and least in depth: along their principal axes. The largest component of the
+/// directions to the right and upward is positive. Without such shapes, it is the view from the
+/// front.
+NamedView best_view(const Scene& scene);
+
+} // namespace raylane::core

@@ -1,0 +1,79 @@
+#include "scenes/formats/structure/cut.hpp"
+
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/structure/lines.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// Returns the numbers of a list such as "1, 0, 2.5", or an empty list if it is malformed.
+std::vector<double> numbers_in(std::string_view text, char separator) {
+    std::vector<double> numbers;
+    while (true) {
+        const std::size_t end = text.find(separator);
+        const std::optional<double> number = number_in(trimmed(text.substr(0, end)));
+        if (!number) return {};
+        numbers.push_back(*number);
+        if (end == std::string_view::npos) return numbers;
+        text.remove_prefix(end + 1);
+    }
+}
+
+std::optional<CutPlane> plane_in(std::string_view text) {
+    if (const std::vector<double> list = numbers_in(text, ','); list.size() == 4) {
+        const CutPlane plane{{list[0], list[1], list[2]}, list[3]};
+        if (plane.normal == core::Vec3d(0.0)) return std::nullopt;
+        return plane;
+    }
+    const std::size_t sign = text.find_first_of("<>");
+    if (sign == std::string_view::npos) return std::nullopt;
+    const std::string_view axis = trimmed(text.substr(0, sign));
+    const std::size_t behind = text.find_first_not_of('=', sign + 1);
+    const std::vector<double> offset =
+        numbers_in(behind == std::string_view::npos ? "" : text.substr(behind), ',');
+    if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z' || offset.size() != 1)
+        return std::nullopt;
+    const double side = text[sign] == '<' ? 1.0 : -1.0;
+    CutPlane plane{core::Vec3d(0.0), side * offset[0]};
+    plane.normal[axis[0] - 'x'] = side;
+    return plane;
+}
+
+} // namespace
+
+CutPlane cut_plane_of(const std::string& option, const std::string& text) {
+    const std::optional<CutPlane> plane = plane_in(text);
+    if (!plane)
+        throw BadInput(option, "",
+                       "must be a side of a plane, such as z<1.5, x>0 or 1,1,0,2.5 for x + y <= "
+                       "2.5, got \"" +
+                           printable(text) + '"');
+    return *plane;
+}
+
+std::pair<double, double> depths_of(const std::string& option, const std::string& text) {
+    for (const char separator : {':', ' '})
+        if (const std::vector<double> list = numbers_in(trimmed(text), separator);
+            list.size() == 2 && list[0] < list[1])
+            return {list[0], list[1]};
+    throw BadInput(option, "",
+                   "must be two depths in angstrom, the lesser one first, such as -2 2, got \"" +
+                       printable(text) + '"');
+}
+
+std::pair<double, double> range_along(const core::Vec3d& normal, const core::Bounds& bounds) {
+    double least = 0.0, most = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double a = normal[axis] * static_cast<double>(bounds.lower[axis]);
+        const double b = normal[axis] * static_cast<double>(bounds.upper[axis]);
+        least += std::min(a, b);
+        most += std::max(a, b);
+    }
+    return {least, most};
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,80 @@
+#include "scenes/files/errors.hpp"
+#include "scenes/formats/scene_file.hpp"
+#include "simd/stream/stream_tracer.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace raylane;
+using namespace raylane::scenes;
+
+namespace {
+
+const std::string atoms = "3\n\nHe 0 0 0\nHe 6 0 0\nHe 0 6 4\n";
+
+core::Scene cut(const std::vector<std::string>& planes, float opacity = 1.0F) {
+    LoadOptions options;
+    options.drawing.style = Style::spheres;
+    options.drawing.radius = "2";
+    options.drawing.opacity = opacity;
+    for (const std::string& plane : planes)
+        options.drawing.cuts.push_back(cut_plane_of("--cut", plane));
+    return parse_scene("a.xyz", atoms, options);
+}
+
+/// Returns the height of the first surface below z = 10, or -10 if there is none.
+double height_at(const core::Scene& scene, double x, double y) {
+    const double origin[3] = {x, y, 10.0}, direction[3] = {0.0, 0.0, -1.0};
+    simd::RayStream<double> rays;
+    rays.count = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        rays.origin[axis] = &origin[axis];
+        rays.direction[axis] = &direction[axis];
+    }
+    core::ShapeId shape = core::no_shape;
+    double t = 0.0;
+    simd::HitStream hits;
+    hits.shape = &shape;
+    hits.t_double = &t;
+    simd::StreamTracer(scene, 1).nearest(rays, hits);
+    return shape == core::no_shape ? -10.0 : 10.0 - t;
+}
+
+} // namespace
+
+TEST_CASE("a cut closes spheres by its plane exactly") {
+    const core::Scene scene = cut({"z<1.25"});
+    CHECK(height_at(scene, 0.0, 0.0) == 1.25);
+    CHECK(height_at(scene, 6.25, 0.5) == 1.25);
+    CHECK(height_at(scene, 0.0, 6.0) == -10.0); // wholly on the other side
+    CHECK(height_at(scene, 2.0, 0.0) == 0.0);   // the rest of the sphere
+    CHECK(scene.shape_count() == 4);            // two spheres and two planes
+    CHECK(cut({"z<7"}).solids().any() == false);
+}
+
+TEST_CASE("several cuts leave the part that all keep") {
+    const core::Scene scene = cut({"z<=1", "x >= 0.5", "0,1,0,0.75"});
+    CHECK(height_at(scene, 0.75, 0.0) == 1.0);
+    CHECK(height_at(scene, 0.25, 0.0) == -10.0);
+    CHECK(height_at(scene, 0.75, 1.0) == -10.0);
+}
+
+TEST_CASE("transparent atoms are cut as one solid") {
+    CHECK(height_at(cut({"z<1.25"}, 0.5F), 0.0, 0.0) == 1.25);
+}
+
+TEST_CASE("a slab is across the view from the middle of the atoms") {
+    LoadOptions options;
+    options.drawing.style = Style::spheres;
+    options.drawing.radius = "2";
+    options.drawing.slab = {-1.0, 0.5, {0.0F, 0.0F, -2.0F}}; // the middle is at z = 2
+    const core::Scene scene = parse_scene("a.xyz", atoms, options);
+    CHECK(height_at(scene, 0.0, 0.0) == 2.0); // touches the slab from below
+    CHECK(height_at(scene, 0.0, 6.0) == 2.5);
+}
+
+TEST_CASE("a malformed cut is refused") {
+    for (const std::string text : {"", "z", "w<1", "z<", "z<1,2", "1,2,3", "0,0,0,1", "z=1", "z<a"})
+        CHECK_THROWS_AS(cut_plane_of("--cut", text), BadInput);
+    for (const std::string text : {"", "1", "2 1", "1 1", "a b", "1:2:3"})
+        CHECK_THROWS_AS(depths_of("--slab", text), BadInput);
+    CHECK(depths_of("--slab", "-2:1") == std::pair(-2.0, 1.0));
+}
