@@ -29,6 +29,7 @@ zlib1g-dev          reads files that gzip compressed
 libpng-dev          writes and reads PNG
 libxxhash-dev       checksums of built scenes and of unfinished pictures
 libopenexr-dev      writes and reads OpenEXR
+libtiff-dev         writes TIFF
 gemmi-dev           reads PDB and mmCIF,
 tao-pegtl-dev       which needs this
 '

@@ -145,6 +145,9 @@ if(RAYLANE_TOOL)
                            OpenEXR/ImfIO.h OpenEXR/ImfInputFile.h OpenEXR/ImfOutputFile.h
                            OpenEXR/ImfStandardAttributes.h OpenEXR/ImfStringAttribute.h OpenEXR/ImfVersion.h
                    LIBRARIES OpenEXR::OpenEXR)
+  find_package(TIFF QUIET)
+  raylane_optional(TIFF "${TIFF_FOUND}" "${TIFF_VERSION_STRING}" libtiff-dev
+                   HEADERS tiffio.h LIBRARIES TIFF::TIFF)
   find_package(SDL2 QUIET)
   raylane_optional(SDL2 "${SDL2_FOUND}" "${SDL2_VERSION}" libsdl2-dev
                    HEADERS SDL.h LIBRARIES SDL2::SDL2)
@@ -178,6 +181,7 @@ if(RAYLANE_TOOL)
 endif()
 raylane_excluded(excluded RAYLANE_TOOL)
 raylane_part("OpenEXR images" "${excluded}" OpenEXR)
+raylane_part("TIFF images" "${excluded}" TIFF)
 raylane_part("raylane view" "${excluded}" SDL2)
 raylane_part("ranks on several hosts" "${excluded}" MPI)
 

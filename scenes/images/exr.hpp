@@ -5,6 +5,8 @@
 #include "scenes/images/float_images.hpp"
 #include "scenes/images/image_options.hpp"
 #include "scenes/images/reader.hpp"
+#include "scenes/images/tiff.hpp"
+#include "scenes/images/writer.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -22,6 +24,9 @@ bool has_exr();
 /// N.Y and N.Z as floats, and id.shape, id.material and samples as integers. In pixels without a
 /// hit, Z is infinite, N is 0 and ids are 4294967295. Throws std::bad_alloc.
 std::string exr_of(const core::Film& film, const core::Layers* layers, const ImageOptions& options);
+
+/// The encoders that need optional libraries.
+inline constexpr MoreEncoders more_encoders = {.exr = exr_of, .tiff = tiff_of};
 
 /// The contents of a file of exr_of(); of the options, only the texts.
 struct ExrImage {

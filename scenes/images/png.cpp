@@ -1,8 +1,8 @@
 #include "scenes/images/png.hpp"
 
-#include "core/scene/transfer.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/images/float_images.hpp"
+#include "scenes/images/row_encoder.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -259,49 +259,6 @@ std::vector<png_text> png_texts(const ImageOptions& options) {
     }
     return texts;
 }
-
-/// Encodes the components of a row for the file, the high byte first.
-class RowEncoder {
-  public:
-    explicit RowEncoder(const ImageOptions& options)
-        : options_(options), encode_(options.transfer) {}
-
-    int bits() const { return options_.bits == 16 ? 16 : 8; }
-
-    const std::vector<std::uint8_t>& codes(const core::Film& film, int y) {
-        codes_.clear();
-        for (int x = 0; x < film.width(); ++x) {
-            const float alpha = film.alpha_at(x, y);
-            for (int channel = 0; channel < 3; ++channel)
-                add(alpha > 0.0F ? film.at(x, y)[channel] / alpha : 0.0F);
-            if (film.has_alpha()) add_alpha(alpha);
-        }
-        return codes_;
-    }
-
-  private:
-    void add(float component) {
-        if (bits() == 8)
-            codes_.push_back(encode_(component));
-        else
-            add_word(core::encode_in_16_bits(component, options_.transfer));
-    }
-    /// Adds an alpha without a transfer curve, since it is a fraction and not light.
-    void add_alpha(float alpha) {
-        if (bits() == 8)
-            codes_.push_back(core::encode(alpha, core::Transfer::linear));
-        else
-            add_word(core::encode_in_16_bits(alpha, core::Transfer::linear));
-    }
-    void add_word(std::uint16_t code) {
-        codes_.push_back(static_cast<std::uint8_t>(code >> 8));
-        codes_.push_back(static_cast<std::uint8_t>(code & 0xFF));
-    }
-
-    const ImageOptions& options_;
-    core::Encoder encode_;
-    std::vector<std::uint8_t> codes_;
-};
 
 } // namespace
 

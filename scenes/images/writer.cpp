@@ -58,16 +58,17 @@ float radiance_component(float value) {
 
 } // namespace
 
-ImageFormat image_format_of(const std::filesystem::path& path, bool with_exr) {
+ImageFormat image_format_of(const std::filesystem::path& path, const MoreEncoders& more) {
     if (path == "-") return ImageFormat::png;
     const std::string ending = ending_of(path);
     static constexpr std::pair<std::string_view, ImageFormat> endings[] = {
-        {".png", ImageFormat::png}, {".exr", ImageFormat::exr}, {".hdr", ImageFormat::hdr},
-        {".pfm", ImageFormat::pfm}, {".tga", ImageFormat::tga}, {".bmp", ImageFormat::bmp},
-        {".ppm", ImageFormat::ppm}};
+        {".png", ImageFormat::png}, {".tif", ImageFormat::tiff}, {".tiff", ImageFormat::tiff},
+        {".exr", ImageFormat::exr}, {".hdr", ImageFormat::hdr},  {".pfm", ImageFormat::pfm},
+        {".tga", ImageFormat::tga}, {".bmp", ImageFormat::bmp},  {".ppm", ImageFormat::ppm}};
     std::vector<std::string> known;
     for (const auto& [name, format] : endings) {
-        if (format == ImageFormat::exr && !with_exr) continue;
+        if (format == ImageFormat::exr && more.exr == nullptr) continue;
+        if (format == ImageFormat::tiff && more.tiff == nullptr) continue;
         if (ending == name) return format;
         known.emplace_back(name);
     }
@@ -76,17 +77,19 @@ ImageFormat image_format_of(const std::filesystem::path& path, bool with_exr) {
                        (ending.empty() ? "no ending" : '"' + printable(ending) + '"'));
 }
 
-OutputFile::OutputFile(const std::filesystem::path& path, EncodeExr encode_exr)
-    : OutputFile(path, image_format_of(path, encode_exr != nullptr), encode_exr) {}
+OutputFile::OutputFile(const std::filesystem::path& path, const MoreEncoders& more)
+    : OutputFile(path, image_format_of(path, more), more) {}
 
-OutputFile::OutputFile(const std::filesystem::path& path, ImageFormat format, EncodeExr encode_exr)
-    : encode_exr_(encode_exr), format_(format), file_(path) {}
+OutputFile::OutputFile(const std::filesystem::path& path, ImageFormat format,
+                       const MoreEncoders& more)
+    : more_(more), format_(format), file_(path) {}
 
 void OutputFile::reserve(int width, int height) {
     // The size of compressed formats is unknown; reserving one byte detects a full disk.
     const std::int64_t components = std::int64_t{3} * width * height;
     switch (format_) {
     case ImageFormat::png:
+    case ImageFormat::tiff:
     case ImageFormat::hdr:
     case ImageFormat::exr:
         return file_.reserve(1);
@@ -123,7 +126,10 @@ void OutputFile::commit(const core::Film& film, const ImageOptions& options,
         write_pfm(film);
         break;
     case ImageFormat::exr:
-        write_exr(film, layers, options);
+        write_by(more_.exr, film, layers, options);
+        break;
+    case ImageFormat::tiff:
+        write_by(more_.tiff, film, layers, options);
         break;
     }
     file_.commit();
@@ -151,10 +157,10 @@ void OutputFile::write_codes(const core::Film& film, core::Transfer transfer) {
                     : stbi_write_bmp_to_func(&Sink::write, &sink, width, height, 3, codes.data()));
 }
 
-void OutputFile::write_exr(const core::Film& film, const core::Layers* layers,
-                           const ImageOptions& options) {
+void OutputFile::write_by(EncodeImage encode, const core::Film& film, const core::Layers* layers,
+                          const ImageOptions& options) {
     try {
-        file_.write(encode_exr_(film, layers, options));
+        file_.write(encode(film, layers, options));
     } catch (const std::bad_alloc&) {
         throw SystemRefused(file_.name(), "write", ENOMEM);
     }

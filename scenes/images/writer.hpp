@@ -8,32 +8,36 @@
 namespace raylane::scenes {
 
 /// The encoding of an image:
-/// - PNG: 8 or 16 bits through the transfer curve
+/// - PNG, TIFF: 8 or 16 bits through the transfer curve
 /// - Targa, BMP, PPM: 8 bits through the transfer curve, uncompressed
 /// - EXR (OpenEXR): linear, halves or floats
 /// - HDR (Radiance): linear, with a shared exponent
 /// - PFM: linear floats, unchanged
-enum class ImageFormat : std::uint8_t { png, exr, hdr, pfm, tga, bmp, ppm };
+enum class ImageFormat : std::uint8_t { png, tiff, exr, hdr, pfm, tga, bmp, ppm };
+
+/// Returns the bytes of a file (scenes/images/exr.hpp, tiff.hpp). `layers` may be null.
+using EncodeImage = std::string (*)(const core::Film& film, const core::Layers* layers,
+                                    const ImageOptions& options);
+
+/// The functions for formats whose libraries the library is built without. Null: the format is not
+/// written.
+struct MoreEncoders {
+    EncodeImage exr = nullptr, tiff = nullptr;
+};
 
 /// Returns the format for a file name's extension: .png, .exr, ... "-" is standard output, in PNG.
-/// Throws BadInput if the extension is unknown, or .exr without `with_exr`.
-ImageFormat image_format_of(const std::filesystem::path& path, bool with_exr);
+/// Throws BadInput if the extension is unknown, or is that of an encoder that is null.
+ImageFormat image_format_of(const std::filesystem::path& path, const MoreEncoders& more = {});
 
-/// Returns the bytes of an OpenEXR file (scenes/images/exr.hpp). A function pointer, because the
-/// library is built without OpenEXR. `layers` may be null.
-using EncodeExr = std::string (*)(const core::Film& film, const core::Layers* layers,
-                                  const ImageOptions& options);
-
-/// The file of an image. PNG and EXR store a film's alpha; in other formats the image lies over
-/// black.
+/// The file of an image. PNG, TIFF and EXR store a film's alpha; in other formats the image lies
+/// over black.
 class OutputFile {
   public:
-    /// Chooses the format by the extension. Throws BadInput if the extension is unknown, or .exr
-    /// while `encode_exr` is null. Throws SystemRefused if it is already certain that the file
-    /// cannot be written.
-    explicit OutputFile(const std::filesystem::path& path, EncodeExr encode_exr = nullptr);
+    /// Chooses the format by the extension, as image_format_of() does. Throws SystemRefused if it
+    /// is already certain that the file cannot be written.
+    explicit OutputFile(const std::filesystem::path& path, const MoreEncoders& more = {});
     OutputFile(const std::filesystem::path& path, ImageFormat format,
-               EncodeExr encode_exr = nullptr);
+               const MoreEncoders& more = {});
 
     ImageFormat format() const { return format_; }
 
@@ -52,12 +56,13 @@ class OutputFile {
     void commit(const core::Film& film, core::Transfer transfer);
 
   private:
-    void write_exr(const core::Film& film, const core::Layers* layers, const ImageOptions& options);
+    void write_by(EncodeImage encode, const core::Film& film, const core::Layers* layers,
+                  const ImageOptions& options);
     void write_codes(const core::Film& film, core::Transfer transfer);
     void write_hdr(const core::Film& film);
     void write_pfm(const core::Film& film);
 
-    EncodeExr encode_exr_;
+    MoreEncoders more_;
     ImageFormat format_; // before file_: a wrong extension leaves no trace
     AtomicFile file_;
     bool has_failed_ = false;

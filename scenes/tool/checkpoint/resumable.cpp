@@ -198,7 +198,7 @@ void ResumableRendering::write(OutputFile& output, const core::Film& film,
         if (!is_full || !checkpoint_) throw;
         // Measures the image in memory first, to give the checkpoint up only if that helps.
         const MemoryFile memory("raylane picture");
-        OutputFile(memory.path(), output.format(), exr_of).commit(film, options, layers);
+        OutputFile(memory.path(), output.format(), more_encoders).commit(film, options, layers);
         if (!checkpoint_->give_room(memory.bytes())) throw;
     }
     output.commit(film, options, layers);

@@ -64,7 +64,7 @@ int compare_files(const CompareArguments& arguments) {
         require_other_file("--diff", name, "A", *arguments.a);
         require_other_file("--diff", name, "B", *arguments.b);
         require_other_output("--diff", name, "standard output, which receives the result", "-");
-        output.emplace(name, exr_of);
+        output.emplace(name, more_encoders);
         require_writable("--diff", output->format());
     }
     const Image a = read_image(*arguments.a), b = read_image(*arguments.b);

@@ -170,7 +170,7 @@ class Merger {
 int merge(const MergeArguments& arguments) {
     for (const std::string& part : *arguments.parts)
         require_other_file("--output", *arguments.output, "PARTS", part);
-    OutputFile output(*arguments.output, exr_of);
+    OutputFile output(*arguments.output, more_encoders);
     require_writable("--output", output.format());
     arguments.encoding.require_fit(output.format());
     const int floats = output.format() == ImageFormat::exr ? 32 : 0; // same as the parts

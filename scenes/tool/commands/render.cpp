@@ -103,7 +103,7 @@ Plan::Plan(const RenderArguments& all)
                 "--stats", "",
                 "goes with a single image, without --turn, ranges of --frames and sweeps of --set");
         const OutputFile writable(sequence->name(0),
-                                  exr_of); // throws at once if it cannot be written
+                                  more_encoders); // throws at once if it cannot be written
         all.image.require_fit(writable.format());
     });
     if (sequence) {
@@ -176,7 +176,7 @@ std::string write(const Plan& plan, const Target& image, ResumableRendering& dra
 void render_sequence(Plan& plan) {
     plan.sequence->draw = [&](const core::Scene& scene, std::size_t place, const std::string& name,
                               simd::Progress& progress) {
-        OutputFile output(name, exr_of);
+        OutputFile output(name, more_encoders);
         output.be_durable(); // a resumed sequence takes existing files as complete
         const Target image = target_of(plan, scene, name, place);
         ResumableRendering drawing = resumable(plan, image);
@@ -199,7 +199,7 @@ struct Outputs {
 void open_outputs(Outputs& outputs, Plan& plan) {
     plan.job.together([&] {
         if (!plan.job.is_first()) return;
-        const ImageFormat format = outputs.image.emplace(plan.output, exr_of).format();
+        const ImageFormat format = outputs.image.emplace(plan.output, more_encoders).format();
         if (plan.tiles && format != ImageFormat::exr)
             throw BadInput("--part", "", "goes with an output that ends in .exr");
         // A part must keep the floats of the whole image.
@@ -229,7 +229,7 @@ core::Scene load(Plan& plan, Outputs& outputs) {
             scene = seen(*std::move(scene), arguments.scene_arguments.view.change(), settings);
         if (!outputs.image || name == plan.output) return;
         if (outputs.stats) require_other_output("--stats", *arguments.stats, "--output", name);
-        outputs.image.emplace(name, exr_of);
+        outputs.image.emplace(name, more_encoders);
     });
     plan.output = name;
     return *std::move(scene);

@@ -200,7 +200,7 @@ TachyonArguments TachyonOptions::read() {
 ImageFormat format_of(const TachyonArguments& arguments) {
     if (arguments.format) return *arguments.format;
     try {
-        return image_format_of(arguments.output, /*with_exr=*/false);
+        return image_format_of(arguments.output);
     } catch (const BadInput&) {
         return ImageFormat::tga;
     }

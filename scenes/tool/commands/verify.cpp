@@ -204,7 +204,7 @@ class Verifier {
     Image as_written(const core::Film& film) const {
         const MemoryFile memory("raylane picture");
         OutputFile output(memory.path(), image_.linear_float ? ImageFormat::exr : ImageFormat::png,
-                          exr_of);
+                          more_encoders);
         output.commit(
             film, {.transfer = settings_.transfer, .bits = image_.bits, .dpi = {}, .texts = {}});
         return read_image(memory.path());

@@ -90,22 +90,27 @@ void require_writable(const std::string& option, ImageFormat format) {
     if (format == ImageFormat::exr && !has_exr())
         throw BadInput(option, "",
                        "must be .png, .hdr or .pfm: raylane was built without libopenexr-dev");
+    if (format == ImageFormat::tiff && !has_tiff())
+        throw BadInput(option, "",
+                       "must be .png, .hdr or .pfm: raylane was built without libtiff-dev");
 }
 
 void EncodingArguments::require_fit(ImageFormat format) const {
-    const bool is_png = format == ImageFormat::png, is_exr = format == ImageFormat::exr;
+    const bool is_exr = format == ImageFormat::exr;
+    const bool has_codes = format == ImageFormat::png || format == ImageFormat::tiff;
     for (const AnyOption* option : options())
-        if (option->is_given() && !is_png && !is_exr)
-            throw BadInput(option->name(), "", "goes with PNG or EXR");
-    if (bits && *bits == 32 && is_png) refuse("--bits", "8 or 16 in PNG", "32");
+        if (option->is_given() && !has_codes && !is_exr)
+            throw BadInput(option->name(), "", "goes with PNG, TIFF or EXR");
+    if (bits && *bits == 32 && has_codes) refuse("--bits", "8 or 16 in PNG and TIFF", "32");
     if (bits && *bits == 8 && is_exr) refuse("--bits", "16 or 32 in EXR", "8");
 }
 
 void ImageArguments::require_fit(ImageFormat format) const {
-    const bool is_png = format == ImageFormat::png, is_exr = format == ImageFormat::exr;
+    const bool is_exr = format == ImageFormat::exr;
     require_writable("--output", format);
     if (layers && !is_exr) throw BadInput("--layers", "", "goes with an output that ends in .exr");
-    if (alpha && !is_png && !is_exr) throw BadInput("--alpha", "", "goes with PNG or EXR");
+    if (alpha && !is_exr && format != ImageFormat::png && format != ImageFormat::tiff)
+        throw BadInput("--alpha", "", "goes with PNG, TIFF or EXR");
     encoding.require_fit(format);
 }
 

@@ -46,7 +46,7 @@ TEST_CASE("an EXR holds the film's floats or the nearest halves") {
     const auto path = directory.path() / "out.exr";
     const core::Film film = little_film();
     for (const int bits : {0, 16, 32}) {
-        scenes::OutputFile(path, scenes::exr_of).commit(film, {.bits = bits});
+        scenes::OutputFile(path, scenes::more_encoders).commit(film, {.bits = bits});
         const scenes::Image image = scenes::read_image(path);
         CHECK(image.linear_float);
         REQUIRE(image.rgb.size() == 3 * film.pixels().size());
@@ -69,7 +69,7 @@ TEST_CASE("an EXR has a film's alpha and colors multiplied by it") {
     film.at(0, 0) = {0.5F, 0.25F, 0.125F};
     film.alpha_at(0, 0) = 0.5F;
     for (const int bits : {16, 32}) {
-        scenes::OutputFile(path, scenes::exr_of).commit(film, {.bits = bits});
+        scenes::OutputFile(path, scenes::more_encoders).commit(film, {.bits = bits});
         const scenes::Image image = scenes::read_image(path);
         CHECK(image.rgb.floats() == std::vector<float>{0.5F, 0.25F, 0.125F, 0, 0, 0});
         CHECK(image.alpha.floats() == std::vector<float>{0.5F, 0});
@@ -89,7 +89,7 @@ TEST_CASE("an EXR has the layers and the resolution and texts of the options") {
     layers.samples[4] = 16;
     const scenes::ImageOptions options{.dpi = 300.0F,
                                        .texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}}};
-    scenes::OutputFile(path, scenes::exr_of).commit(little_film(), options, &layers);
+    scenes::OutputFile(path, scenes::more_encoders).commit(little_film(), options, &layers);
 
     Imf::InputFile file(path.c_str());
     const Imf::Header& header = file.header();
@@ -131,7 +131,7 @@ TEST_CASE("An EXR with attributes or channels that raylane does not write is ref
     const core::Layers layers(3, 2);
     const scenes::ImageOptions options{.dpi = 300.0F,
                                        .texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}}};
-    scenes::OutputFile(own, scenes::exr_of).commit(little_film(), options, &layers);
+    scenes::OutputFile(own, scenes::more_encoders).commit(little_film(), options, &layers);
     const auto complaint = [&](const auto& change) {
         Imf::InputFile from(own.c_str());
         Imf::Header header = from.header();

@@ -88,7 +88,8 @@ TEST_CASE("the option --alpha leaves the background out") {
     CHECK(fixture.run({"compare", "a.png", "b.png"}).code == 1);
     // Other formats show the image over black.
     CHECK(by_scene.rendered("a.pfm", {}).rgb[2] == 0.0F);
-    CHECK(error_of(fixture, "a.pfm", {"--alpha"}) == "raylane: --alpha: goes with PNG or EXR\n");
+    CHECK(error_of(fixture, "a.pfm", {"--alpha"}) ==
+          "raylane: --alpha: goes with PNG, TIFF or EXR\n");
     if (!scenes::has_exr()) return;
     const scenes::Image exr = fixture.rendered("a.exr", {"--alpha", "--bits", "32"});
     CHECK(exr.rgb.floats() == by_scene.rendered("a.pfm", {}).rgb.floats());
@@ -106,11 +107,12 @@ TEST_CASE("options that an image cannot have give an error of one line") {
           "raylane: --crop: must lie in the image of 16 x 12 pixels, got \"10,0,7x3\"\n");
     CHECK(error_of(fixture, "a.png", {"--layers"}) ==
           "raylane: --layers: goes with an output that ends in .exr\n");
-    CHECK(error_of(fixture, "a.pfm", {"--dpi", "300"}) == "raylane: --dpi: goes with PNG or EXR\n");
+    CHECK(error_of(fixture, "a.pfm", {"--dpi", "300"}) ==
+          "raylane: --dpi: goes with PNG, TIFF or EXR\n");
     CHECK(error_of(fixture, "a.hdr", {"--bits", "16"}) ==
-          "raylane: --bits: goes with PNG or EXR\n");
+          "raylane: --bits: goes with PNG, TIFF or EXR\n");
     CHECK(error_of(fixture, "a.png", {"--bits", "32"}) ==
-          "raylane: --bits: must be 8 or 16 in PNG, got \"32\"\n");
+          "raylane: --bits: must be 8 or 16 in PNG and TIFF, got \"32\"\n");
     CHECK(error_of(fixture, "a.png", {"--bits", "12"}) ==
           "raylane: --bits: must be 8, 16 or 32, got \"12\"\n");
     CHECK(error_of(fixture, "a.png", {"--dpi", "0"}) ==

@@ -116,7 +116,7 @@ TEST_CASE("parts that do not make a whole give an error of one line") {
     {
         scenes::ExrImage image = scenes::read_own_exr(fixture.path() / "part-1.exr");
         image.film.at(3, 4) += core::Color(1.0F);
-        scenes::OutputFile(fixture.path() / "part-2.exr", scenes::exr_of)
+        scenes::OutputFile(fixture.path() / "part-2.exr", scenes::more_encoders)
             .commit(image.film, {.bits = 32, .texts = image.texts});
         CHECK(refusal(merged({2, 3}, "out/a.png")) ==
               "raylane: part-2.exr: has pixels that differ from its Pixels attribute\n");
@@ -179,7 +179,8 @@ TEST_CASE("parts without an Options attribute can be merged") {
         scenes::ImageOptions options{.bits = 32, .texts = image.texts};
         CHECK(std::erase_if(options.texts,
                             [](const auto& text) { return text.first == "Options"; }) == 1);
-        scenes::OutputFile(fixture.path() / name, scenes::exr_of).commit(image.film, options);
+        scenes::OutputFile(fixture.path() / name, scenes::more_encoders)
+            .commit(image.film, options);
     }
     CHECK(fixture.run(merged({1, 2}, "a.png")).err.empty());
     CHECK(fixture.run({"verify", "a.png", "scene.json", "--quiet"}).code == 0);
@@ -301,7 +302,7 @@ TEST_CASE("a part with a missing or malformed Rays attribute is refused") {
         for (const auto& [name, text] : image.texts)
             if (name != "Rays") options.texts.emplace_back(name, text);
         if (!rays.empty()) options.texts.emplace_back("Rays", rays);
-        scenes::OutputFile(fixture.path() / "part-2.exr", scenes::exr_of)
+        scenes::OutputFile(fixture.path() / "part-2.exr", scenes::more_encoders)
             .commit(image.film, options);
         const Outcome outcome = fixture.run(merged({1, 2}, "out/a.png"));
         CHECK(outcome.code == 2);
@@ -431,7 +432,8 @@ TEST_CASE("parts can be merged and verified without their instruction set") {
                 absent = text.find("neon", at) == std::string::npos ? "neon" : "avx2";
                 text.replace(at, text.find(' ', at + 7) - at, " --isa " + absent);
             }
-        scenes::OutputFile(fixture.path() / name, scenes::exr_of).commit(image.film, options);
+        scenes::OutputFile(fixture.path() / name, scenes::more_encoders)
+            .commit(image.film, options);
     }
     const Outcome outcome = fixture.run(merged({1, 2}, "whole.exr"));
     CHECK(outcome.err.empty());

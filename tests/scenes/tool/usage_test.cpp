@@ -152,11 +152,12 @@ TEST_CASE("an invalid file name gives an error of one line before any file is re
         {{"compare", "none.png", "none.png", "--diff", ""},
          R"(--diff: must be the name of a file, got "")"},
         {{"render", "none.json", "-o", "out/picture.jpg"},
-         R"(out/picture.jpg: must end in .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got ".jpg")"},
+         R"(out/picture.jpg: must end in .png, .tif, .tiff, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got ".jpg")"},
         {{"render", "none.json", "-o", "out/picture"},
-         "out/picture: must end in .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got no ending"},
+         "out/picture: must end in .png, .tif, .tiff, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got no "
+         "ending"},
         {{"compare", "none.png", "none.png", "--diff", "out/difference.gif"},
-         R"(out/difference.gif: must end in .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got ".gif")"},
+         R"(out/difference.gif: must end in .png, .tif, .tiff, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got ".gif")"},
         // Files that would be overwritten.
         {{"render", "none.json", "-o", "out/a.png", "--stats", "./out/a.png"},
          R"(--stats: must be another file than --output, got "./out/a.png")"},
