@@ -13,7 +13,7 @@ render_megabytes=40
 test_seconds=2100
 test_megabytes=500
 
-# Packages with their purposes. gemmi and OpenEXR are optional, and cost 1.8 MB to download and 35 processor
+# Packages with their purposes. gemmi, OpenEXR and libtiff are optional, and cost 4.8 MB to download and 35 processor
 # seconds.
 render_packages='
 g++                 the C++20 compiler
@@ -37,6 +37,7 @@ test_packages='
 catch2              runs the tests
 libboost-dev        their 100-digit oracle
 libsdl2-dev         opens windows
+libpango1.0-dev     writes texts on images
 xvfb                the test of these
 libbenchmark-dev    measures speed
 pkgconf             the test of the installed library

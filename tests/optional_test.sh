@@ -18,7 +18,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 # X of CMAKE_DISABLE_FIND_PACKAGE_X, and a package that the summary must name.
-tool='gemmi=gemmi-dev OpenEXR=libopenexr-dev TIFF=libtiff-dev SDL2=libsdl2-dev MPI=libopenmpi-dev doxygen=doxygen'
+tool='gemmi=gemmi-dev OpenEXR=libopenexr-dev TIFF=libtiff-dev Pango=libpango1.0-dev SDL2=libsdl2-dev MPI=libopenmpi-dev doxygen=doxygen'
 others='Python3=python3 pybind11=pybind11-dev NumPy=python3-numpy pytest=python3-pytest
     jsonschema=python3-jsonschema Catch2=catch2 Boost=libboost-dev gappa=gappa Xvfb=xvfb
     benchmark=libbenchmark-dev embree=libembree-dev'
@@ -119,6 +119,7 @@ build_without() {
     refuses gemmi-dev "$raylane" render atom.pdb -o atom.png
     refuses libopenexr-dev "$raylane" render "$scene" --size 40x30 -o picture.exr
     refuses libtiff-dev "$raylane" render "$scene" --size 40x30 -o picture.tif
+    refuses libpango1.0-dev "$raylane" render "$source/scenes/fullerene.xyz" --size 40x30 --axes xyz -o axes.png
     refuses libsdl2-dev "$raylane" view "$scene"
     refuses libopenmpi-dev env OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=0 \
         "$raylane" render "$scene" --size 40x30 -o ranks.png

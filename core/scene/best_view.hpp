@@ -2,9 +2,13 @@
 
 #include "core/scene/fit_camera.hpp"
 
+#include <string_view>
+
 namespace raylane::core {
 
 class Scene;
+
+inline constexpr std::string_view best_view_name = "best";
 
 /// Returns the view in which the centres of the bounded shapes extend farthest across the image,
 /// then upward, and least in depth: along their principal axes. The largest component of the

@@ -21,13 +21,7 @@ struct CutPlane {
 /// Parses "z<1.5", "x > 0" or "A,B,C,D", which keeps A x + B y + C z <= D. Throws BadInput.
 CutPlane cut_plane_of(const std::string& option, const std::string& text);
 
-/// Atoms between two depths.
-struct Slab {
-    double from, to;       ///< in angstrom, from the middle of the atoms towards the viewer
-    core::Vec3f direction; ///< of view
-};
-
-/// Parses "A B" or "A:B". Throws BadInput.
+/// Parses the depths of a slab, "A B" or "A:B", in angstrom. Throws BadInput.
 std::pair<double, double> depths_of(const std::string& option, const std::string& text);
 
 /// Returns the range of dot(normal, p) over a box.

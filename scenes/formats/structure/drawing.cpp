@@ -430,7 +430,7 @@ class SceneFromAtoms {
     void find_cuts() {
         atoms_.cuts = drawing_.cuts;
         if (!drawing_.slab) return;
-        const Vec3d along = core::convert<double>(drawing_.slab->direction);
+        const Vec3d along = core::convert<double>(camera_.direction);
         const Vec3d back = -1.0 / core::length(along) * along;
         core::Bounds bounds;
         for (AtomIndex i = 0; i < structure_.size(); ++i)
@@ -438,8 +438,8 @@ class SceneFromAtoms {
                 bounds.include({structure_.positions[i], structure_.positions[i]});
         const double middle = 0.5 * core::dot(back, core::convert<double>(bounds.lower) +
                                                         core::convert<double>(bounds.upper));
-        atoms_.cuts.push_back({back, middle + drawing_.slab->to});
-        atoms_.cuts.push_back({-1.0 * back, -(middle + drawing_.slab->from)});
+        atoms_.cuts.push_back({back, middle + drawing_.slab->second});
+        atoms_.cuts.push_back({-1.0 * back, -(middle + drawing_.slab->first)});
     }
 
     /// Sets the radius of atoms of unknown elements: they nearly touch if they fill their bounds.

@@ -86,7 +86,9 @@ struct Drawing {
     Finish finish = Finish::usual;
     core::Color background{1.0F};
     std::vector<CutPlane> cuts{}; ///< only the parts of atoms on their sides are shown
-    std::optional<Slab> slab{};   ///< the same for two planes across the view
+    /// The same for two planes across the view: depths in angstrom, from the middle of the atoms
+    /// towards the viewer.
+    std::optional<std::pair<double, double>> slab{};
 };
 
 /// The atoms of a shape: an atom, twice; the ends of a bond; or `no_atoms` for the cell's edges.

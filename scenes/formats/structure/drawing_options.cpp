@@ -88,7 +88,10 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
          [](Drawing& drawing, const std::string& option, const std::string& text) {
              drawing.probability = 0.01F * probability_of(option, text);
          }},
-        {"view", setter_of(&Drawing::view, view_named)},
+        {"view", setter_of(&Drawing::view,
+                           [](const std::string& option, const std::string& text) {
+                               return view_named(option, text);
+                           })},
         {"perspective", setter_of(&Drawing::perspective, on_or_off_of)},
         {"orthographic",
          [](Drawing& drawing, const std::string& option, const std::string& text) {
@@ -165,8 +168,13 @@ std::optional<core::Vec3f> direction_in(const std::string& text) {
     return direction;
 }
 
-core::NamedView view_named(const std::string& option, const std::string& text) {
+core::NamedView view_named(const std::string& option, const std::string& text,
+                           std::string_view later) {
     std::vector<std::string_view> names;
+    if (!later.empty()) {
+        names.push_back(later);
+        if (text == later) return {later, core::Vec3f(0.0F), core::Vec3f(0.0F)};
+    }
     for (const core::NamedView& view : core::named_views()) {
         names.push_back(view.name);
         if (text == view.name) return view;

@@ -32,7 +32,9 @@ float probability_of(const std::string& option, const std::string& text);
 bool on_or_off_of(const std::string& option, const std::string& text);
 /// A direction such as "1,-1,-0.5"; nothing if it is malformed or 0.
 std::optional<core::Vec3f> direction_in(const std::string& text);
-/// The name of a view, or a direction to look in, such as "1,-1,-0.5".
-core::NamedView view_named(const std::string& option, const std::string& text);
+/// The name of a view, or a direction to look in, such as "1,-1,-0.5". `later`: another name, of a
+/// view that depends on the scene, which is returned without directions; "" for none.
+core::NamedView view_named(const std::string& option, const std::string& text,
+                           std::string_view later = {});
 
 } // namespace raylane::scenes

@@ -2,6 +2,7 @@
 #include "scenes/files/atomic_file.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/images/exr.hpp"
+#include "scenes/tool/annotator.hpp"
 #include "scenes/tool/checkpoint/fingerprint.hpp"
 #include "scenes/tool/checkpoint/resumable.hpp"
 #include "scenes/tool/commands/command.hpp"
@@ -51,7 +52,8 @@ struct Plan {
     int threads_to_load;
     std::optional<FrameSequence> sequence; ///< a sequence, whose images the ranks take in turn
     std::optional<ImagePart> tiles;        ///< the part of a single image
-    int bits;                              ///< per component; 0: the format's default
+    Annotator annotator;
+    int bits; ///< per component; 0: the format's default
 };
 
 /// An image to render.
@@ -92,12 +94,15 @@ Plan::Plan(const RenderArguments& all)
     : arguments(all), options(all.render_options()), output(checked_output(all)),
       load_options(all.scene_arguments.load_options()),
       verbosity(job.is_first() ? all.scene_arguments.verbosity.verbosity() : Verbosity::quiet),
-      threads_to_load(options.threads), bits(all.image.encoding.bits.value_or(0)) {
+      threads_to_load(options.threads), annotator(all), bits(all.image.encoding.bits.value_or(0)) {
+    load_options.legend = annotator.legend();
     if (!all.threads) options.threads = job.share_of_threads(options.threads);
+    if (is_frame() || all.part) annotator.require_single();
     if (*all.scene == "-") job.share_standard_input();
     job.together([&] {
         if (!is_frame()) sequence = requested_sequence(all, options.threads, verbosity);
         if (!sequence) return;
+        annotator.require_single();
         if (all.stats)
             throw BadInput(
                 "--stats", "",
@@ -129,16 +134,20 @@ Target target_of(Plan& plan, const core::Scene& scene, const std::string& name,
 std::string comment_of(const Plan& plan, const Target& image) {
     // The images of a sequence may have different sizes.
     const bool names_size = !plan.sequence || plan.arguments.size;
-    return text_of_options(plan.arguments.recorded(
-        {image.settings, image.scene.settings(), plan.options, names_size}));
+    auto options =
+        plan.arguments.recorded({image.settings, image.scene.settings(), plan.options, names_size});
+    if (!plan.annotator.covers_image())
+        std::erase_if(options, [&](const auto& option) {
+            return plan.arguments.annotation.has(option.first);
+        });
+    return text_of_options(options);
 }
 
 /// Returns the encoding and the texts of the image.
 ImageOptions image_options(const Plan& plan, const Target& image, const simd::Rendering& rendering,
                            const std::string& pixels) {
     const std::filesystem::path scene = *plan.arguments.scene;
-    ImageOptions options{
-        image.settings.transfer, plan.bits, plan.arguments.image.encoding.dpi.value(), {}};
+    ImageOptions options{image.settings.transfer, plan.bits, plan.arguments.dpi(), {}};
     const auto add = [&](const char* key, const std::string& text) {
         options.texts.emplace_back(key, text);
     };
@@ -163,11 +172,21 @@ ResumableRendering resumable(const Plan& plan, const Target& image) {
             image.settings, plan.options,   plan.tiles,  plan.verbosity};
 }
 
+core::Region part_of(const Plan& plan, const Target& image) {
+    return plan.options.crop.value_or(
+        core::Region{0, 0, image.settings.width, image.settings.height});
+}
+
 /// Writes the image and returns the fingerprint of its pixels.
 std::string write(const Plan& plan, const Target& image, ResumableRendering& drawing,
                   const simd::Rendering& rendering, OutputFile& output) {
     std::string pixels = fingerprint_of(rendering.film);
-    drawing.write(output, rendering.film, image_options(plan, image, rendering, pixels),
+    std::optional<core::Film> covered;
+    if (plan.annotator.covers_image())
+        plan.annotator.cover(covered.emplace(rendering.film), part_of(plan, image),
+                             image.settings.transfer);
+    drawing.write(output, covered ? *covered : rendering.film,
+                  image_options(plan, image, rendering, pixels),
                   plan.options.layers ? &rendering.layers : nullptr);
     drawing.finished();
     return pixels;
@@ -274,7 +293,8 @@ nlohmann::ordered_json stats_of(const Plan& plan, const Target& image, const Wor
               {"lists", counters.in_lists},
               {"in_flight", counters.in_flight}}},
             {"rays_refined", counters.refined},
-            {"left_to_the_reference", {{"rays", counters.doubtful}, {"paths", counters.followed}}}};
+            {"left_to_the_reference", {{"rays", counters.doubtful}, {"paths", counters.followed}}},
+            {"legend", plan.annotator.stats()}};
 }
 
 void print(const Plan& plan, const Target& image, const core::Region& part, const Work& work) {
@@ -309,8 +329,13 @@ void render_single(Plan& plan) {
     });
     const Target& image = *loaded;
     plan.job.require_same(image.fingerprint + comment_of(plan, image), "the scene");
-    const core::Region part =
-        plan.options.crop.value_or(core::Region{0, 0, image.settings.width, image.settings.height});
+    const core::Region part = part_of(plan, image);
+    if (plan.job.is_first()) {
+        plan.annotator.compose(scene, image.settings, [&](const std::string& remark) {
+            if (plan.verbosity != Verbosity::quiet) std::fprintf(stderr, "%s\n", remark.c_str());
+        });
+        plan.annotator.write_file();
+    }
     if (outputs.image) outputs.image->reserve(part.x1 - part.x0, part.y1 - part.y0);
     work.load = lap();
 

@@ -3,6 +3,7 @@
 #include "scenes/images/exr.hpp"
 #include "scenes/images/png.hpp"
 #include "scenes/images/reader.hpp"
+#include "scenes/tool/annotator.hpp"
 #include "scenes/tool/checkpoint/fingerprint.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/image_texts.hpp"
@@ -111,6 +112,7 @@ class Verifier {
           threads_(arguments.threads.count()), name_(*arguments.image),
           bytes_(InputFile(name_).read_all()), image_(whole_image(shown_name(), bytes_)),
           render_(recorded_arguments(image_.name, image_.texts, *arguments.scene)),
+          annotator_(*render_),
           scene_(has_text(image_.texts, "Film") ? seen_scene_of_film() : seen_scene()) {
         // Another instruction set gives the same pixels, but may give other numbers of rays.
         const bool with_isa =
@@ -121,6 +123,7 @@ class Verifier {
         part_ = options_.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
         if (part_.x1 - part_.x0 != image_.width || part_.y1 - part_.y0 != image_.height)
             throw BadInput(image_.name, "", "has another size than its Comment states");
+        annotator_.compose(scene_, settings_, {});
     }
 
     bool scene_is_the_same() const {
@@ -201,7 +204,8 @@ class Verifier {
     }
 
     /// Returns a film as render would write it and compare would read it.
-    Image as_written(const core::Film& film) const {
+    Image as_written(core::Film film) const {
+        if (annotator_.covers_image()) annotator_.cover(film, part_, settings_.transfer);
         const MemoryFile memory("raylane picture");
         OutputFile output(memory.path(), image_.linear_float ? ImageFormat::exr : ImageFormat::png,
                           more_encoders);
@@ -240,8 +244,9 @@ class Verifier {
 
     core::Scene seen_scene() {
         const SceneArguments& how = render_->scene_arguments;
-        core::Scene scene =
-            load_with_progress(*render_->scene, how.load_options(), verbosity_, threads_);
+        LoadOptions options = how.load_options();
+        options.legend = annotator_.legend();
+        core::Scene scene = load_with_progress(*render_->scene, options, verbosity_, threads_);
         settings_ = render_->settings_of(scene.settings());
         return seen(std::move(scene), how.view.change(), settings_);
     }
@@ -310,7 +315,8 @@ class Verifier {
     std::string name_, bytes_; // of the image
     Image image_;
     std::unique_ptr<RenderArguments> render_; // as the image records them
-    core::Settings settings_;                 // before scene_, whose initializer sets it
+    Annotator annotator_;
+    core::Settings settings_; // before scene_, whose initializer sets it
     core::Scene scene_;
     simd::RenderOptions options_;
     core::Region part_{};

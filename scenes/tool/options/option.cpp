@@ -111,6 +111,11 @@ std::string OptionTable::first_given() const {
     return "";
 }
 
+bool OptionTable::has(const std::string& name) const {
+    return std::any_of(options_.begin(), options_.end(),
+                       [&](const AnyOption* option) { return option->name() == name; });
+}
+
 ThreadsOption::ThreadsOption(OptionTable& table)
     : Option<int>(table, "--threads", whole(1, simd::max_threads).otherwise("all processors"),
                   "Number of threads.") {}
@@ -203,6 +208,61 @@ Values<std::pair<int, int>> image_size() {
     const Drawing drawing;
     return Values<std::pair<int, int>>("WxH", "", parse, text_of)
         .otherwise(as_in_file, text_of({drawing.width, drawing.height}));
+}
+
+std::pair<int, int> ImageSize::in_pixels(double dpi, const std::pair<int, int>& proportions) const {
+    const double scale = on_paper ? dpi : 1.0;
+    const double across = std::round(scale * width);
+    const double upward =
+        std::round(height > 0.0 ? scale * height : across * proportions.second / proportions.first);
+    constexpr double most = core::Settings::max_size;
+    if (!(across >= 1.0 && upward >= 1.0 && across <= most && upward <= most) ||
+        across * upward > static_cast<double>(core::Settings::max_pixels))
+        throw BadInput("--size", "",
+                       "must have from 1 to " + std::to_string(core::Settings::max_size) +
+                           " pixels on each side and at most " +
+                           std::to_string(core::Settings::max_pixels) + " in all, got " +
+                           to_text(static_cast<float>(across)) + " x " +
+                           to_text(static_cast<float>(upward)));
+    return {static_cast<int>(across), static_cast<int>(upward)};
+}
+
+Values<ImageSize> image_size_on_paper() {
+    const auto parse = [](const std::string& option, const std::string& text) -> ImageSize {
+        constexpr std::pair<std::string_view, double> units[] = {
+            {"cm", 1.0 / 2.54}, {"mm", 1.0 / 25.4}, {"in", 1.0}};
+        const std::vector<std::string_view> parts = parts_of(text, 'x');
+        double lengths[2] = {0.0, 0.0}, unit = 0.0;
+        // A unit behind the height is that of the width, too.
+        for (std::size_t i = std::min<std::size_t>(parts.size(), 3); i-- > 0;) {
+            std::string_view number = parts[i];
+            for (const auto& [name, inches] : units)
+                if (number.ends_with(name)) {
+                    number.remove_suffix(name.size());
+                    unit = inches;
+                }
+            const float length = to_float(number).value_or(0.0F);
+            if (i > 1 || unit == 0.0) break;
+            if (!(length > 0.0F && length <= 1e4F)) {
+                unit = 0.0;
+                break;
+            }
+            lengths[i] = unit * static_cast<double>(length);
+        }
+        if (unit > 0.0 && lengths[0] > 0.0) return {lengths[0], lengths[1], true};
+        for (const auto& [name, inches] : units)
+            if (text.find(name) != std::string::npos)
+                refuse(option, "a size on paper such as 8.5cm, 85x60mm or 3.3in, or in pixels",
+                       text);
+        const auto [width, height] = image_size().parse(option, text);
+        return {static_cast<double>(width), static_cast<double>(height)};
+    };
+    const auto text_of = [](const ImageSize& size) {
+        return std::to_string(std::lround(size.width)) + "x" +
+               std::to_string(std::lround(size.height));
+    };
+    return Values<ImageSize>("WxH", "", parse, text_of)
+        .otherwise(as_in_file, image_size().for_atoms);
 }
 
 Values<core::Precision> precisions() {

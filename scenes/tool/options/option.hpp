@@ -179,6 +179,8 @@ class OptionTable {
     std::vector<std::pair<std::string, std::string>> recorded(const Rendered& rendered) const;
     /// Returns the name of the first option that was given, or an empty text.
     std::string first_given() const;
+    /// Returns true for the name of one of the options.
+    bool has(const std::string& name) const;
 
   private:
     OptionTable* whole_ = nullptr;
@@ -284,6 +286,19 @@ inline constexpr const char* any_scene =
     "Scene or atoms, in any format that render reads; - is standard input.";
 /// WIDTHxHEIGHT of an image
 Values<std::pair<int, int>> image_size();
+
+/// The size of an image in pixels, or on paper.
+struct ImageSize {
+    double width;
+    double height;         ///< 0: in proportion to the width
+    bool on_paper = false; ///< in inches
+
+    /// Returns width and height in pixels, for the proportions of another size. Throws BadInput,
+    /// for --size.
+    std::pair<int, int> in_pixels(double dpi, const std::pair<int, int>& proportions) const;
+};
+/// WIDTHxHEIGHT in pixels, or a width or both in cm, mm or in.
+Values<ImageSize> image_size_on_paper();
 Values<core::Precision> precisions();
 
 /// Returns the default name of an output: the scene's file name without its folder and with another

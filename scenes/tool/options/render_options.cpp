@@ -71,6 +71,23 @@ Values<core::Color> colors() {
     return {"#RRGGBB", "", parse, [](const core::Color& color) { return text_of(color); }};
 }
 
+Values<double> bar_lengths() {
+    return {"LENGTH", "", [](const std::string& option, const std::string& text) {
+                if (text == "auto") return 0.0;
+                const float length = to_float(text).value_or(0.0F);
+                if (!(length > 0.0F)) refuse(option, "auto or a length above 0", text);
+                return static_cast<double>(length);
+            }};
+}
+
+Values<LabelWords> label_texts() {
+    return {"WHICH:TEXT", "", label_words_of};
+}
+
+Values<DistanceWords> distance_texts() {
+    return {"A:B", "", distance_words_of};
+}
+
 Values<ImagePart> image_parts() {
     return {"K/N", "", [](const std::string& option, const std::string& text) {
                 const std::optional<ImagePart> part = image_part_of(text);
@@ -129,17 +146,49 @@ RenderArguments::RenderArguments() = default;
 core::Settings RenderArguments::settings_of(const core::Settings& own) const {
     core::Settings settings = own;
     apply_to(settings);
-    if (size) std::tie(settings.width, settings.height) = *size;
+    if (size)
+        std::tie(settings.width, settings.height) =
+            size->in_pixels(dpi().value_or(0.0F), {own.width, own.height});
+    const std::optional<Finish>& look = scene_arguments.drawing.look.value();
+    if (look && !image.outline) // as thick on a larger image
+        settings.outline.width = std::min(core::Outline::max_width,
+                                          own.outline.width * static_cast<float>(settings.height) /
+                                              static_cast<float>(own.height));
     if (samples || draft) settings.quality = 0.0F;
     if (draft) settings.grid = 1;
     if (draft) settings.light_samples = core::Settings::hard_light;
     if (print) settings.quality = 50.0F;
-    if (image.alpha) settings.alpha = true;
+    const Option<Background>& background = scene_arguments.view.background;
+    if (image.alpha || (background && !background->color)) settings.alpha = true;
     if (settings.outline.any() || image.outline) return settings;
     for (const AnyOption* option : {static_cast<const AnyOption*>(&image.outline_color),
                                     static_cast<const AnyOption*>(&image.outline_creases)})
         if (option->is_given()) throw BadInput(option->name(), "", "goes with --outline");
     return settings;
+}
+
+std::optional<float> RenderArguments::dpi() const {
+    constexpr float usual = 300.0F;
+    if (image.encoding.dpi || !size || !size->on_paper) return image.encoding.dpi.value();
+    return usual;
+}
+
+Annotations RenderArguments::annotations() const {
+    constexpr double usual = 300.0, points = 72.0; // per inch
+    const double resolution = static_cast<double>(dpi().value_or(0.0F));
+    Annotations result;
+    result.legend = annotation.legend.is_given() || annotation.legend_title.is_given();
+    result.legend_title = annotation.legend_title.value_or("");
+    result.scale_bar = annotation.scale_bar.value();
+    result.axes = annotation.axes.value();
+    result.labels = *annotation.label;
+    result.distances = *annotation.distance;
+    result.font = annotation.font.value_or(result.font);
+    if (annotation.font_size)
+        result.font_size = static_cast<double>(*annotation.font_size) *
+                           (resolution > 0.0 ? resolution : usual) / points;
+    result.dpi = resolution;
+    return result;
 }
 
 simd::RenderOptions RenderArguments::render_options(bool with_isa) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenes/annotation/annotations.hpp"
 #include "scenes/images/writer.hpp"
 #include "scenes/tool/image_texts.hpp"
 #include "scenes/tool/options/scene_options.hpp"
@@ -31,15 +32,18 @@ struct EncodingArguments : OptionTable {
         : OptionTable(whole, whole.group()),
           bits(*this, "--bits",
                choice<int>({{"8", 8}, {"16", 16}, {"32", 32}}).otherwise(std::move(default_bits)),
-               "Bits per channel: 8 or 16 (PNG), 16 (half) or 32 (float) (EXR).") {}
+               "Bits per channel: 8 or 16 (PNG, TIFF), 16 (half) or 32 (float) (EXR).") {}
 
     /// Throws BadInput for options that the format does not support.
     void require_fit(ImageFormat format) const;
 
     Option<int> bits;
     Option<float> dpi = {*this, "--dpi",
-                         number(1.0F, 10000.0F, "N").in("pixels per inch").otherwise("none"),
-                         "Print resolution stored in PNG or EXR."};
+                         number(1.0F, 10000.0F, "N")
+                             .in("pixels per inch")
+                             .recorded()
+                             .otherwise("none, or 300 for a size on paper"),
+                         "Print resolution stored in PNG, TIFF or EXR."};
 };
 
 /// Options for the region of an image, its channels, and the lines over it.
@@ -55,13 +59,13 @@ struct ImageArguments : OptionTable {
         *this, "--crop", crops().recorded(),
         "Render only this rectangle: its upper left corner and its size, in pixels of "
         "the whole image."};
-    EncodingArguments encoding{*this, "8 (PNG), 16 (EXR)"};
+    EncodingArguments encoding{*this, "8 (PNG, TIFF), 16 (EXR)"};
     Flag layers = {*this, "--layers", flag(),
                    "Add AOVs of the first surface at the middle of each pixel to an EXR: Z "
                    "(distance along the ray), N.X, N.Y, N.Z, id.shape, id.material and "
                    "samples (number of samples)."};
     Flag alpha = {*this, "--alpha", flag().recorded(),
-                  "Omit the background, for compositing. The alpha of a PNG or EXR is the "
+                  "Omit the background, for compositing. The alpha of a PNG, TIFF or EXR is the "
                   "covered share of each pixel."};
     Option<float> outline = {
         *this, "--outline",
@@ -91,6 +95,45 @@ struct ImageArguments : OptionTable {
         "DEGREES; 180 for none of these."};
 };
 
+/// A length in angstrom, or 0 for "auto".
+Values<double> bar_lengths();
+Values<LabelWords> label_texts();
+Values<DistanceWords> distance_texts();
+
+/// Options for legends and labels.
+struct AnnotationArguments : OptionTable {
+    explicit AnnotationArguments(OptionTable& whole)
+        : OptionTable(whole, "Annotations (of atoms)") {}
+
+    Flag legend = {*this, "--legend", flag().recorded(),
+                   "Explain the colours: a bar with numbers, or the names of elements or chains."};
+    Option<std::string> legend_title = {*this, "--legend-title",
+                                        word("TEXT").recorded().otherwise("the name of the number"),
+                                        "Text above the bar of colours."};
+    Option<double> scale_bar = {*this, "--scale-bar", bar_lengths().recorded(),
+                                "Bar of this length in angstrom; auto: of a round length."};
+    Option<Axes> axes = {*this, "--axes",
+                         choice<Axes>({{"xyz", Axes::of_space}, {"abc", Axes::of_cell}}).recorded(),
+                         "Arrows along the axes of space or of the cell."};
+    ListOption<LabelWords> label = {
+        *this, "--label", label_texts().recorded(),
+        "Label at the middle of atoms, as \"SELECTION: TEXT\". With {element}, {name}, {resn}, "
+        "{resi}, {chain} or {index} in the text, each atom has a label."};
+    ListOption<DistanceWords> distance = {
+        *this, "--distance", distance_texts().recorded(),
+        "Dashed line with the distance between the middles of two selections, as \"SELECTION: "
+        "SELECTION\"."};
+    Option<std::string> font = {*this, "--font", word("NAME").recorded().otherwise("sans-serif"),
+                                "Font of texts."};
+    Option<float> font_size = {
+        *this, "--font-size",
+        number(1.0F, 1000.0F, "POINTS").recorded().otherwise("1/32 of the image's height"),
+        "Size of texts in points, at the resolution of --dpi, or of 300 pixels per inch."};
+    Option<std::string> annotations = {
+        *this, "--annotations", file_name(),
+        "Write the annotations as an SVG of the image's size, and the image without them."};
+};
+
 /// Options of render.
 struct RenderArguments : OptionTable {
     RenderArguments();
@@ -101,6 +144,9 @@ struct RenderArguments : OptionTable {
     /// Returns engine, instruction set, precision, tile size and threads. `with_isa`: whether this
     /// processor must support --isa. Throws BadInput.
     simd::RenderOptions render_options(bool with_isa = true) const;
+    /// Returns the resolution to store. A size on paper has one.
+    std::optional<float> dpi() const;
+    Annotations annotations() const;
 
     Option<std::string> scene = {
         *this, "SCENE", file_argument(),
@@ -109,16 +155,18 @@ struct RenderArguments : OptionTable {
     Option<std::string> output = {
         *this, "-o,--output",
         file_name().otherwise("the scene's name with .png, in the current folder"),
-        "Image, .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm; - writes a PNG to standard "
+        "Image, .png, .tif, .exr, .hdr, .pfm, .tga, .bmp or .ppm; - writes a PNG to standard "
         "output."};
-    Option<std::pair<int, int>> size = {
+    Option<ImageSize> size = {
         *this, "--size",
-        image_size().recorded(
+        image_size_on_paper().recorded(
             [](const Rendered& of) {
-                return std::pair{of.settings.width, of.settings.height};
+                return ImageSize{static_cast<double>(of.settings.width),
+                                 static_cast<double>(of.settings.height)};
             },
             [](const Rendered& of) { return of.names_size; }),
-        "Image width and height in pixels."};
+        "Image width and height in pixels; or on paper: the width, or both, in cm, mm or in, such "
+        "as 8.5cm or 85x60mm, at the resolution of --dpi."};
     Option<int> samples = {
         *this, "--spp",
         square_of(core::Settings::max_grid)
@@ -216,6 +264,7 @@ struct RenderArguments : OptionTable {
         "Render part K of N, for N processes or machines: some tiles of an image, in an "
         "EXR for merge; of a sequence, every N-th image from the K-th on."};
     ImageArguments image{*this};
+    AnnotationArguments annotation{*this};
     FrameArguments frames{*this};
     SceneArguments scene_arguments{*this, true};
 };

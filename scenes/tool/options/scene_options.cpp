@@ -1,6 +1,8 @@
 #include "scenes/tool/options/scene_options.hpp"
 
+#include "core/scene/best_view.hpp"
 #include "core/scene/field_of_view.hpp"
+#include "core/scene/transfer.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/formats/json/parameters.hpp"
 #include "scenes/formats/structure/colors.hpp"
@@ -89,10 +91,15 @@ core::AutoCamera ViewChange::auto_camera(const core::Scene& scene, core::Camera&
     core::AutoCamera auto_camera = scene.auto_camera();
     auto_camera.turning = turning;
     auto_camera.depth_cue = depth_cue.value_or(auto_camera.depth_cue);
+    if (this->camera) {
+        camera = *this->camera;
+        auto_camera.fit_camera.reset();
+    }
     if (way) {
+        const core::NamedView named = way->name == best_view_name ? core::best_view(scene) : *way;
         if (!auto_camera.fit_camera) auto_camera.fit_camera = core::fit_camera_of(camera);
-        auto_camera.fit_camera->direction = way->direction;
-        auto_camera.fit_camera->up = way->up;
+        auto_camera.fit_camera->direction = named.direction;
+        auto_camera.fit_camera->up = named.up;
     }
     if (up) {
         core::Vec3f& of_camera = auto_camera.fit_camera ? auto_camera.fit_camera->up : camera.up;
@@ -140,7 +147,32 @@ core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settin
 }
 
 Values<core::NamedView> views() {
-    return {"WAY", "", view_named};
+    return {"WAY", "", [](const std::string& option, const std::string& text) {
+                return view_named(option, text, best_view_name);
+            }};
+}
+
+Values<core::Camera> cameras() {
+    return {"JSON", "", [](const std::string& option, const std::string& text) {
+                const std::size_t first = text.find_first_not_of(" \t");
+                std::string json =
+                    first != std::string::npos && text[first] == '{' ? "\"camera\": " + text : text;
+                json.resize(json.find_last_not_of(" \t,") + 1);
+                // The reader of scenes names the place of a mistake.
+                return parse_scene(option, "{" + json + ", \"objects\": []}").camera();
+            }};
+}
+
+Values<Background> backgrounds() {
+    return {"COLOR", "", [](const std::string& option, const std::string& text) -> Background {
+                if (text == "none") return {};
+                const std::optional<std::uint32_t> code = color_named(text);
+                if (!code)
+                    throw BadInput(option, "",
+                                   "must be none or a colour such as black or #204060, got \"" +
+                                       printable(text) + '"' + suggestion(text, color_names()));
+                return {core::color_from_srgb(*code)};
+            }};
 }
 
 Values<core::Vec3f> upward_directions() {
@@ -205,6 +237,14 @@ Values<ColorRange> color_ranges() {
     return {"A B", "", range_of};
 }
 
+Values<CutPlane> cuts() {
+    return {"PLANE", "", cut_plane_of};
+}
+
+Values<std::pair<double, double>> slabs() {
+    return {"A B", "", depths_of};
+}
+
 Values<std::array<int, 3>> repetitions() {
     return {"AxBxC", "", repeat_of};
 }
@@ -233,6 +273,8 @@ Drawing DrawingArguments::drawing() const {
     drawing.scale_radii = scale.value_or("");
     drawing.repeat = repeat.value_or(drawing.repeat);
     drawing.show_cell = cell.is_given();
+    drawing.finish = look.value_or(drawing.finish);
+    drawing.cuts = *cut;
     drawing.show_axes = axes.is_given();
     drawing.hydrogen_bonds = hydrogen_bonds.is_given();
     drawing.boundary = boundary.value();
@@ -244,10 +286,19 @@ Drawing DrawingArguments::drawing() const {
 LoadOptions SceneArguments::load_options() const {
     LoadOptions options;
     options.drawing = drawing.drawing();
-    options.drawing.view = view.view.value();
+    if (view.view && view.view->name != best_view_name) options.drawing.view = view.view.value();
     options.drawing.perspective = view.perspective.is_given();
     options.atom_style = drawing.atom_style.value_or("");
     options.option_for_atoms = drawing.first_given();
+    if (view.background && view.background->color) {
+        options.drawing.background = *view.background->color;
+        if (options.option_for_atoms.empty()) options.option_for_atoms = view.background.name();
+    }
+    if (drawing.slab) {
+        if (view.camera || (view.view && view.view->name == best_view_name))
+            throw BadInput("--slab", "", "goes without --camera and --view best");
+        options.drawing.slab = drawing.slab.value();
+    }
     options.parameters = parameters.values().front();
     return options;
 }

@@ -113,6 +113,7 @@ struct ParameterArguments : OptionTable {
 /// Changes to the view that a scene requests.
 struct ViewChange {
     std::optional<core::NamedView> way; ///< for a camera that finds its place
+    std::optional<core::Camera> camera; ///< in place of the scene's
     std::optional<core::Vec3f> up;
     std::optional<float> zoom, depth_cue;
     std::optional<core::Projection> projection;
@@ -132,8 +133,16 @@ core::View view_of(const core::Scene& scene);
 core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settings& settings,
                  const std::optional<core::Frame>& frame = std::nullopt);
 
-/// The name of a view, or a direction that the camera looks in, such as "1,-1,-0.5".
+/// The name of a view, or a direction that the camera looks in, such as "1,-1,-0.5". The view
+/// "best" has no direction yet.
 Values<core::NamedView> views();
+/// A camera in JSON, as `view` prints it.
+Values<core::Camera> cameras();
+/// A colour, or nothing for "none".
+struct Background {
+    std::optional<core::Color> color;
+};
+Values<Background> backgrounds();
 Values<core::Vec3f> upward_directions();
 
 struct ViewArguments : OptionTable {
@@ -142,7 +151,15 @@ struct ViewArguments : OptionTable {
     Option<core::NamedView> view = {
         *this, "--view", views().otherwise(as_in_file, "front; crystals obliquely").recorded(),
         "Frame all bounded shapes from front, back, left, right, top, bottom, x, y, z or "
-        "corner, or looking in a direction such as 1,-1,-0.5."};
+        "corner, or looking in a direction such as 1,-1,-0.5. best has the largest extent across "
+        "and the least in depth."};
+    Option<core::Camera> camera = {*this, "--camera",
+                                   cameras().recorded().without({"--view", "--up"}),
+                                   "Camera in JSON, as the key c of view prints it."};
+    Option<Background> background = {
+        *this, "--background", backgrounds().recorded().otherwise("white for atoms"),
+        "Background of atoms: a colour, such as black or #204060, or none. none goes with any "
+        "scene, and is the same as --alpha."};
     Option<core::Vec3f> up = {
         *this, "--up", upward_directions().otherwise("as in the view or the scene").recorded(),
         "Upward direction of the image: x, y, z, -x, -y or -z, or a direction such as "
@@ -162,7 +179,8 @@ struct ViewArguments : OptionTable {
         std::optional<core::Projection> projection;
         if (orthographic) projection = core::Projection::orthographic;
         if (perspective) projection = core::Projection::perspective;
-        return {view.value(), up.value(), zoom.value(), depth_cue.value(), projection};
+        return {view.value(), camera.value(),    up.value(),
+                zoom.value(), depth_cue.value(), projection};
     }
 };
 
@@ -173,6 +191,8 @@ Values<std::string> size_texts();
 Values<std::string> show_texts();
 Values<std::string> palettes();
 Values<ColorRange> color_ranges();
+Values<CutPlane> cuts();
+Values<std::pair<double, double>> slabs();
 /// Numbers of cells along the edges of the unit cell.
 Values<std::array<int, 3>> repetitions();
 
@@ -244,6 +264,24 @@ struct DrawingArguments : OptionTable {
             .otherwise("the comment after Atoms, otherwise the style that fits the columns")
             .recorded(),
         "Atom style of a LAMMPS data file, such as full or \"hybrid sphere dipole\"."};
+    Option<Finish> look = {
+        *this, "--look",
+        choice<Finish>({{"matte", Finish::matte},
+                        {"glossy", Finish::glossy},
+                        {"flat", Finish::flat},
+                        {"print", Finish::print}})
+            .otherwise("a soft highlight")
+            .recorded(),
+        "Look of surfaces: matte has no highlight, glossy a sharp one, flat has plain colours and "
+        "outlines; print is matte with thin outlines, without depth cue, at 50 dB."};
+    ListOption<CutPlane> cut = {
+        *this, "--cut", cuts().recorded(),
+        "Show only the part on one side of a plane, with closed faces: z<1.5, x>0, or A,B,C,D for "
+        "A x + B y + C z <= D, in angstrom. Several planes leave the part on the sides of all."};
+    Option<std::pair<double, double>> slab = {
+        *this, "--slab", slabs().of_words(2).recorded(),
+        "Show only the part between two depths in angstrom, from the middle of the atoms towards "
+        "the viewer, such as -2 2. It goes with --view, except best."};
     Flag cell = {*this, "--cell", flag().recorded(), "Show the edges of the unit cell."};
     Flag axes = {*this, "--axes", flag().recorded(),
                  "Show the directions of the cell's edges as arrows: a red, b green, c blue."};

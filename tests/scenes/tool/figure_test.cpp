@@ -1,0 +1,134 @@
+#include "tests/scenes/tool/tool_fixture.hpp"
+#include "tests/support/catch.hpp"
+
+#include <nlohmann/json.hpp>
+
+/// Tests of options for figures in print.
+using namespace raylane;
+using namespace raylane::tests;
+
+namespace {
+
+const std::string water = "3\nProperties=species:S:1:pos:R:3:charge:R:1\n"
+                          "O 0 0 0 -0.8\nH 0.96 0 0 0.4\nH -0.24 0.93 0 0.4\n";
+
+class Figures : public ToolFixture {
+  public:
+    Figures() { write("water.xyz", water); }
+
+    Outcome figure(const std::string& name, const Options& options) const {
+        return run(joined({"render", "water.xyz", "-o", name, "--spp", "1"}, options));
+    }
+    scenes::Image drawn(const std::string& name, const Options& options) const {
+        REQUIRE(figure(name, options).code == 0);
+        return scenes::read_image(path() / name);
+    }
+    bool verifies(const std::string& name) const {
+        return run({"verify", name, "water.xyz", "--whole", "-q"}).code == 0;
+    }
+    std::string error(const Options& options) const {
+        const Outcome outcome = figure("error.png", options);
+        CHECK(outcome.code != 0);
+        CHECK(is_one_line(outcome.err));
+        return outcome.err;
+    }
+};
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("a size on paper has the pixels of its resolution") {
+    const Figures fixture;
+    const scenes::Image image = fixture.drawn("a.png", {"--size", "8.5mm", "--dpi", "600"});
+    CHECK(image.width == 201);  // 8.5 / 25.4 * 600 = 200.8
+    CHECK(image.height == 151); // 4:3
+    CHECK(fixture.verifies("a.png"));
+    const scenes::Image inches = fixture.drawn("b.png", {"--size", "0.4x0.25in"});
+    CHECK(inches.width == 120); // at 300 pixels per inch
+    CHECK(inches.height == 75);
+    CHECK(has(content_of(fixture.path() / "b.png"), "pHYs"));
+    CHECK(has(fixture.error({"--size", "8.5furlongs"}), "must be a size on paper"));
+    CHECK(has(fixture.error({"--size", "0.0001mm"}), "must have from 1 to 65535 pixels"));
+}
+
+TEST_CASE("a camera that view prints is the camera of an image") {
+    const Figures fixture;
+    const std::string camera =
+        R"("camera": {"from": [1, 2, 9], "at": [0.5, 0, 0], "up": [0, 1, 0],)"
+        R"( "field_of_view": 20})";
+    const Options size = {"--size", "40x30"};
+    const scenes::Image image = fixture.drawn("a.png", joined(size, {"--camera", camera}));
+    CHECK(fixture.verifies("a.png"));
+    const scenes::Image same =
+        fixture.drawn("b.png", joined(size, {"--camera", camera.substr(camera.find('{'))}));
+    CHECK(image.rgb.is_same(same.rgb));
+    CHECK(!image.rgb.is_same(fixture.drawn("c.png", size).rgb));
+    CHECK(has(fixture.error({"--camera", "{\"from\": 3}"}), "raylane: --camera:"));
+    CHECK(has(fixture.error({"--camera", camera, "--view", "top"}), "goes without"));
+}
+
+TEST_CASE("looks, backgrounds and views are recorded") {
+    const Figures fixture;
+    const Options size = {"--size", "40x30"};
+    const scenes::Image black = fixture.drawn("a.png", joined(size, {"--background", "black"}));
+    CHECK(black.rgb[0] == 0.0F);
+    CHECK(fixture.verifies("a.png"));
+    CHECK(fixture.drawn("b.png", joined(size, {"--background", "none"})).alpha[0] == 0.0F);
+    CHECK(fixture.verifies("b.png"));
+    CHECK(has(fixture.error({"--background", "blac"}), "did you mean \"black\"?"));
+    for (const std::string look : {"matte", "glossy", "flat", "print"}) {
+        const scenes::Image image =
+            fixture.drawn("c.png", joined(size, {"--look", look, "--view", "best"}));
+        CHECK(fixture.verifies("c.png"));
+        CHECK(!image.rgb.is_same(fixture.drawn("d.png", joined(size, {"--view", "best"})).rgb));
+    }
+    const Outcome scene = fixture.render("e.png", {"--background", "black"});
+    CHECK(scene.err == "raylane: --background: goes with a file of atoms, but scene.json is a "
+                       "scene\n");
+}
+
+TEST_CASE("cuts and slabs are recorded") {
+    const Figures fixture;
+    const scenes::Image cut =
+        fixture.drawn("a.png", {"--size", "40x30", "--cut", "z<0.2", "--slab", "-1", "0.1"});
+    CHECK(fixture.verifies("a.png"));
+    CHECK(!cut.rgb.is_same(fixture.drawn("b.png", {"--size", "40x30"}).rgb));
+    CHECK(has(fixture.error({"--slab", "-1:1", "--view", "best"}), "goes without"));
+}
+
+TEST_CASE("annotations in a file leave the image as it is") {
+    const Figures fixture;
+    const Options options = {"--size", "80x60", "--color", "charge"};
+    const scenes::Image plain = fixture.drawn("plain.png", options);
+    const Options annotated =
+        joined(options, {"--legend", "--label", "element O: {name}", "--scale-bar", "auto"});
+    const scenes::Image beside = fixture.drawn(
+        "a.png", joined(annotated, {"--annotations", "a.svg", "--stats", "stats.json"}));
+    CHECK(beside.rgb.is_same(plain.rgb));
+    CHECK(fixture.verifies("a.png"));
+    const std::string svg = content_of(fixture.path() / "a.svg");
+    CHECK(has(svg, "viewBox=\"0 0 80 60\""));
+    CHECK(has(svg, "id=\"legend-charge\""));
+    CHECK(has(svg, "id=\"label-1\""));
+    const auto stats = nlohmann::json::parse(content_of(fixture.path() / "stats.json"));
+    REQUIRE(stats["legend"].size() == 1);
+    CHECK(stats["legend"][0]["property"] == "charge");
+    CHECK(std::abs(stats["legend"][0]["range"][0].get<double>() + 0.8) < 1e-6);
+    CHECK(stats["legend"][0]["colors"].size() == 9);
+    CHECK(has(fixture.error({"--font", "Arial"}), "--font: goes with --legend"));
+    CHECK(has(fixture.error({"--label", "element Fe: x", "--annotations", "b.svg"}),
+              "--label: \"element Fe\" selects none of 3 atoms"));
+    const Outcome outcome = fixture.figure("t%d.png", joined(annotated, {"--turn", "360/2"}));
+    CHECK(has(outcome.err, "goes with a single image"));
+    // Texts on the image need a module, which may be missing.
+    const Outcome over = fixture.figure("over.png", annotated);
+    if (over.code != 0) {
+        CHECK(has(over.err, "libpango1.0-dev"));
+        return;
+    }
+    CHECK(!scenes::read_image(fixture.path() / "over.png").rgb.is_same(plain.rgb));
+    CHECK(fixture.verifies("over.png"));
+}
