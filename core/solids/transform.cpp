@@ -107,6 +107,19 @@ struct Transform::Form {
     }
 };
 
+Turn turn_by_degrees(double degrees) {
+    const double turn = std::remainder(degrees, 360.0);
+    if (std::remainder(turn, 90.0) == 0.0)
+        return {turn == 90.0    ? 1.0
+                : turn == -90.0 ? -1.0
+                                : 0.0,
+                turn == 0.0               ? 1.0
+                : std::abs(turn) == 180.0 ? -1.0
+                                          : 0.0};
+    constexpr double radians = 3.14159265358979323846 / 180.0;
+    return {core::sin(turn * radians), core::cos(turn * radians)};
+}
+
 Transform::Transform() : even_(Dyadic(1.0)) {
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
@@ -122,13 +135,7 @@ Transform Transform::translation(const Vec3d& by) {
 Transform Transform::rotation(const Vec3d& degrees) {
     Transform result;
     for (int axis = 0; axis < 3; ++axis) {
-        const double turn = std::remainder(degrees[axis], 360.0);
-        constexpr double radians = 3.14159265358979323846 / 180.0;
-        double sine = core::sin(turn * radians), cosine = core::cos(turn * radians);
-        if (std::remainder(turn, 90.0) == 0.0) {
-            sine = turn == 90.0 ? 1.0 : turn == -90.0 ? -1.0 : 0.0;
-            cosine = turn == 0.0 ? 1.0 : std::abs(turn) == 180.0 ? -1.0 : 0.0;
-        }
+        const auto [sine, cosine] = turn_by_degrees(degrees[axis]);
         Transform about;
         const int j = (axis + 1) % 3, k = (axis + 2) % 3;
         about.rows_[j][j] = about.rows_[k][k] = cosine;

@@ -8,6 +8,12 @@
 
 namespace raylane::core {
 
+/// The sine and cosine of an angle, rounded to doubles; exact for multiples of 90 degrees.
+struct Turn {
+    double sine, cosine;
+};
+Turn turn_by_degrees(double degrees);
+
 /// An affine map x -> M x + t in exact numbers. Products of maps are exact. Only the numbers of a
 /// transformed shape are rounded, each once.
 class Transform {
