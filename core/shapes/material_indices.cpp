@@ -38,9 +38,56 @@ void MaterialIndices::rearrange(int width, std::size_t count) {
         std::memcpy(other.room_.data(), room_.data(), stored().size());
     else
         for (std::size_t i = 0; i < size_; ++i)
-            other.put(i, (*this)[i]);
+            other.put(i, stored_at(i));
     width_ = width;
     room_ = std::move(other.room_);
+}
+
+void MaterialIndices::push_back_repeated(const MaterialIndices& of_one, std::size_t times) {
+    const std::size_t first = size();
+    if (times == 0 || of_one.size() == 0) return;
+    repeats_.push_back({first, first + times * of_one.size(), size_,
+                        std::make_shared<const MaterialIndices>(of_one)});
+}
+
+const MaterialIndices::Repeat* MaterialIndices::repeat_before(std::size_t i) const {
+    const auto after =
+        std::upper_bound(repeats_.begin(), repeats_.end(), i,
+                         [](std::size_t index, const Repeat& of) { return index < of.first; });
+    return after == repeats_.begin() ? nullptr : &*(after - 1);
+}
+
+MaterialIndex MaterialIndices::at_any(std::size_t i) const {
+    const Repeat* const repeat = repeat_before(i);
+    if (repeat != nullptr && i < repeat->end)
+        return (*repeat->of_one)[(i - repeat->first) % repeat->of_one->size()];
+    return stored_at(repeat == nullptr ? i : i - repeat->end + repeat->stored);
+}
+
+std::size_t MaterialIndices::stored_index(std::size_t i) const {
+    const Repeat* const repeat = repeats_.empty() ? nullptr : repeat_before(i);
+    if (repeat == nullptr) return i;
+    return i < repeat->end ? no_index : i - repeat->end + repeat->stored;
+}
+
+MaterialIndices MaterialIndices::renumbered(std::span<const MaterialIndex> new_index) const {
+    MaterialIndices result;
+    result.reserve(size_);
+    for (std::size_t i = 0; i < size_; ++i)
+        result.push_back(new_index[stored_at(i)]);
+    for (Repeat repeat : repeats_) {
+        repeat.of_one =
+            std::make_shared<const MaterialIndices>(repeat.of_one->renumbered(new_index));
+        result.repeats_.push_back(std::move(repeat));
+    }
+    return result;
+}
+
+MaterialIndices MaterialIndices::all_stored() const {
+    MaterialIndices all;
+    for (std::size_t i = 0; i < size(); ++i)
+        all.push_back((*this)[i]);
+    return all;
 }
 
 void MaterialIndices::reserve(std::size_t size) {
