@@ -42,7 +42,7 @@ BeamSearch::BeamSearch(const Scene& scene) : scene_(scene) {
     std::size_t blocks = 0;
     for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
         if constexpr (is_bounded<Shape>) {
-            blocks += table.blocks().size();
+            blocks += table.blocks().size() + table.copied_blocks();
         } else {
             for (std::uint32_t index = 0; index < table.blocks().size(); ++index)
                 for_each_in_block(table, index, [&](Place place, ShapeId id) {
@@ -71,27 +71,68 @@ const BlockBounds& BeamSearch::bounds_of(const Child& block) {
 
 bool BeamSearch::collect(const Beam& beam, std::vector<BeamCandidate>& candidates) {
     candidates = unbounded_;
-    const BigArray<WideNode>& nodes = scene_.hierarchy().nodes;
-    if (nodes.empty()) return true;
     const BeamSlabs slabs(beam);
-    float near[block_size];
-    pending_.assign(1, Child::node(0));
-    while (!pending_.empty()) {
-        const Child child = pending_.back();
-        pending_.pop_back();
-        if (!child.is_block()) {
-            const WideNode& node = nodes[child.index()];
-            slabs.near(node, near);
-            for (int entry = 0; entry < block_size; ++entry)
-                if (near[entry] < far && !node.children[entry].empty())
-                    pending_.push_back(node.children[entry]);
-            continue;
-        }
+    const auto add_block = [&](const Child& child) {
         const BlockBounds& bounds = bounds_of(child);
+        float near[block_size];
         slabs.near(bounds, near);
         for (int lane = 0; lane < block_size; ++lane)
             if (near[lane] < far) add(child, lane, bounds, near[lane], candidates);
-        if (candidates.size() > max_candidates) return false;
+        return candidates.size() <= max_candidates;
+    };
+    if (!for_each_block(scene_.hierarchy(), slabs, add_block)) return false;
+    return scene_.copies() == nullptr || for_each_copied_block(slabs, add_block);
+}
+
+/// Calls visit(block) for the blocks of a hierarchy that a beam may meet, until it returns false.
+/// Returns false in that case.
+template <class Visit>
+bool BeamSearch::for_each_block(const Hierarchy& hierarchy, const BeamSlabs& slabs,
+                                const Visit& visit) {
+    float near[block_size];
+    pending_.clear();
+    if (!hierarchy.nodes.empty()) pending_.push_back(Child::node(0));
+    while (!pending_.empty()) {
+        const Child child = pending_.back();
+        pending_.pop_back();
+        if (child.is_block()) {
+            if (!visit(child)) return false;
+            continue;
+        }
+        const WideNode& node = hierarchy.nodes[child.index()];
+        slabs.near(node, near);
+        for (int entry = 0; entry < block_size; ++entry)
+            if (near[entry] < far && !node.children[entry].empty())
+                pending_.push_back(node.children[entry]);
+    }
+    return true;
+}
+
+/// Same for the blocks of all copies that a beam may meet.
+template <class Visit>
+bool BeamSearch::for_each_copied_block(const BeamSlabs& slabs, const Visit& visit) {
+    const Copies& copies = *scene_.copies();
+    const auto visit_all_of = [&](const Copies::Copy& copy) {
+        for (int k = 0; k < kind_count; ++k)
+            for (std::uint32_t i = 0; i < copy.set.block_count[static_cast<std::size_t>(k)]; ++i) {
+                const auto kind = static_cast<Kind>(k);
+                const std::uint32_t block = Copies::block_of(copy, kind, i);
+                copies.make(kind, block);
+                if (!visit(Child::block(kind, block))) return false;
+            }
+        return true;
+    };
+    std::vector<std::uint32_t> nodes{0};
+    while (!nodes.empty()) {
+        const Copies::Node& node = copies.nodes()[nodes.back()];
+        nodes.pop_back();
+        for (int i = 0; i < 4 && node.children[i] != Copies::Node::none; ++i) {
+            if (!(slabs.near(node.bounds(i)) < far)) continue;
+            if ((node.children[i] & Copies::Node::copy_bit) == 0)
+                nodes.push_back(node.children[i]);
+            else if (!visit_all_of(copies.copy_at(node.children[i] & ~Copies::Node::copy_bit)))
+                return false;
+        }
     }
     return true;
 }

@@ -40,6 +40,11 @@ class BeamSearch {
         Crossing<Affine> crossing{}; ///< if partly: not behind any ray's first crossing
     };
 
+    template <class Visit>
+    bool for_each_block(const Hierarchy& hierarchy, const BeamSlabs& slabs, const Visit& visit);
+    template <class Visit>
+    bool for_each_copied_block(const BeamSlabs& slabs, const Visit& visit);
+
     Met meet(const BeamCandidate& candidate, const Beam& beam, const BeamCone& cone) const;
 
     /// Returns the bounds of a block's shapes. Valid until the next call.

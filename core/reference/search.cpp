@@ -57,6 +57,7 @@ Real entry_t(const WideNode& node, int i, const Ray<Real>& ray, Real t_limit) {
 template <class Real>
 Searcher<Real>::Searcher(const Scene& scene, Search search, Precision precision)
     : scene_(scene), search_(search), precision_(precision), solid_surfaces_(scene) {
+    if (scene.copies() != nullptr) copy_walk_.emplace(*scene.copies());
     pending_.reserve(512);
     candidates_.reserve(64);
     sharp_.reserve(64);
@@ -249,10 +250,35 @@ void Searcher<Real>::for_each_candidate(const Ray<Real>& ray, const Most& t_limi
     };
     if (search_ == Search::every_shape) {
         for_each_table(scene_.shapes(), visit_all);
+        if (more) walk_copies(ray, t_limit, visit);
         return;
     }
     for_each_unbounded_table(scene_.shapes(), visit_all);
-    if (more && !scene_.hierarchy().nodes.empty()) walk(ray, t_limit, visit);
+    const auto visit_next = [&](Kind kind, std::uint32_t block) {
+        return more = visit(kind, block);
+    };
+    if (more && !scene_.hierarchy().nodes.empty()) walk(ray, t_limit, visit_next);
+    if (more) walk_copies(ray, t_limit, visit);
+}
+
+/// Visits all blocks of the copies whose spheres the ray enters.
+template <class Real>
+template <class Most, class Visit>
+void Searcher<Real>::walk_copies(const Ray<Real>& ray, const Most& t_limit, const Visit& visit) {
+    if (!copy_walk_) return;
+    const Copies& copies = *scene_.copies();
+    copy_walk_->start({convert<double>(ray.origin), convert<double>(ray.direction)});
+    std::uint32_t number = 0;
+    while (copy_walk_->next(static_cast<double>(allowed(t_limit())), number)) {
+        const Copies::Copy copy = copies.copy_at(number);
+        for (int k = 0; k < kind_count; ++k)
+            for (std::uint32_t i = 0; i < copy.set.block_count[static_cast<std::size_t>(k)]; ++i) {
+                const auto kind = static_cast<Kind>(k);
+                const std::uint32_t block = Copies::block_of(copy, kind, i);
+                copies.make(kind, block);
+                if (!visit(kind, block)) return;
+            }
+    }
 }
 
 /// Visits the blocks through the hierarchy, nearest first.

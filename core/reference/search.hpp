@@ -3,9 +3,11 @@
 #include "core/reference/counters.hpp"
 #include "core/reference/rounding.hpp"
 #include "core/reference/solid_surfaces.hpp"
+#include "core/scene/copy_walk.hpp"
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -93,6 +95,8 @@ class Searcher {
     void for_each_candidate(const Ray<Real>& ray, const Most& t_limit, const Visit& visit);
     template <class Most, class Visit>
     void walk(const Ray<Real>& ray, const Most& t_limit, const Visit& visit);
+    template <class Most, class Visit>
+    void walk_copies(const Ray<Real>& ray, const Most& t_limit, const Visit& visit);
     void cross_block(Kind kind, std::uint32_t index, const Ray<Real>& ray,
                      const OriginSurfaces<Real>& origins,
                      FunctionRef<void(const Hit<Real>&)> visit);
@@ -105,6 +109,7 @@ class Searcher {
     std::vector<Contact<Real>> contacts_;
     std::vector<SharpHit> sharp_; // the candidates, or the hits to sort
     SolidSurfaces solid_surfaces_;
+    std::optional<CopyWalk> copy_walk_;
 };
 
 extern template class Searcher<float>;

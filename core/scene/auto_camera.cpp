@@ -38,10 +38,8 @@ void include_shape(const Shape& shape, Frame& frame) {
 /// Returns the middle of all bounded shapes.
 Vec3d center_of(const Scene& scene) {
     Bounds all;
-    for_each_bounded_table(scene.shapes(), [&](const auto& table) {
-        for_each_shape(table, [&](const auto& shape, ShapeId id) {
-            if (!scene.solids().has(id)) all.include(bounds_of(shape));
-        });
+    for_each_bounded_shape(scene, [&](const auto& shape, ShapeId id) {
+        if (!scene.solids().has(id)) all.include(bounds_of(shape));
     });
     for (Solids::Index i = 0; i < scene.solids().nodes().size(); i = scene.solids().node(i).end)
         if (is_finite(scene.solids().bounds(i))) all.include(scene.solids().bounds(i));
@@ -107,10 +105,8 @@ void include_shapes(const Scene& scene, Frame& frame) {
         else
             frame.include(solids.bounds(root));
     }
-    for_each_bounded_table(scene.shapes(), [&](const auto& table) {
-        for_each_shape(table, [&](const auto& shape, ShapeId id) {
-            if (!solids.has(id) || is_whole[solids.part_of(id)] != 0) include_shape(shape, frame);
-        });
+    for_each_bounded_shape(scene, [&](const auto& shape, ShapeId id) {
+        if (!solids.has(id) || is_whole[solids.part_of(id)] != 0) include_shape(shape, frame);
     });
 }
 

@@ -31,15 +31,14 @@ std::array<std::pair<std::string_view, bool>, 19> Features::named() const {
 Features features_of(const Scene& scene, const Settings& settings) {
     Features features;
     for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
-        if (table.size() == 0) return;
+        if (table.size() == 0 && table.copied_blocks() == 0) return;
         (is_bounded<Shape> ? features.bounded_shapes : features.planes) = true;
         features.doubles |= table.has_doubles();
         features.smooth_normals |= has_shading_normals<Shape>;
     });
 
     std::vector<bool> used(scene.materials().size());
-    for (ShapeId id = 0; id < scene.shape_count(); ++id)
-        used[scene.material_index_of(id)] = true;
+    scene.material_indices().for_each_material([&](MaterialIndex of) { used[of] = true; });
     const bool traces_further = settings.max_depth > 0;
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;

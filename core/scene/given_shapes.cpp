@@ -8,6 +8,16 @@ namespace raylane::core {
 
 PartShape given_shape(const Scene& scene, ShapeId id) {
     const Solids& solids = scene.solids();
+    if (scene.material_indices().stored_index(id) == MaterialIndices::no_index) {
+        const Copies::Copy copy = scene.copies()->copy_with(id);
+        const Placer placer(scene.copies()->placement(copy.set.first_copy + copy.number));
+        return std::visit(
+            [&](const auto& shape) -> PartShape {
+                if constexpr (requires { placer(shape); }) return placer(shape);
+                return shape;
+            },
+            given_shape(*copy.set.prototype, id - Copies::first_id_of(copy)));
+    }
     if (solids.has(id)) return shape_of_part(scene, solids.node(solids.part_of(id)));
     PartShape shape;
     for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {

@@ -22,7 +22,12 @@ struct GivenShapes {
 };
 
 template <class Shape>
-GivenShapes<Shape> given_shapes(const Scene& scene) {
+GivenShapes<Shape> given_shapes(const Scene& scene);
+
+/// Returns those that are not in copies.
+template <class Shape>
+GivenShapes<Shape> given_beside_copies(const Scene& scene) {
+    const MaterialIndices& materials = scene.material_indices();
     const auto& table = std::get<Table<Shape>>(scene.shapes());
     const auto& merged = scene.merged()[static_cast<std::size_t>(kind_of<Shape>)];
     const auto for_each_stored = [&](const auto& visit) {
@@ -31,22 +36,52 @@ GivenShapes<Shape> given_shapes(const Scene& scene) {
                 if (!scene.solids().has(id)) visit(place, id);
             });
     };
-    std::vector<std::uint32_t> row_of(scene.shape_count()); // first: 1 if there is one
-    for_each_stored([&](Place, ShapeId id) { row_of[id] = 1; });
+    std::vector<ShapeId> row_of(materials.stored_count(), no_shape); // first: the id
+    const auto row = [&](ShapeId id) -> ShapeId& { return row_of[materials.stored_index(id)]; };
+    for_each_stored([&](Place, ShapeId id) { row(id) = id; });
     for (const MergedShape& shape : merged)
-        row_of[shape.id] = 1;
+        row(shape.id) = shape.id;
 
     GivenShapes<Shape> given;
-    for (std::size_t id = 0; id < row_of.size(); ++id)
-        if (row_of[id] != 0) {
-            row_of[id] = static_cast<std::uint32_t>(given.ids.size());
-            given.ids.push_back(static_cast<ShapeId>(id));
+    for (ShapeId& of : row_of)
+        if (of != no_shape) {
+            given.ids.push_back(of);
+            of = static_cast<ShapeId>(given.ids.size() - 1);
         }
+    const auto shape_of = [&](ShapeId id) -> InDouble<Shape>& { return given.shapes[row(id)]; };
     given.shapes.resize(given.ids.size());
-    for_each_stored([&](Place place, ShapeId id) { given.shapes[row_of[id]] = table.get(place); });
+    for_each_stored([&](Place place, ShapeId id) { shape_of(id) = table.get(place); });
     for (const MergedShape& shape : merged)
-        given.shapes[row_of[shape.id]] = given.shapes[row_of[shape.first]];
+        shape_of(shape.id) = shape_of(shape.first);
     return given;
+}
+
+template <class Shape>
+GivenShapes<Shape> given_shapes(const Scene& scene) {
+    GivenShapes<Shape> beside = given_beside_copies<Shape>(scene), all;
+    if (scene.copies() == nullptr) return beside;
+    std::size_t next = 0; // of those beside copies
+    const auto add_until = [&](std::size_t end) {
+        for (; next < beside.ids.size() && beside.ids[next] < end; ++next) {
+            all.ids.push_back(beside.ids[next]);
+            all.shapes.push_back(beside.shapes[next]);
+        }
+    };
+    for (const Copies::Set& set : scene.copies()->sets()) {
+        const GivenShapes<Shape> of_one = given_shapes<Shape>(*set.prototype);
+        add_until(set.first_id);
+        for (std::uint32_t copy = 0; copy < set.copy_count; ++copy) {
+            const Placer placer(scene.copies()->placement(set.first_copy + copy));
+            const ShapeId first = Copies::first_id_of({set, copy});
+            for (std::size_t i = 0; i < of_one.ids.size(); ++i)
+                if constexpr (requires { placer(of_one.shapes[i]); }) {
+                    all.ids.push_back(first + of_one.ids[i]);
+                    all.shapes.push_back(placer(of_one.shapes[i]));
+                }
+        }
+    }
+    add_until(scene.shape_count());
+    return all;
 }
 
 } // namespace raylane::core

@@ -8,6 +8,8 @@
 #include "core/solids/solid.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace raylane::core {
 
@@ -47,7 +49,8 @@ void Scene::find_transmissive() {
 }
 
 std::size_t Scene::bytes() const {
-    std::size_t bytes = hierarchy_.bytes() + solids_.bytes() + material_of_.bytes() +
+    std::size_t bytes = (copies_ != nullptr ? copies_->bytes() : 0) + hierarchy_.bytes() +
+                        solids_.bytes() + material_of_.bytes() +
                         polygons_.capacity() * sizeof(IdRange) +
                         materials_.capacity() * sizeof(Material);
     for (const std::vector<MergedShape>& merged : merged_)
@@ -102,6 +105,9 @@ void SceneBuilder::add_light(const Light& light) {
 }
 
 void SceneBuilder::renumber_materials(std::span<const MaterialIndex> new_index) {
+    for (KeptCopies& copies : kept_)
+        for (Solid& member : copies.members)
+            member.material = new_index[member.material];
     std::vector<Material> renumbered;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < new_index.size(); ++i) {
@@ -112,11 +118,7 @@ void SceneBuilder::renumber_materials(std::span<const MaterialIndex> new_index) 
     }
     scene_.materials_ = std::move(renumbered);
     scene_.material_names_ = std::move(names);
-    MaterialIndices material_of;
-    material_of.reserve(shape_count());
-    for (std::size_t id = 0; id < shape_count(); ++id)
-        material_of.push_back(new_index[scene_.material_of_[id]]);
-    scene_.material_of_ = std::move(material_of);
+    scene_.material_of_ = scene_.material_of_.renumbered(new_index);
     solids_.renumber_materials(new_index);
 }
 
@@ -204,6 +206,7 @@ ShapeId SceneBuilder::add_solid(const Solid& solid, MaterialIndex material) {
     if (material != no_material) require_material(material);
     check_solid(solid, material != no_material, "");
     require_room(count_parts(solid));
+    if (!kept_.empty()) give_up_copies();
     const auto first = static_cast<ShapeId>(shape_count());
     try {
         solids_.add(solid, material, [&](MaterialIndex of_part) {
@@ -244,6 +247,112 @@ ShapeId SceneBuilder::add_group(std::span<const Solid> members) {
     for (const Solid& member : members)
         add_member(member);
     return first;
+}
+
+namespace {
+
+/// Returns true for numbers for which the errors of maps into a copy's space are far below those of
+/// floats.
+bool is_ordinary(const Vec3d& point) {
+    return std::abs(point.x) <= 0x1p40 && std::abs(point.y) <= 0x1p40 &&
+           std::abs(point.z) <= 0x1p40;
+}
+
+bool can_copy(const PartShape& shape) {
+    return can_place(shape) && std::visit(
+                                   []<class Shape>(const Shape& of) {
+                                       if constexpr (is_bounded<InFloat<Shape>>) {
+                                           const Bounds bounds = bounds_of(of);
+                                           return is_ordinary(convert<double>(bounds.lower)) &&
+                                                  is_ordinary(convert<double>(bounds.upper));
+                                       } else {
+                                           return false;
+                                       }
+                                   },
+                                   shape);
+}
+
+} // namespace
+
+bool SceneBuilder::can_keep(std::span<const Solid> members,
+                            std::span<const Placement> placements) const {
+    const std::size_t count = placements.size() * members.size();
+    if (count == 0 || count < keep_from || solids_.any()) return false;
+    return std::all_of(members.begin(), members.end(),
+                       [&](const Solid& member) {
+                           return member.made == Made::of_shape && can_copy(member.shape) &&
+                                  !scene_.materials_[member.material].transmits();
+                       }) &&
+           std::all_of(placements.begin(), placements.end(), [](const Placement& placement) {
+               return placement.scale >= 0x1p-20 && placement.scale <= 0x1p20 &&
+                      is_ordinary(placement.translate);
+           });
+}
+
+ShapeId SceneBuilder::add_copies(std::span<const Solid> members,
+                                 std::vector<Placement> placements) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        check_object(i, [&] { check_member(members[i]); });
+        count += count_parts(members[i]);
+    }
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+        try {
+            validate(placements[i]);
+        } catch (const InvalidValue& invalid) {
+            throw InvalidValue("placements/" + std::to_string(i) + "/" + invalid.field,
+                               invalid.expectation);
+        }
+    }
+    require_room(count * placements.size());
+    const auto first = static_cast<ShapeId>(shape_count());
+    if (!can_keep(members, placements)) {
+        for (const Placement& placement : placements) {
+            const Transform transform = transform_of(placement);
+            for (const Solid& member : members)
+                add_member(transformed_member(member, transform));
+        }
+        return first;
+    }
+    MaterialIndices of_one;
+    for (const Solid& member : members)
+        of_one.push_back(member.material);
+    scene_.material_of_.push_back_repeated(of_one, placements.size());
+    kept_.push_back({{members.begin(), members.end()}, std::move(placements), first});
+    return first;
+}
+
+void SceneBuilder::give_up_copies() {
+    scene_.material_of_ = scene_.material_of_.all_stored();
+    for (const KeptCopies& copies : kept_) {
+        ShapeId id = copies.first_id;
+        for (const Placement& placement : copies.placements) {
+            const Transform transform = transform_of(placement);
+            for (const Solid& member : copies.members)
+                std::visit(
+                    [&]<class Shape>(const Shape& shape) {
+                        std::get<ShapeList<InFloat<Shape>>>(lists_).add(shape, id++);
+                    },
+                    transform(member).shape);
+        }
+    }
+    kept_.clear();
+}
+
+void SceneBuilder::build_copies() {
+    std::vector<Copies::Group> groups;
+    for (KeptCopies& copies : kept_) {
+        SceneBuilder builder;
+        builder.scene_.materials_ = scene_.materials_;
+        builder.wants_light = false;
+        builder.merge_duplicates = merge_duplicates;
+        builder.pack_from = std::numeric_limits<std::size_t>::max();
+        for (const Solid& member : copies.members)
+            builder.add_member(member);
+        groups.push_back({std::make_shared<const Scene>(std::move(builder).build()),
+                          std::move(copies.placements), copies.first_id});
+    }
+    scene_.copies_ = std::make_shared<const Copies>(std::move(groups), scene_.shapes_);
 }
 
 void SceneBuilder::reserve(std::size_t count) {
@@ -291,7 +400,10 @@ void SceneBuilder::build_shapes() {
     }
     lists_ = {};
     scene_.material_of_.shrink_to_fit();
-    pack_spheres(std::get<Table<Sphere>>(scene_.shapes_), shape_count(), pack_from, threads);
+    if (!kept_.empty())
+        build_copies();
+    else
+        pack_spheres(std::get<Table<Sphere>>(scene_.shapes_), shape_count(), pack_from, threads);
     if (solids_.any()) scene_.solids_ = solids_.finish(scene_.shapes_);
 }
 
@@ -375,6 +487,8 @@ InvalidValue Scene::light_on(std::size_t light, const std::string& shape) {
 
 template <class Number>
 Scene Scene::with_positions(std::span<const Number> coordinates, Workers& workers) const {
+    if (copies_ != nullptr)
+        throw InvalidValue("positions", "must be of a scene without kept copies of a group");
     Scene scene = *this;
     move_spheres(coordinates,
                  {scene.shapes_, scene.hierarchy_,

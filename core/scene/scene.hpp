@@ -4,6 +4,7 @@
 #include "core/hierarchy/packing.hpp"
 #include "core/scene/auto_camera.hpp"
 #include "core/scene/built_shapes.hpp"
+#include "core/scene/copies.hpp"
 #include "core/scene/material.hpp"
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/invalid_value.hpp"
@@ -13,6 +14,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,8 +41,16 @@ struct TransmissiveShapes {
 class Scene {
   public:
     /// Returns the shapes. If equal shapes have one material, only the first of them is stored.
+    /// The tables also return shapes of copies, by place, once their blocks are made.
     const Tables& shapes() const { return shapes_; }
+    /// Returns the number of shapes, including those of copies.
     std::size_t shape_count() const { return material_of_.size(); }
+    /// Returns the copies of groups that are kept as such; null if there are none.
+    const Copies* copies() const { return copies_.get(); }
+    /// Makes a block of a table that belongs to a copy; see Copies.
+    void make_block(Kind kind, std::uint32_t block) const {
+        if (copies_ != nullptr) copies_->make(kind, block);
+    }
     const Hierarchy& hierarchy() const { return hierarchy_; }
     const std::vector<Material>& materials() const { return materials_; }
     const Material& material_of(ShapeId id) const { return materials_[material_of_[id]]; }
@@ -133,7 +143,26 @@ class Scene {
     std::vector<double> wavelengths_;
     AutoCamera auto_camera_;
     std::size_t own_light_count_ = 0;
+    std::shared_ptr<const Copies> copies_;
 };
+
+/// Calls visit(shape, id) for each bounded shape, with those of copies.
+template <class Visit>
+void for_each_bounded_shape(const Scene& scene, const Visit& visit) {
+    for_each_bounded_table(scene.shapes(),
+                           [&](const auto& table) { for_each_shape(table, visit); });
+    if (scene.copies() == nullptr) return;
+    for (const Copies::Set& set : scene.copies()->sets())
+        for (std::uint32_t i = 0; i < set.copy_count; ++i) {
+            const Placer placer(scene.copies()->placement(set.first_copy + i));
+            const ShapeId first = Copies::first_id_of({set, i});
+            for_each_bounded_table(set.prototype->shapes(), [&](const auto& table) {
+                for_each_shape(table, [&](const auto& shape, ShapeId id) {
+                    if constexpr (requires { placer(shape); }) visit(placer(shape), first + id);
+                });
+            });
+        }
+}
 
 /// Collects a scene, in any order, and checks each value when it is added. All functions throw
 /// InvalidValue, whose field is relative to their arguments, and then leave the builder unchanged.
@@ -153,6 +182,7 @@ class SceneBuilder {
     /// camera sees, and calls this with the light's index. By default build() refuses such lights.
     std::function<void(std::size_t)> on_light_moved;
     std::size_t pack_from = packed_from; ///< spheres from which they are packed
+    std::size_t keep_from = kept_from;   ///< shapes of copies from which these are kept as copies
     Workers* workers = nullptr; ///< threads for the hierarchy; default: the caller's thread
 
     /// Adds a material and returns the index by which shapes refer to it.
@@ -194,6 +224,13 @@ class SceneBuilder {
     /// with "objects/2".
     ShapeId add_group(std::span<const Solid> members);
 
+    /// Adds copies of a group, with the shapes and ids that add_group() would give to each in turn.
+    /// Returns the first id. Copies are kept as such (see Copies) if they have many shapes, if all
+    /// members are spheres and cylinders that let no light pass, and if the scene has no solids.
+    /// Other copies become shapes. Fields of errors are those of add_group(), and
+    /// "placements/2/translate/0", ...
+    ShapeId add_copies(std::span<const Solid> members, std::vector<Placement> placements);
+
     /// Reserves memory for `count` more shapes, so that adding them copies nothing.
     void reserve(std::size_t count);
 
@@ -222,9 +259,21 @@ class SceneBuilder {
     void check_solid(const Solid& solid, bool has_material, const std::string& place) const;
     void check_member(const Solid& member) const;
 
+    /// Copies that may be kept.
+    struct KeptCopies {
+        std::vector<Solid> members; // shapes
+        std::vector<Placement> placements;
+        ShapeId first_id;
+    };
+    bool can_keep(std::span<const Solid> members, std::span<const Placement> placements) const;
+    /// Turns all copies so far into shapes.
+    void give_up_copies();
+    void build_copies();
+
     Scene scene_;
     ShapeLists lists_;
     SolidCollector solids_;
+    std::vector<KeptCopies> kept_;
 };
 
 } // namespace raylane::core

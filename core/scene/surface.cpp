@@ -1,5 +1,6 @@
 #include "core/scene/surface.hpp"
 
+#include "core/scene/copy_walk.hpp"
 #include "core/shapes/solve.hpp"
 
 #include <algorithm>
@@ -55,6 +56,26 @@ void find_in_block(const Table<Shape>& table, std::uint32_t index, const Vec3f& 
     });
 }
 
+/// A ray from the point enters the copies whose bounds contain it at t = 0.
+void find_in_copies(const Scene& scene, const Vec3f& point, const Vec3f& eye, Found& lowest) {
+    const Copies* const copies = scene.copies();
+    if (copies == nullptr) return;
+    CopyWalk walk(*copies);
+    walk.start({convert<double>(point), {1.0, 0.0, 0.0}});
+    std::uint32_t number = 0;
+    while (walk.next(0.0, number)) {
+        const Copies::Copy copy = copies->copy_at(number);
+        for_each_bounded_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
+            const auto kind = static_cast<std::size_t>(kind_of<Shape>);
+            for (std::uint32_t i = 0; i < copy.set.block_count[kind]; ++i) {
+                const std::uint32_t block = Copies::block_of(copy, kind_of<Shape>, i);
+                copies->make(kind_of<Shape>, block);
+                find_in_block(table, block, point, eye, lowest);
+            }
+        });
+    }
+}
+
 /// Returns the shape with the lowest id whose surface contains the point.
 Found find(const Scene& scene, const Vec3f& point, const Vec3f& eye) {
     Found lowest;
@@ -81,6 +102,7 @@ Found find(const Scene& scene, const Vec3f& point, const Vec3f& eye) {
             });
         }
     }
+    find_in_copies(scene, point, eye, lowest);
     return lowest;
 }
 

@@ -33,6 +33,31 @@ void free_big(void* memory, std::size_t bytes) noexcept {
     ::operator delete(memory, alignment_of(bytes));
 }
 
+void* reserve_zeros(std::size_t bytes) {
+#if defined(MAP_NORESERVE) && defined(MAP_ANONYMOUS)
+    void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
+                                MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory != MAP_FAILED) {
+#ifdef MADV_NOHUGEPAGE
+        // Elements are written far apart.
+        static_cast<void>(::madvise(memory, bytes, MADV_NOHUGEPAGE));
+#endif
+        return memory;
+    }
+#else
+    static_cast<void>(bytes);
+#endif
+    throw std::bad_alloc();
+}
+
+void free_zeros(void* memory, std::size_t bytes) noexcept {
+#if defined(MAP_NORESERVE) && defined(MAP_ANONYMOUS)
+    static_cast<void>(::munmap(memory, bytes));
+#else
+    static_cast<void>(memory), static_cast<void>(bytes);
+#endif
+}
+
 void forget_rest(void* memory, std::size_t bytes, std::size_t used) noexcept {
 #ifdef MADV_DONTNEED
     // Whole huge pages, which are aligned with the start of such memory.

@@ -15,6 +15,11 @@ void free_big(void* memory, std::size_t bytes) noexcept;
 /// contents of that memory are lost, but it may be written again.
 void forget_rest(void* memory, std::size_t bytes, std::size_t used) noexcept;
 
+/// Reserves memory that is zero until it is written, and that takes no memory until then: small
+/// pages of address space. Throws std::bad_alloc, also where the system cannot do that.
+void* reserve_zeros(std::size_t bytes);
+void free_zeros(void* memory, std::size_t bytes) noexcept;
+
 /// An array of plain data whose size is set once. The constructor leaves the elements
 /// uninitialised, so the code that fills the array is the first to touch its memory, possibly in
 /// many threads. Copies share the elements, which must not be changed once a copy exists. The
@@ -46,6 +51,18 @@ class BigArray {
         return *this;
     }
     ~BigArray() = default;
+
+    /// Returns an array of zeros, which takes memory only where elements are written.
+    static BigArray zeros(std::size_t size) {
+        const std::size_t bytes = size * sizeof(T);
+        if (size == 0) return {};
+        void* const memory = reserve_zeros(bytes);
+        return {static_cast<const T*>(memory), size,
+                std::shared_ptr<const void>(
+                    memory, [bytes](const void* of) { free_zeros(const_cast<void*>(of), bytes); })};
+    }
+    /// Returns the first elements, which this array and the result share.
+    BigArray first(std::size_t size) const { return {data_, size, keeper_}; }
 
     /// Discards all but the first `used` bytes.
     void forget_rest(std::size_t used) { core::forget_rest(data_, bytes(), used); }

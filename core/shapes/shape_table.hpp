@@ -111,12 +111,12 @@ class Table {
             if (is_packed()) return visit(std::as_const(packed_).block(index));
         return visit(blocks_.floats[index]);
     }
-    bool has_doubles() const { return !blocks_.doubles.empty(); }
+    bool has_doubles() const { return blocks_.doubles.data() != nullptr; }
     /// Returns the doubles of each block, or an empty array.
     const BigArray<DoubleBlock<Shape>>& doubles() const { return blocks_.doubles; }
     /// Returns the exact shape.
     InDouble<Shape> get(Place place) const {
-        const std::size_t count = block_count();
+        const std::size_t count = block_count() + copied_;
         if (place.block >= count) [[unlikely]]
             return get(hidden_, {static_cast<std::uint32_t>(place.block - count), place.lane});
         if constexpr (packs)
@@ -153,18 +153,31 @@ class Table {
         blocks_ = std::move(blocks);
     }
 
+    /// Replaces the blocks by the first `count` ones of a larger array. The others are those of
+    /// copies (see Copies), which makes each before anything reads it. They do not count as blocks
+    /// of the table.
+    void extend_blocks(const Blocks<Shape>& blocks, std::size_t count) {
+        copied_ = blocks.floats.size() - count;
+        blocks_.floats = blocks.floats.first(count);
+        blocks_.doubles = blocks.doubles.first(count);
+    }
+    /// Returns the number of blocks of copies behind those of the table.
+    std::size_t copied_blocks() const { return copied_; }
+
     /// Stores shapes that rays must not cross, at positions behind those of the blocks. Shape i of
     /// them is at hidden_place(i).
     void hide(const ShapeList<Shape>& list) { hidden_ = Table(list).blocks_; }
     Place hidden_place(std::size_t i) const {
-        return {static_cast<std::uint32_t>(block_count() + i / block_size),
+        return {static_cast<std::uint32_t>(block_count() + copied_ + i / block_size),
                 static_cast<std::uint8_t>(i % block_size)};
     }
 
   private:
     static InDouble<Shape> get(const Blocks<Shape>& blocks, Place place) {
-        return blocks.doubles.empty() ? to_doubles(blocks.floats[place.block].get(place.lane))
-                                      : blocks.doubles[place.block].get(place.lane);
+        // All blocks may be of copies.
+        return blocks.doubles.data() == nullptr
+                   ? to_doubles(blocks.floats[place.block].get(place.lane))
+                   : blocks.doubles[place.block].get(place.lane);
     }
 
     Blocks<Shape> blocks_;
@@ -172,6 +185,7 @@ class Table {
     std::conditional_t<packs, PackedSpheres, NeverPacked> packed_; // replaces blocks_ unless empty
     Blocks<Shape> hidden_;
     std::size_t size_ = 0;
+    std::size_t copied_ = 0; // blocks
 };
 
 /// One table per kind, in the order of `Kind`.

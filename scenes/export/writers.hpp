@@ -29,34 +29,71 @@ void write_json_without_objects(TextFile& file, const core::Scene& scene);
 void write_nff(TextFile& file, const core::Scene& scene, Differences& differences);
 void write_pov(TextFile& file, const core::Scene& scene, Differences& differences);
 
-/// Calls visit(shape, id) for each shape in the tables outside of constructed solids, and
-/// visit_solid(description, id) for each constructed solid. Goes in the order of ids, which decides
-/// where surfaces coincide.
-template <class Visit, class VisitSolid>
-void for_each_by_id(const core::Scene& scene, const Visit& visit, const VisitSolid& visit_solid) {
+/// Where the shapes of a scene are in its tables, by id.
+class PlacesById {
+  public:
+    explicit PlacesById(const core::Scene& scene)
+        : scene_(scene), listed_(scene.material_indices().stored_count()) {
+        core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
+            for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
+                core::for_each_in_block(table, block, [&](core::Place place, core::ShapeId id) {
+                    listed_[scene.material_indices().stored_index(id)] = {
+                        place, core::kind_of<Shape>, true};
+                });
+        });
+        if (scene.copies() == nullptr) return;
+        for (const core::Copies::Set& set : scene.copies()->sets())
+            of_prototypes_.emplace_back(*set.prototype);
+    }
+
+    /// Calls visit(shape) if the tables have the shape.
+    template <class Visit>
+    void visit(core::ShapeId id, const Visit& visit) const {
+        const std::size_t stored = scene_.material_indices().stored_index(id);
+        if (stored == core::MaterialIndices::no_index) return visit_in_copy(id, visit);
+        const Listed& listed = listed_[stored];
+        if (listed.exists)
+            core::with_table(scene_.shapes(), listed.kind,
+                             [&](const auto& table) { visit(table.get(listed.place)); });
+    }
+
+  private:
+    template <class Visit>
+    void visit_in_copy(core::ShapeId id, const Visit& visit) const {
+        const core::Copies& copies = *scene_.copies();
+        const core::Copies::Copy copy = copies.copy_with(id);
+        const auto set = static_cast<std::size_t>(&copy.set - copies.sets().data());
+        const core::Placer placer(copies.placement(copy.set.first_copy + copy.number));
+        of_prototypes_[set].visit(id - core::Copies::first_id_of(copy), [&](const auto& shape) {
+            if constexpr (requires { placer(shape); }) visit(placer(shape));
+        });
+    }
+
     struct Listed {
         core::Place place;
         core::Kind kind;
         bool exists;
     };
-    std::vector<Listed> shapes(scene.shape_count());
-    core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
-        for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
-            for (std::uint8_t lane = 0; lane < core::block_size; ++lane) {
-                const core::Place place{block, lane};
-                if (const core::ShapeId id = table.id(place); id != core::no_shape)
-                    shapes[id] = {place, core::kind_of<Shape>, true};
-            }
-    });
-    for (core::ShapeId id = 0; id < shapes.size(); ++id)
-        if (scene.solids().has(id)) {
-            if (scene.solids().solid_of(id) == id)
-                visit_solid(
-                    core::description_of(scene, scene.solids().root_of(scene.solids().part_of(id))),
-                    id);
-        } else if (shapes[id].exists)
-            core::with_table(scene.shapes(), shapes[id].kind,
-                             [&](const auto& table) { visit(table.get(shapes[id].place), id); });
+    const core::Scene& scene_;
+    std::vector<Listed> listed_; // without those of copies
+    std::vector<PlacesById> of_prototypes_;
+};
+
+/// Calls visit(shape, id) for each shape in the tables outside of constructed solids, and
+/// visit_solid(description, id) for each constructed solid. Goes in the order of ids, which decides
+/// where surfaces coincide.
+template <class Visit, class VisitSolid>
+void for_each_by_id(const core::Scene& scene, const Visit& visit, const VisitSolid& visit_solid) {
+    const PlacesById places(scene);
+    for (std::size_t i = 0; i < scene.shape_count(); ++i) {
+        const auto id = static_cast<core::ShapeId>(i);
+        if (!scene.solids().has(id))
+            places.visit(id, [&](const auto& shape) { visit(shape, id); });
+        else if (scene.solids().solid_of(id) == id)
+            visit_solid(
+                core::description_of(scene, scene.solids().root_of(scene.solids().part_of(id))),
+                id);
+    }
 }
 
 /// Skips constructed solids and their parts.

@@ -23,11 +23,13 @@ bool is_parallel(const core::Vec3d& normal, const core::Vec3d& direction) {
 
 } // namespace
 
-/// Finds the sphere around the tree. Without a tree, there is little to distinguish, and no ray is
-/// moved from far away.
+/// Finds the sphere around the tree and all copies. Without both, there is little to distinguish,
+/// and no ray is moved from far away.
 Approach::Approach(const SceneData& scene) : scene_(scene) {
-    if (!scene.has_tree()) return;
-    const core::Bounds& bounds = scene.scene().hierarchy().bounds;
+    const core::Copies* const copies = scene.scene().copies();
+    if (!scene.has_tree() && copies == nullptr) return;
+    core::Bounds bounds = scene.scene().hierarchy().bounds;
+    if (copies != nullptr) bounds.include(copies->bounds());
     const core::Vec3d lower = core::convert<double>(bounds.lower);
     const core::Vec3d upper = core::convert<double>(bounds.upper);
     center_ = 0.5 * (lower + upper);

@@ -107,9 +107,7 @@ void CandidateResolver::list(const Paths& paths, const CandidateSearch& search, 
             list.lower[list.count++] = 0.0F;
         }
         TraceCounters traced{};
-        const bool has_room = tracing_.method().refine.list_candidates(
-            scene_.view(), scene_.listed_kinds(), search.rounded(), lane, search.pending(), list,
-            traced);
+        const bool has_room = search.list(lane, list, traced);
         counters += traced;
         take(list, before);
         if (has_room) return;
@@ -162,8 +160,8 @@ void CandidateResolver::add(const Paths& paths, std::size_t lane,
 void CandidateResolver::solve(std::size_t begin) {
     Found found = hits_.found(paths_, begin, count_ - begin);
     found.holds_points = for_points_;
-    tracing_.method().solve_all(scene_.view(), found);
-    tracing_.method().refine.refine(scene_.view(), found);
+    tracing_.method().solve_all(scene_.view_with_copies(), found);
+    tracing_.method().refine.refine(scene_.view_with_copies(), found);
 }
 
 /// Same as first_of() for all listed candidates, which exceed the capacity.
@@ -217,8 +215,8 @@ void CandidateResolver::extend_close() {
     const std::size_t count = close_.size();
     wide_.resize(3 * count);
     const WideCrossings wide = {wide_.data(), wide_.data() + count, wide_.data() + 2 * count};
-    tracing_.method().refine.widen(scene_.view(), hits_.found(paths_, 0, count_), close_.data(),
-                                   count, wide);
+    tracing_.method().refine.widen(scene_.view_with_copies(), hits_.found(paths_, 0, count_),
+                                   close_.data(), count, wide);
     sharp_.clear();
     for (std::size_t k = 0; k < count; ++k)
         sharp_.emplace_back(hit_of(close_[k]), core::DoubleDouble(wide.high[k], wide.low[k]),

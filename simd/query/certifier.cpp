@@ -112,7 +112,7 @@ void Certifier::solve_one(const Paths& paths, std::uint32_t lane, const Hits& hi
 void Certifier::solve(Found found) const {
     found.holds_points = asked_ == Asked::points;
     const MethodKernels& method = tracing_.method();
-    (found.holds_points ? method.solve : method.solve_all)(scene_.view(), found);
+    (found.holds_points ? method.solve : method.solve_all)(scene_.view_with_copies(), found);
 }
 
 /// Breaks ties. The kernels keep one of several crossings at the same t, whichever they meet first,

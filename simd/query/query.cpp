@@ -53,7 +53,7 @@ void Query::occluded(const RayColumns& rays, const double* distance, std::uint8_
     search_.take(rays);
     for (std::size_t lane = 0; lane < rays.count; ++lane)
         first_[lane] = search_.t_limit(lane, distance[lane]);
-    search_.occluded(coherence, {first_, state}, counters);
+    search_.occluded(coherence, {first_, state}, distance, counters);
     for (std::size_t lane = 0; lane < rays.count; ++lane)
         if (first_[lane] < min_length && first_[lane] >= 0.0F) state[lane] = doubtful;
     if (!search_.approach().any()) return;

@@ -166,6 +166,17 @@ SceneData::SceneData(const core::Scene& scene, Transmissive transmissive)
     view_hierarchy();
     find_plain_lanes(transmissive);
     clip_planes_.find(scene_, view_, slots_);
+    if (scene_.copies() != nullptr) view_copies(transmissive);
+}
+
+void SceneData::view_copies(Transmissive transmissive) {
+    for (const core::Copies::Set& set : scene_.copies()->sets())
+        prototypes_.push_back(std::make_unique<const SceneData>(*set.prototype, transmissive));
+    view_with_copies_ = view_;
+    core::for_each_table(scene_.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
+        view_with_copies_.tables[static_cast<int>(core::kind_of<Shape>)].block_count +=
+            static_cast<std::uint32_t>(table.copied_blocks());
+    });
 }
 
 void SceneData::view_surroundings() {
@@ -198,7 +209,7 @@ void SceneData::view_tables() {
                               slots_,
                               reinterpret_cast<const double*>(table.doubles().data()),
                               table.is_packed() ? view_of(*table.packed()) : PackedView{}};
-        slots_ += blocks * core::block_size;
+        slots_ += (blocks + static_cast<std::uint32_t>(table.copied_blocks())) * core::block_size;
         if (table.has_doubles())
             core::for_each_shape(table, [&](const auto& shape, core::ShapeId) {
                 rounding = std::max(rounding, core::change_in_floats(shape));
@@ -211,7 +222,7 @@ void SceneData::view_tables() {
 }
 
 void SceneData::fill_records() {
-    if (slots_ > table_slots) return;
+    if (slots_ > table_slots || scene_.copies() != nullptr) return;
     std::vector<ShapeRecord> records;
     for (std::uint32_t slot = 0; slot < slots_; ++slot)
         records.push_back(find_record(slot));
@@ -226,7 +237,7 @@ void SceneData::view_hierarchy() {
     core::for_each_table(scene_.shapes(), [&](const auto& table) { bytes += table.bytes(); });
     view_.large = bytes > core_cache_bytes();
     view_.small = bytes <= core_cache_bytes() / 16;
-    if (scene_.shape_count() <= few_shapes || nodes.empty()) return;
+    if (scene_.material_indices().stored_count() <= few_shapes || nodes.empty()) return;
     view_.tree_depth = depth_below(nodes, 0);
     orders_ = orders_of(nodes);
     view_.orders = orders_.data();
@@ -324,6 +335,7 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
                     plain |= 1U << lane;
             plain_lanes_.push_back(static_cast<std::uint16_t>(plain));
         }
+        plain_lanes_.resize(plain_lanes_.size() + table.copied_blocks());
     });
     view_.plain_lanes = plain_lanes_.data();
 }
@@ -352,10 +364,25 @@ core::Place SceneData::place_of(std::uint32_t slot) const {
 }
 
 std::vector<std::uint32_t> SceneData::slots_by_id() const {
-    std::vector<std::uint32_t> slots(scene_.shape_count(), no_slot);
-    for (std::uint32_t slot = 0; slot < slots_; ++slot)
-        if (const core::ShapeId id = find_record(slot).id; id != core::no_shape) slots[id] = slot;
+    const core::MaterialIndices& ids = scene_.material_indices();
+    std::vector<std::uint32_t> slots(ids.stored_count(), no_slot);
+    for (const TableView& table : view_.tables)
+        for (std::uint32_t i = 0; i < core::block_size * table.block_count; ++i) {
+            const core::ShapeId id = find_record(table.first_slot + i).id;
+            if (id != core::no_shape) slots[ids.stored_index(id)] = table.first_slot + i;
+        }
     return slots;
+}
+
+std::uint32_t SceneData::slot_in_copy(const core::Copies::Copy& copy, std::uint32_t slot) const {
+    const core::Copies& copies = *scene_.copies();
+    const SceneData& prototype =
+        *prototypes_[static_cast<std::size_t>(&copy.set - copies.sets().data())];
+    const core::Kind kind = prototype.kind_of(slot);
+    core::Place place = prototype.place_of(slot);
+    place.block = core::Copies::block_of(copy, kind, place.block);
+    copies.make(kind, place.block);
+    return slot_of(kind, place);
 }
 
 std::uint32_t SceneData::slot_of(core::Kind kind, core::Place place) const {

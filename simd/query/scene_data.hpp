@@ -8,6 +8,7 @@
 #include "simd/units/trace_kernels.hpp"
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace raylane::simd {
@@ -26,6 +27,13 @@ class SceneData {
 
     const core::Scene& scene() const { return scene_; }
     const SceneView& view() const { return view_; }
+    /// Returns the view with the shapes of copies in its tables, for all that reads shapes by their
+    /// slots. A search finds copies through copies().
+    const SceneView& view_with_copies() const {
+        return prototypes_.empty() ? view_ : view_with_copies_;
+    }
+    /// Returns the data of the prototypes of the scene's copies, one for each of Copies::sets().
+    const std::vector<std::unique_ptr<const SceneData>>& prototypes() const { return prototypes_; }
     /// The scene's materials, followed by an invisible one of opacity 0.
     const std::vector<MaterialView>& materials() const { return materials_; }
     /// Lights without a size.
@@ -48,7 +56,7 @@ class SceneData {
     bool is_large() const { return view_.large; }
     /// Returns true if it costs less to reorder rays than to trace packets of rays that are not
     /// neighbours in both directions.
-    bool best_in_tiles() const { return has_tree() && slots_ >= 8192; }
+    bool best_in_tiles() const { return (has_tree() && slots_ >= 8192) || !prototypes_.empty(); }
     /// Returns true if some crossings are not on a visible surface: those with surfaces that are
     /// visible from one side only, and with parts within solids.
     bool looks_through() const { return one_sided_ || scene_.solids().any(); }
@@ -124,14 +132,18 @@ class SceneData {
     core::ShapeId id_of(std::uint32_t slot) const { return record_of(slot).id; }
     core::Place place_of(std::uint32_t slot) const;
     std::uint32_t slot_of(core::Kind kind, core::Place place) const;
-    /// Returns the slots of all shapes, by id. Duplicates other than the first have no_slot.
+    /// Returns the slots of all shapes but those of copies, in the order of ids. Duplicates other
+    /// than the first have no_slot.
     std::vector<std::uint32_t> slots_by_id() const;
+    /// Returns the slot of a shape of a copy, from that in the prototype, and makes its block.
+    std::uint32_t slot_in_copy(const core::Copies::Copy& copy, std::uint32_t slot) const;
 
   private:
     void view_surroundings();
     void view_tables();
     void fill_records();
     void view_hierarchy();
+    void view_copies(Transmissive transmissive);
     bool may_see_inside(core::Solids::Index solid) const;
     bool is_apart(core::Solids::Index solid) const;
     void find_plain_lanes(Transmissive transmissive);
@@ -144,7 +156,8 @@ class SceneData {
     ShapeRecord find_record(std::uint32_t slot) const;
 
     const core::Scene& scene_;
-    SceneView view_{};
+    SceneView view_{}, view_with_copies_{};
+    std::vector<std::unique_ptr<const SceneData>> prototypes_;
     std::vector<ShapeRecord> records_; // by slot; empty in large scenes
     std::vector<std::uint16_t> plain_lanes_;
     ClipPlanes clip_planes_;

@@ -17,12 +17,18 @@ Workspace workspace_for(const SceneData& scene, Arena& arena, std::size_t capaci
     return workspace;
 }
 
+CandidateSearch::CandidateSearch(const SceneData& scene, const Tracing& tracing)
+    : scene_(scene), tracing_(tracing), approach_(scene) {
+    if (!scene.prototypes().empty()) copies_ = std::make_unique<CopySearch>(scene, tracing);
+}
+
 void CandidateSearch::take_from(Arena& arena, std::size_t capacity) {
     approach_.take_from(arena, capacity);
     arena.take(rounded_.origin, capacity);
     arena.take(rounded_.direction, capacity);
     rounded_.slack = arena.take<float>(capacity);
     workspace_ = workspace_for(scene_, arena, capacity);
+    if (copies_ != nullptr) copies_->take_from(arena);
 }
 
 void CandidateSearch::take(const RayColumns& rays) {
@@ -57,14 +63,29 @@ void CandidateSearch::nearest(const Coherence* coherence, const Candidates& cand
     trace().nearest(scene_.view(), scene_.listed_kinds(), common(coherence), count_, rounded_,
                     candidates, workspace_, traced);
     counters += traced;
+    if (copies_ != nullptr) copies_->nearest(count_, rounded_, candidates, counters);
 }
 
 void CandidateSearch::occluded(const Coherence* coherence, const Occlusions& occlusions,
-                               EngineCounters& counters) {
+                               const double* distance, EngineCounters& counters) {
     TraceCounters traced{};
     trace().occluded(scene_.view(), scene_.listed_kinds(), common(coherence), count_, rounded_,
                      occlusions, workspace_, traced);
     counters += traced;
+    if (copies_ != nullptr)
+        copies_->occluded(count_, rounded_, distance, occlusions.state, counters);
+}
+
+bool CandidateSearch::list(std::size_t lane, CandidateList& list, TraceCounters& counters) const {
+    return tracing_.method().refine.list_candidates(scene_.view(), scene_.listed_kinds(), rounded_,
+                                                    lane, workspace_, list, counters) &&
+           (copies_ == nullptr || copies_->list(rounded_, lane, list, counters));
+}
+
+void CandidateSearch::list_all(const float* t_limit, PairList& list) const {
+    tracing_.method().refine.list_all(scene_.view(), scene_.listed_kinds(), count_, rounded_,
+                                      t_limit, workspace_, list);
+    if (copies_ != nullptr) copies_->list_all(count_, rounded_, t_limit, list);
 }
 
 } // namespace raylane::simd

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "simd/query/approach.hpp"
+#include "simd/query/copy_search.hpp"
 #include "simd/query/engine_counters.hpp"
 #include "simd/query/tracing.hpp"
+
+#include <memory>
 
 namespace raylane::simd {
 
@@ -15,8 +18,7 @@ inline float rounded_up(float value) {
 /// First step of the search for hits: finds shapes that rays may meet by bounds in float.
 class CandidateSearch {
   public:
-    CandidateSearch(const SceneData& scene, const Tracing& tracing)
-        : scene_(scene), tracing_(tracing), approach_(scene) {}
+    CandidateSearch(const SceneData& scene, const Tracing& tracing);
 
     void take_from(Arena& arena, std::size_t capacity);
 
@@ -28,14 +30,19 @@ class CandidateSearch {
                  EngineCounters& counters);
     /// Finds occlusion before distances. Occlusions::t_limit holds those of the rounded rays, as
     /// t_limit() returns them.
-    void occluded(const Coherence* coherence, const Occlusions& occlusions,
+    /// `distance`: the limits before they are rounded.
+    void occluded(const Coherence* coherence, const Occlusions& occlusions, const double* distance,
                   EngineCounters& counters);
+    /// Lists all shapes that a lane's ray may cross before a limit; see
+    /// RefineKernels::list_candidates.
+    bool list(std::size_t lane, CandidateList& list, TraceCounters& counters) const;
+    /// Adds all pairs of rays and shapes; see RefineKernels::list_all.
+    void list_all(const float* t_limit, PairList& list) const;
     float t_limit(std::size_t lane, double distance) const {
         return static_cast<float>(distance - approach_.before(lane));
     }
 
     const RoundedRays& rounded() const { return rounded_; }
-    const Pending& pending() const { return workspace_; }
     const Approach& approach() const { return approach_; }
     Approach& approach() { return approach_; }
 
@@ -52,6 +59,7 @@ class CandidateSearch {
     RoundedRays rounded_{};
     Coherence moved_{};
     Workspace workspace_{};
+    std::unique_ptr<CopySearch> copies_; // null if the scene has none
 };
 
 /// Takes memory of kernels for `capacity` rays.

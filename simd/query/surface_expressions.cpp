@@ -8,7 +8,7 @@
 namespace raylane::simd {
 
 SurfaceExpressions::SurfaceExpressions(const SceneData& scene) : scene_(scene) {
-    if (!scene.looks_through() || scene.has_tree()) return;
+    if (!scene.looks_through() || scene.has_tree() || !scene.prototypes().empty()) return;
     const core::Solids& solids = scene.scene().solids();
     for (const core::Solids::Node& from : solids.nodes()) {
         SurfaceNode node{};

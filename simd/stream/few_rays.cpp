@@ -25,7 +25,8 @@ bool is_usual(double value) {
 
 FewRays::FewRays(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes)
     : scene_(scene), tracing_(tracing), shapes_(shapes),
-      works_(tracing.precision == core::Precision::exact && !scene.looks_through()),
+      works_(tracing.precision == core::Precision::exact && !scene.looks_through() &&
+             scene.prototypes().empty()),
       least_slack_(least_slack(scene.view().rounding)) {
     const Approach approach(scene);
     center_ = approach.center();

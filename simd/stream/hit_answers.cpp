@@ -60,7 +60,7 @@ StreamWorker::Widened StreamWorker::widen(std::span<const std::uint32_t> lanes,
             wide.normal[axis] = widened.normal[axis];
         wide.rounded = widened.rounded;
     }
-    tracing_.method().refine.widen(scene_.view(),
+    tracing_.method().refine.widen(scene_.view_with_copies(),
                                    query_.hits().found(intake_.paths(), 0, intake_.paths().count),
                                    places, widened.lanes.size(), wide);
     return widened;

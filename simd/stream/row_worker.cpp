@@ -113,8 +113,7 @@ bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
             }
             ++list.count;
         }
-        tracing_.method().refine.list_all(scene_.view(), scene_.listed_kinds(), paths.count,
-                                          search_.rounded(), t_limit_, search_.pending(), list);
+        search_.list_all(t_limit_, list);
     } while (list.count > list.room);
 
     // Counts the pairs of each ray, finds where they begin, then moves each pair to its place.
@@ -147,17 +146,18 @@ void RowWorker::cross_pairs(bool with_normals) {
     const double* const* const from = paths.origin;
     const double* const* const along = paths.exact_direction;
     const double* const* const unit = paths.direction;
-    tracing_.method().refine.cross_all(scene_.view(), {slot_.size(),
-                                                       {from[0], from[1], from[2]},
-                                                       {along[0], along[1], along[2]},
-                                                       {unit[0], unit[1], unit[2]},
-                                                       ray_.data(),
-                                                       slot_.data(),
-                                                       high_.data(),
-                                                       low_.data(),
-                                                       error_.data(),
-                                                       bits_.data(),
-                                                       {normal[0], normal[1], normal[2]}});
+    tracing_.method().refine.cross_all(scene_.view_with_copies(),
+                                       {slot_.size(),
+                                        {from[0], from[1], from[2]},
+                                        {along[0], along[1], along[2]},
+                                        {unit[0], unit[1], unit[2]},
+                                        ray_.data(),
+                                        slot_.data(),
+                                        high_.data(),
+                                        low_.data(),
+                                        error_.data(),
+                                        bits_.data(),
+                                        {normal[0], normal[1], normal[2]}});
 }
 
 /// Sorts the crossings of a ray that count into keys_ and returns true if the results of

@@ -67,7 +67,7 @@ template <class Real>
 void Starts::start_on_any(const Paths& paths, std::size_t lane, const RayStream<Real>& rays,
                           std::size_t i) const {
     const core::ShapeId shape = rays.origin_shape[i];
-    const std::uint32_t slot = slot_of(shape);
+    const std::uint32_t slot = slots_[shape];
     if (slot == no_slot) return paths.start_nowhere(lane, lane + 1);
     const SceneData::NamedShape named = scene_.shape_named(shape, slot);
     try {

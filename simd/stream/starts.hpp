@@ -2,11 +2,11 @@
 
 #include "core/shapes/departure.hpp"
 #include "simd/query/paths.hpp"
+#include "simd/stream/shapes_by_name.hpp"
 #include "simd/stream/streams.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <tuple>
 #include <type_traits>
 
@@ -25,19 +25,17 @@ core::Ray<double> ray_in_double(const RayStream<Real>& rays, std::size_t i) {
 class Starts {
   public:
     /// `slots`: of the shapes, by id.
-    Starts(const SceneData& scene, std::span<const std::uint32_t> slots)
+    Starts(const SceneData& scene, const SlotsByName& slots)
         : scene_(scene), slots_(slots),
           spheres_(std::get<core::Table<core::Sphere>>(scene.scene().shapes())),
           solids_(scene.scene().solids()), first_sphere_(scene.slot_of(core::Kind::sphere, {0, 0})),
-          sphere_slots_(spheres_.block_count() * core::block_size) {}
+          sphere_slots_((spheres_.block_count() + spheres_.copied_blocks()) * core::block_size) {}
 
     /// Fetches the slot of a shape into the cache.
-    void prefetch_slot(core::ShapeId shape) const {
-        if (shape < slots_.size()) __builtin_prefetch(&slots_[shape]);
-    }
+    void prefetch_slot(core::ShapeId shape) const { slots_.prefetch(shape); }
     /// Fetches the block of a sphere into the cache.
     void prefetch_sphere(core::ShapeId shape) const {
-        const std::uint32_t place = slot_of(shape) - first_sphere_;
+        const std::uint32_t place = slots_[shape] - first_sphere_;
         if (place >= sphere_slots_) return;
         const std::size_t block = place / core::block_size;
         if (spheres_.is_packed())
@@ -60,9 +58,6 @@ class Starts {
     template <class Real>
     static constexpr double rounding_in = std::is_same_v<Real, float> ? 0x1p-6 : 0x1p-10;
 
-    std::uint32_t slot_of(core::ShapeId shape) const {
-        return shape < slots_.size() ? slots_[shape] : no_slot;
-    }
     template <class Numbers>
     static void prefetch(const Numbers& numbers) {
         constexpr std::size_t line = 64;
@@ -74,7 +69,7 @@ class Starts {
     bool start_on_sphere(const Paths& paths, std::size_t lane, const RayStream<Real>& rays,
                          std::size_t i) const {
         const core::ShapeId id = rays.origin_shape[i];
-        const std::uint32_t slot = slot_of(id), place = slot - first_sphere_;
+        const std::uint32_t slot = slots_[id], place = slot - first_sphere_;
         if (place >= sphere_slots_ || solids_.has(id) ||
             (rays.origin_face != nullptr && rays.origin_face[i] != core::body))
             return false;
@@ -95,7 +90,7 @@ class Starts {
                       std::size_t i) const;
 
     const SceneData& scene_;
-    std::span<const std::uint32_t> slots_;
+    const SlotsByName& slots_;
     const core::Table<core::Sphere>& spheres_;
     const core::Solids& solids_;
     std::uint32_t first_sphere_; // slot

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,9 @@ namespace raylane::simd {
 StreamTracer::StreamTracer(const core::Scene& scene, int threads, Isa isa,
                            core::Precision precision)
     : threads_(threads), data_(std::make_unique<const SceneData>(scene, Transmissive::blocks)),
-      tracing_{&kernels_of(isa), scene.solids().any() ? core::Precision::exact : precision},
+      tracing_{&kernels_of(isa), scene.solids().any() || scene.copies() != nullptr
+                                     ? core::Precision::exact
+                                     : precision},
       shapes_(*data_) {}
 
 StreamTracer::~StreamTracer() = default;
@@ -83,6 +86,13 @@ std::size_t StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t coun
     return refused;
 }
 
+/// Throws InvalidValue if the scene has copies, whose shapes a query does not find.
+void StreamTracer::refuse_copies(const char* query) const {
+    if (data_->scene().copies() != nullptr)
+        throw core::InvalidValue("scene", std::string("must not keep copies of groups for ") +
+                                              query + "; build() it with shapes in their place");
+}
+
 template <class Real>
 std::size_t StreamTracer::nearest(const RayStream<Real>& rays, const HitStream& hits,
                                   const NormalStream& normals) const {
@@ -144,6 +154,7 @@ std::size_t StreamTracer::path_lengths(const RayStream<Real>& rays, core::Bodies
 
 template <class Real>
 std::size_t StreamTracer::containing(const PointStream<Real>& points, SolidRows& rows) const {
+    refuse_copies("solids around points");
     return answer_in_rows(
         row_workers_, points.count, rows,
         [&](RowWorker& worker, std::size_t first, std::size_t count, SolidRows& some) {
@@ -153,6 +164,7 @@ std::size_t StreamTracer::containing(const PointStream<Real>& points, SolidRows&
 
 template <class Real>
 std::size_t StreamTracer::cells(const PointStream<Real>& points, const CellStream& cells) const {
+    refuse_copies("cells");
     return answer(row_workers_, points.count,
                   [&](RowWorker& worker, std::size_t first, std::size_t count) {
                       return worker.cells(part_of(points, first, count), part_of(cells, first));

@@ -184,7 +184,7 @@ void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits
         limits = {rays.t_max, false};
     else if (rays.t_max != nullptr && intake_.answers_floats())
         limits = {intake_.float_t_max(), false};
-    kernels().hand_over(scene_.view(), limits, intake_.taken(),
+    kernels().hand_over(scene_.view_with_copies(), limits, intake_.taken(),
                         query_.hits().found(intake_.paths(), 0, rays.count), hits, left);
     if (hits.touching != nullptr) find_touching(rays, hits.touching);
     sharpen({unsharp_, left.unsharp_count}, hits);

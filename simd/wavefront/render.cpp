@@ -318,7 +318,7 @@ Rendering render(const core::Scene& scene, const core::Settings& settings,
     require_part(settings, asked.crop);
     RenderOptions options = asked;
     // Only exact decisions tell where a solid has its surface.
-    if (scene.solids().any()) options.precision = core::Precision::exact;
+    if (scene.solids().any() || scene.copies() != nullptr) options.precision = core::Precision::exact;
     if (options.engine == Engine::vector) {
         const Tracing tracing{&kernels_of(options.isa), options.precision};
         return scene.wavelengths().empty()

@@ -1,10 +1,12 @@
 #include "core/scene/scene.hpp"
 
+#include "core/hierarchy/emission.hpp"
 #include "core/scene/auto_camera.hpp"
 #include "core/scene/generators.hpp"
 #include "core/scene/given_shapes.hpp"
 #include "core/scene/validate.hpp"
 #include "core/shapes/checks.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/solids/group.hpp"
 #include "raylane/scene.hpp"
 #include "scenes/api/cpp/convert.hpp"
@@ -82,7 +84,11 @@ std::size_t Scene::material_count() const {
 }
 
 Bounds Scene::bounds() const {
-    const core::Bounds& bounds = scene_->hierarchy().bounds;
+    core::Bounds bounds = scene_->hierarchy().bounds;
+    if (scene_->copies() != nullptr)
+        core::for_each_bounded_shape(*scene_, [&](const auto& shape, ShapeId) {
+            bounds.include(core::padded(core::bounds_of(shape)));
+        });
     return {converted<Vec3>(bounds.lower), converted<Vec3>(bounds.upper)};
 }
 
@@ -199,6 +205,7 @@ SceneBuilder& SceneBuilder::operator=(SceneBuilder&& other) noexcept {
     settings = std::exchange(other.settings, {});
     wavelengths = std::exchange(other.wavelengths, {});
     merge_duplicates = std::exchange(other.merge_duplicates, true);
+    keep_from = std::exchange(other.keep_from, core::kept_from);
     auto_camera = std::exchange(other.auto_camera, std::nullopt);
     camera_lights = std::exchange(other.camera_lights, false);
     default_material_ = std::exchange(other.default_material_, no_material);
@@ -264,23 +271,42 @@ ShapeId SceneBuilder::add(const Solid& solid, MaterialIndex material) {
     return add_with(material, [&](MaterialIndex of) { return builder().add_solid(given, of); });
 }
 
-ShapeId SceneBuilder::add(const Group& group, MaterialIndex material) {
+/// Calls add(members) for the members of a group, all of which then have materials.
+template <class Add>
+ShapeId SceneBuilder::add_members(const Group& group, MaterialIndex material, const Add& add) {
     std::vector<core::Solid> members;
     bool all_have_materials = true;
     for (const Solid& member : library::Internals::members_of(group)) {
         members.push_back(library::Internals::of(member));
         all_have_materials = all_have_materials && core::has_materials(members.back());
     }
-    const auto add = [&](MaterialIndex of) {
+    if (material == no_material && all_have_materials)
+        return translated([&] { return add(members); });
+    return add_with(material, [&](MaterialIndex of) {
         for (core::Solid& member : members)
             if (member.material == core::no_material &&
                 (material != no_material || !core::has_materials(member)))
                 member.material = of;
+        return add(members);
+    });
+}
+
+ShapeId SceneBuilder::add(const Group& group, MaterialIndex material) {
+    return add_members(group, material, [&](std::span<const core::Solid> members) {
         return builder().add_group(members);
-    };
-    if (material == no_material && all_have_materials)
-        return translated([&] { return builder().add_group(members); });
-    return add_with(material, add);
+    });
+}
+
+ShapeId SceneBuilder::add(const Group& group, std::span<const Placement> placements,
+                          MaterialIndex material) {
+    static_assert(sizeof(Placement) == sizeof(core::Placement));
+    return add_members(group, material, [&](std::span<const core::Solid> members) {
+        std::vector<core::Placement> places(placements.size());
+        for (std::size_t i = 0; i < placements.size(); ++i)
+            places[i] = std::bit_cast<core::Placement>(placements[i]);
+        builder().keep_from = keep_from;
+        return builder().add_copies(members, std::move(places));
+    });
 }
 
 ShapeId SceneBuilder::add(const Sphereflake& flake, MaterialIndex material) {

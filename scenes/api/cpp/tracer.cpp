@@ -149,7 +149,8 @@ template <class Real>
 void find_solids(const simd::StreamTracer& tracer, const BasicPointSpan<Real>& points,
                  SolidRows& rows, QueryStatistics* statistics) {
     simd::SolidRows found;
-    store(tracer.containing(stream_of(points), found), statistics);
+    store(library::translated([&] { return tracer.containing(stream_of(points), found); }),
+          statistics);
     rows = {std::move(found.first), std::move(found.shape), std::move(found.inside),
             std::move(found.on_surface)};
 }
@@ -162,7 +163,7 @@ void find_cells(const simd::StreamTracer& tracer, const BasicPointSpan<Real>& po
     const simd::CellStream to{optional("shape_id", cells.shape_id, stream.count, "points"),
                               optional("material", cells.material, stream.count, "points"),
                               optional("on_surface", cells.on_surface, stream.count, "points")};
-    store(tracer.cells(stream, to), statistics);
+    store(library::translated([&] { return tracer.cells(stream, to); }), statistics);
 }
 
 template <class Real>

@@ -96,6 +96,8 @@ void seal(std::string& built_file) {
 void write_built(AtomicFile& file, const core::Scene& scene) {
     if (scene.solids().any())
         throw BadInput(file.name(), "", "cannot store constructed solids: use .json or .pov");
+    if (scene.copies() != nullptr)
+        throw BadInput(file.name(), "", "cannot store kept copies of a group: use .json or .pov");
     Writer writer;
     std::string json;
     TextFile text([&](std::string_view piece) { json += piece; });

@@ -54,21 +54,18 @@ void add_array(Hash& hash, const core::BigArray<T>& array) {
 void add_materials(Hash& hash, const core::Scene& scene) {
     std::vector<core::MaterialIndex> some;
     constexpr std::size_t most = 4096;
-    for (std::size_t first = 0; first < scene.shape_count(); first += most) {
-        some.clear();
-        for (std::size_t id = first; id < std::min(first + most, scene.shape_count()); ++id)
-            some.push_back(scene.material_index_of(static_cast<core::ShapeId>(id)));
+    const auto add_some = [&] {
         hash.add(some.data(), some.size() * sizeof(core::MaterialIndex));
-    }
+        some.clear();
+    };
+    scene.material_indices().for_each_material([&](core::MaterialIndex material) {
+        some.push_back(material);
+        if (some.size() == most) add_some();
+    });
+    add_some();
 }
 
-} // namespace
-
-std::string fingerprint_of(const core::Scene& scene) {
-    Hash hash;
-    TextFile text([&](std::string_view piece) { hash.add(piece); });
-    write_json_without_shapes(text, scene);
-    text.flush();
+void add_shapes(Hash& hash, const core::Scene& scene) {
     hash.add(scene.shape_count());
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         static_assert(sizeof(core::Block<Shape>) ==
@@ -87,6 +84,23 @@ std::string fingerprint_of(const core::Scene& scene) {
             });
     });
     add_materials(hash, scene);
+    if (scene.copies() == nullptr) return;
+    for (const core::Copies::Set& set : scene.copies()->sets()) {
+        add_shapes(hash, *set.prototype);
+        hash.add(set.first_id);
+        hash.add(&scene.copies()->placement(set.first_copy),
+                 set.copy_count * sizeof(core::Placement));
+    }
+}
+
+} // namespace
+
+std::string fingerprint_of(const core::Scene& scene) {
+    Hash hash;
+    TextFile text([&](std::string_view piece) { hash.add(piece); });
+    write_json_without_shapes(text, scene);
+    text.flush();
+    add_shapes(hash, scene);
     return hash.text();
 }
 

@@ -38,7 +38,12 @@ const char* text_of(core::FogKind kind) {
 Json shape_counts(const core::Scene& scene) {
     Json counts = Json::object();
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
-        if (table.size() > 0) counts[std::string(name_of(core::kind_of<Shape>))] = table.size();
+        std::size_t count = table.size();
+        if (scene.copies() != nullptr)
+            for (const core::Copies::Set& set : scene.copies()->sets())
+                count +=
+                    set.copy_count * std::get<core::Table<Shape>>(set.prototype->shapes()).size();
+        if (count > 0) counts[std::string(name_of(core::kind_of<Shape>))] = count;
     });
     return counts;
 }

@@ -14,6 +14,10 @@ namespace raylane::scenes {
 namespace {
 
 std::string kind_of_shape(const core::Scene& scene, core::ShapeId wanted) {
+    if (scene.material_indices().stored_index(wanted) == core::MaterialIndices::no_index) {
+        const core::Copies::Copy copy = scene.copies()->copy_with(wanted);
+        return kind_of_shape(*copy.set.prototype, wanted - core::Copies::first_id_of(copy));
+    }
     std::string kind;
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         core::for_each_shape(table, [&](const auto&, core::ShapeId id) {

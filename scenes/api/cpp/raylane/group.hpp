@@ -47,6 +47,15 @@ class Group {
     std::vector<Solid> members_;
 };
 
+/// The place of a copy of a group: scaled, then rotated about the axes x, y and z, then translated,
+/// as by Transform().scaled(scale).rotated(rotate).translated(translate). All numbers are from
+/// -1e30 to 1e30.
+struct Placement {
+    Vec3Of<double> translate{0.0, 0.0, 0.0};
+    Vec3Of<double> rotate{0.0, 0.0, 0.0}; ///< degrees
+    double scale = 1.0;                   ///< positive
+};
+
 /// Returns the union of a group's members, which are solids and half-spaces, for use as a part of
 /// another solid. The box of a quadric closes the quadric. Throws InvalidValue if the group is
 /// empty.

@@ -181,6 +181,23 @@ class SceneBuilder {
     /// the members. Fields in errors have the prefix "objects/0/", the number of the member.
     ShapeId add(const Group& group, MaterialIndex material = no_material);
 
+    /// Adds copies of a group, with the shapes and ids of add(group.transformed(...), material) for
+    /// each placement in turn. Returns the id of the first shape. Fields in errors also have the
+    /// prefix "placements/2/".
+    ///
+    /// Copies of `keep_from` shapes or more are kept as copies, of less than 100 bytes each, if
+    /// nothing but lights is added after them, all members are spheres and cylinders whose material
+    /// has no transmission, no coordinate exceeds 2^40, the scale is from 2^-20 to 2^20, and the
+    /// scene has no solids and no automatic camera. The answers to Tracer::nearest() and
+    /// occluded(), and images, have the bits of a scene of shapes, except that equal shapes in
+    /// different copies count each. Shapes that rays hit take memory from then on. A scene with
+    /// kept copies has no other queries, no with_positions(), shapes() and bounds() of its copies,
+    /// and cannot be saved.
+    ShapeId add(const Group& group, std::span<const Placement> placements,
+                MaterialIndex material = no_material);
+    /// Number of shapes in one call from which copies are kept. Fewer are faster as shapes.
+    std::size_t keep_from = std::size_t{1} << 22;
+
     /// Adds the shapes of a generator. Returns the first id. The struts of a lattice have the
     /// material of its spheres unless they are given their own.
     ShapeId add(const Sphereflake& flake, MaterialIndex material = no_material);
@@ -210,6 +227,9 @@ class SceneBuilder {
   private:
     template <class CoreShape, class Shape>
     ShapeId add_polygon_as(std::span<const Shape> triangles, MaterialIndex material);
+
+    template <class Add>
+    ShapeId add_members(const Group& group, MaterialIndex material, const Add& add);
 
     core::SceneBuilder& builder();
     /// Calls add(material), with the default material if none is given.

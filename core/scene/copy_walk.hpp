@@ -1,0 +1,39 @@
+#pragma once
+
+#include "core/scene/copies.hpp"
+#include "core/shapes/ray.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace raylane::core {
+
+/// Finds the copies whose bounds a ray enters, roughly the nearest first, and perhaps some more.
+/// Computes in float, with bounds on the errors. For use by one thread.
+class CopyWalk {
+  public:
+    explicit CopyWalk(const Copies& copies) : copies_(copies) { pending_.reserve(256); }
+
+    /// Starts a walk along a ray, whose direction may have any length.
+    void start(const Ray<double>& ray);
+
+    /// Returns true and the next copy whose bounds the ray enters before t_limit, which may be
+    /// another one at each call.
+    bool next(double t_limit, std::uint32_t& copy);
+
+  private:
+    struct Pending {
+        float t;
+        std::uint32_t child;
+    };
+    void enter(const Copies::Node& node, float t_limit);
+
+    const Copies& copies_;
+    double length_ = 1.0; // of the direction
+    // The ray with a direction of length 1. Its origin is moved by its error against the ray for
+    // the planes of entry, and along it for those of exit.
+    float from_[3], until_[3], inverse_[3];
+    std::vector<Pending> pending_; // the nearest children of a node last
+};
+
+} // namespace raylane::core
