@@ -166,7 +166,7 @@ Case lattices() {
             {"type": "lattice", "center": [0.1, 2, 0], "n": 2, "spacing": 0.3,
              "sphere_radius": 0.1, "strut_radius": 0.05, "material": "n"}]})",
             [](SceneBuilder& to) {
-                const double x = -1.1F; // generators round a file's numbers to floats
+                const double x = double(-1.1F); // generators round a file's numbers to floats
                 to.add(Lattice{{x, -1, -1}, 3, 0.9F, 0.3F, 0.1F}, m, n);
                 to.add(centered_at(Lattice{{}, 2, 0.3F, 0.1F, 0.05F}, {double(0.1F), 2, 0}), n);
             }};
