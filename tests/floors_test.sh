@@ -28,8 +28,9 @@ scenes/formats/pov: scenes/images
 scenes/formats/tachyon: scenes/formats/nff
 scenes/formats/built: core/* scenes/files scenes/formats/json scenes/export
 scenes/export: core/* scenes/files scenes/formats/built scenes/formats/json scenes/formats/pov
-scenes/tool/*: core/* simd/* scenes/export scenes/files scenes/formats/* scenes/images scenes/api/cpp/raylane
-scenes/api/cpp: core/* simd/* scenes/export scenes/files scenes/formats scenes/images raylane
+scenes/annotation: core/* scenes/files scenes/formats/structure
+scenes/tool/*: scenes/annotation core/* simd/* scenes/export scenes/files scenes/formats/* scenes/images scenes/api/cpp/raylane
+scenes/api/cpp: core/* simd/* scenes/export scenes/files scenes/formats scenes/formats/structure scenes/images raylane
 scenes/api/cpp/raylane scenes/api/examples: raylane
 scenes/api/c: raylane scenes/api/cpp
 scenes/api/python: raylane core/scene/fields.hpp

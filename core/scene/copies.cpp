@@ -105,8 +105,8 @@ Bounds Copies::bounds_of(const Copy& copy) const {
 
 namespace {
 
-/// Builds a hierarchy by halving, along the longest axis of the centres, what a node has to hold,
-/// and halving both halves again. So each of n copies takes a third of a node.
+/// Builds a hierarchy. Each node's shapes are halved along the longest axis of the centres, and the
+/// halves again. So each of n copies takes a third of a node.
 class TreeBuilder {
   public:
     struct Item {

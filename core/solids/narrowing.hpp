@@ -14,8 +14,7 @@ namespace raylane::core {
 /// Halves the parts by position into groups, again and again. Each group passes on the solid's
 /// expression without the parts that are decided in the group's bounds. So the number of steps for
 /// n parts grows with n * log(n). The terms of a group's expression and the steps for each part are
-/// limited. Where many parts stay undecided together, bounds are therefore wider than they could
-/// be.
+/// limited. Therefore bounds are wider than they could be if many parts stay undecided together.
 class SolidNarrowing {
   public:
     using Index = Solids::Index;

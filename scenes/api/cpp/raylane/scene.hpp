@@ -185,14 +185,17 @@ class SceneBuilder {
     /// each placement in turn. Returns the id of the first shape. Fields in errors also have the
     /// prefix "placements/2/".
     ///
-    /// Copies of `keep_from` shapes or more are kept as copies, of less than 100 bytes each, if
-    /// nothing but lights is added after them, all members are spheres and cylinders whose material
-    /// has no transmission, no coordinate exceeds 2^40, the scale is from 2^-20 to 2^20, and the
-    /// scene has no solids and no automatic camera. The answers to Tracer::nearest() and
-    /// occluded(), and images, have the bits of a scene of shapes, except that equal shapes in
-    /// different copies count each. Shapes that rays hit take memory from then on. A scene with
-    /// kept copies has no other queries, no with_positions(), shapes() and bounds() of its copies,
-    /// and cannot be saved.
+    /// Copies of `keep_from` shapes or more are kept as copies, of less than 100 bytes each, under
+    /// these conditions:
+    /// - nothing but lights is added after them;
+    /// - all members are spheres and cylinders whose material has no transmission;
+    /// - no coordinate exceeds 2^40, and the scale is from 2^-20 to 2^20;
+    /// - the scene has no solids and no automatic camera.
+    ///
+    /// Answers to Tracer::nearest() and occluded(), and images, have the bits of a scene of shapes.
+    /// Equal shapes in different copies count each, however. Shapes that rays hit take memory from
+    /// then on. A scene with kept copies has no other queries, no with_positions(), no shapes() and
+    /// bounds() of its copies, and cannot be saved.
     ShapeId add(const Group& group, std::span<const Placement> placements,
                 MaterialIndex material = no_material);
     /// Number of shapes in one call from which copies are kept. Fewer are faster as shapes.
