@@ -202,6 +202,10 @@ PeriodicBonds::PeriodicBonds(std::vector<PeriodicBond> bonds, std::size_t atoms)
 
 std::optional<PeriodicBonds> periodic_bonds(const Structure& structure, std::size_t* crowded_atoms,
                                             std::vector<char>* is_metallic) {
+    constexpr double longest_edge =
+        1e6; // angstrom: copies of atoms stay in the range of coordinates
+    for (const Vec3d& edge : structure.cell.edges)
+        if (!(core::length(edge) <= longest_edge)) return std::nullopt;
     const std::optional<Rows> rows = reciprocal_edges(structure.cell);
     if (!rows) return std::nullopt;
     std::optional<Cluster> cluster = cluster_of(structure, *rows);

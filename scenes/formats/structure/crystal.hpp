@@ -31,8 +31,9 @@ class PeriodicBonds {
 };
 
 /// Finds bonds in the same way as find_bonds(), also to atoms of other cells, along the edges on
-/// which the cell is periodic. Returns nothing for a cell without a volume, and for one so small or
-/// flat that its atoms have thousands of images within the length of a bond.
+/// which the cell is periodic. Returns nothing for a cell without a volume, with an edge longer
+/// than 1e6 angstrom, or so small or flat that its atoms have thousands of images within the length
+/// of a bond.
 std::optional<PeriodicBonds> periodic_bonds(const Structure& structure,
                                             std::size_t* crowded_atoms = nullptr,
                                             std::vector<char>* is_metallic = nullptr);

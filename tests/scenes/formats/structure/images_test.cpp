@@ -78,6 +78,7 @@ TEST_CASE("sticks continue into the next image of a cell") {
     LoadOptions options;
     options.drawing.style = Style::sticks;
     options.drawing.repeat = {2, 1, 1};
+    options.drawing.boundary = options.drawing.whole = false;
     const std::string text = "2\nLattice=\"3 0 0 0 9 0 0 0 9\" Properties=species:S:1:pos:R:3\n"
                              "C 0 0 0\nC 1.5 0 0\n";
     Legend legend;
