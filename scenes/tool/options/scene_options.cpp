@@ -91,12 +91,13 @@ core::AutoCamera ViewChange::auto_camera(const core::Scene& scene, core::Camera&
     core::AutoCamera auto_camera = scene.auto_camera();
     auto_camera.turning = turning;
     auto_camera.depth_cue = depth_cue.value_or(auto_camera.depth_cue);
-    if (this->camera) {
-        camera = *this->camera;
+    if (fixed_camera) {
+        camera = *fixed_camera;
         auto_camera.fit_camera.reset();
     }
     if (way) {
-        const core::NamedView named = way->name == best_view_name ? core::best_view(scene) : *way;
+        const core::NamedView named =
+            way->name == core::best_view_name ? core::best_view(scene) : *way;
         if (!auto_camera.fit_camera) auto_camera.fit_camera = core::fit_camera_of(camera);
         auto_camera.fit_camera->direction = named.direction;
         auto_camera.fit_camera->up = named.up;
@@ -148,7 +149,7 @@ core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settin
 
 Values<core::NamedView> views() {
     return {"WAY", "", [](const std::string& option, const std::string& text) {
-                return view_named(option, text, best_view_name);
+                return view_named(option, text, core::best_view_name);
             }};
 }
 
@@ -286,7 +287,8 @@ Drawing DrawingArguments::drawing() const {
 LoadOptions SceneArguments::load_options() const {
     LoadOptions options;
     options.drawing = drawing.drawing();
-    if (view.view && view.view->name != best_view_name) options.drawing.view = view.view.value();
+    if (view.view && view.view->name != core::best_view_name)
+        options.drawing.view = view.view.value();
     options.drawing.perspective = view.perspective.is_given();
     options.atom_style = drawing.atom_style.value_or("");
     options.option_for_atoms = drawing.first_given();
@@ -295,7 +297,7 @@ LoadOptions SceneArguments::load_options() const {
         if (options.option_for_atoms.empty()) options.option_for_atoms = view.background.name();
     }
     if (drawing.slab) {
-        if (view.camera || (view.view && view.view->name == best_view_name))
+        if (view.camera || (view.view && view.view->name == core::best_view_name))
             throw BadInput("--slab", "", "goes without --camera and --view best");
         options.drawing.slab = drawing.slab.value();
     }

@@ -112,8 +112,8 @@ struct ParameterArguments : OptionTable {
 
 /// Changes to the view that a scene requests.
 struct ViewChange {
-    std::optional<core::NamedView> way; ///< for a camera that finds its place
-    std::optional<core::Camera> camera; ///< in place of the scene's
+    std::optional<core::NamedView> way;       ///< for a camera that finds its place
+    std::optional<core::Camera> fixed_camera; ///< in place of the scene's
     std::optional<core::Vec3f> up;
     std::optional<float> zoom, depth_cue;
     std::optional<core::Projection> projection;
