@@ -238,16 +238,13 @@ def test_style_draws_chains():
 
 
 def test_each_symbol_is_its_number():
-    symbols = sorted(raylane._atoms._SYMBOLS - {"D", "T"})
+    *symbols, deuterium, tritium = raylane._atoms._SYMBOLS
     assert len(symbols) == 119
-    places = [[3.0 * i, 0, 0] for i in range(119)]
-    by_number = raylane.from_atoms(range(119), places)
-    colors = {by_number.material_name(i): by_number.material(i).color for i in range(by_number.material_count)}
-    for symbol in symbols:
-        one = raylane.from_atoms([symbol.lower()], [[0, 0, 0]])
-        assert symbol == "X" or colors[symbol] == one.material(0).color
-    for isotope in "DT":
-        assert raylane.from_atoms([isotope], [[0, 0, 0]]).material(0) == raylane.from_atoms(["H"], [[0, 0, 0]]).material(0)
+    places = [[9.0 * i, 0, 0] for i in range(121)]
+    by_number = raylane.from_atoms([*range(119), 1, 1], places, style="spheres")
+    by_symbol = raylane.from_atoms([*map(str.lower, symbols), deuterium, tritium], places, style="spheres")
+    assert colors_and_places(by_symbol) == colors_and_places(by_number)
+    assert np.array_equal(by_symbol.spheres().radius, by_number.spheres().radius)
 
 
 def test_a_file_in_a_style(tmp_path):

@@ -41,13 +41,13 @@ def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[n
     return numbers
 
 
-_SYMBOLS = frozenset(
-    "H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr Rb Sr Y Zr Nb Mo"
+_SYMBOLS = dict.fromkeys(
+    "X H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr Rb Sr Y Zr Nb Mo"
     " Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W Re Os Ir Pt Au Hg Tl"
     " Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm Bk Cf Es Fm Md No Lr Rf Db Sg Bh Hs Mt Ds Rg Cn Nh Fl Mc Lv Ts Og"
-    " D T X".split()
+    " D T".split()
 )
-"""Symbols of elements, of hydrogen's isotopes, and of an unknown element."""
+"""Symbols of an unknown element, of all elements by number, and of hydrogen's isotopes."""
 
 
 def _symbol(symbol: Any, index: int) -> str:

@@ -270,6 +270,23 @@ TEST_CASE("a colon within a range of residues separates nothing") {
     CHECK(representation_of("--show", "index 1:sticks").looks.front().style == Style::sticks);
 }
 
+TEST_CASE("a palette or a range is reported if no colour stands for a number") {
+    const auto remarks_of = [](Drawing drawing, const Shows& show) {
+        std::vector<std::string> remarks;
+        drawn(peptide(), drawing, show, &remarks);
+        return remarks;
+    };
+    const std::string because = " is ignored, because no colour stands for a number";
+    using Remarks = std::vector<std::string>;
+    const Drawing magma{.palette = "magma"}, range{.range = ColorRange(0.0, 1.0)};
+    CHECK(remarks_of(magma, {}) == Remarks{"--palette" + because});
+    CHECK(remarks_of(range, {}) == Remarks{"--range" + because});
+    CHECK(remarks_of({.color = "b_factor", .palette = "magma"}, {}).empty());
+    CHECK(remarks_of(magma, {{"all: spheres red"}, {"index 1: spheres b_factor"}}).empty());
+    CHECK(remarks_of({}, {{"all: spheres red palette magma"}, {"index 1: b_factor range 0:1"}}) ==
+          Remarks{"the palette or range of --show" + because});
+}
+
 TEST_CASE("names of colours and palettes have their colours") {
     CHECK(color_named("Orange") == 0xffa500U);
     CHECK(color_named("#0A0b0c") == 0x0a0b0cU);
