@@ -68,6 +68,19 @@ double variance_around(std::span<const Shown> middles) {
     return static_cast<double>(all) / 3.0;
 }
 
+PixelSamples& PixelSamples::operator+=(const PixelSamples& more) {
+    count_ += more.count_;
+    sum_ += more.sum_;
+    for (std::size_t channel = 0; channel < channels; ++channel) {
+        seen_sum_[channel] += more.seen_sum_[channel];
+        seen_squares_[channel] += more.seen_squares_[channel];
+    }
+    for (std::size_t i = 0; i < more.shapes_count_; ++i)
+        if (!has_seen(more.shapes_[i]) && shapes_count_ < max_shapes)
+            shapes_[shapes_count_++] = more.shapes_[i];
+    return *this;
+}
+
 double PixelSamples::squares_shown(Transfer transfer) const {
     const double n = count_;
     double squares = 0.0;

@@ -76,6 +76,9 @@ class PixelSamples {
             shapes_[shapes_count_++] = sample.shape;
     }
 
+    /// Adds samples that follow those of this object.
+    PixelSamples& operator+=(const PixelSamples& more);
+
     /// Returns true if a sample has hit the shape, or, for no_shape, has hit nothing. Knows the
     /// first `max_shapes` shapes only.
     bool has_seen(ShapeId shape) const {

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -69,16 +70,19 @@ core::Survey* survey_of(Surveys& surveys, std::size_t image) {
     return surveys.empty() ? nullptr : &surveys[image];
 }
 
-/// `scene`: null if nothing needs first hits.
+/// `scenes`: one for each survey. `scene`: null if nothing needs first hits.
 template <class Tracer>
 Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
-                    const core::Settings& settings, const RenderOptions& options,
-                    const SceneData* scene, std::size_t images = 1) {
+                    std::span<const core::Scene> scenes, const core::Settings& settings,
+                    const RenderOptions& options, const SceneData* scene) {
     const TileGrid grid = grid_of(settings, options);
     const core::Region part = grid.part(), crop = options.crop.value_or(part);
     Rendering rendering{core::Film(part, settings.alpha), {}, {}};
     if (options.layers) rendering.layers = {crop.x1 - crop.x0, crop.y1 - crop.y0};
-    Surveys surveys(settings.quality != 0.0F ? images : 0, core::Survey(settings));
+    Surveys surveys;
+    if (settings.quality != 0.0F)
+        for (const core::Scene& of_image : scenes)
+            surveys.emplace_back(of_image, settings);
     PerThread<Tracer> tracers([&] { return make_tracer(surveys); });
     PerThread<FirstHitPasses> passes(
         [&] { return FirstHitPasses(*scene, settings, kernels_of(options.isa)); });
@@ -127,7 +131,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
             });
     };
     if (!surveys.empty() && !is_stopped())
-        for (const auto pass : {core::Survey::Pass::look, core::Survey::Pass::sample}) {
+        for (const auto pass : core::Survey::passes) {
             on_threads(options.threads, [&] {
                 parallel_for(surveys.front().batches(pass), [&](std::size_t batch) {
                     if (!is_stopped()) tracers.local().survey(pass, batch);
@@ -228,14 +232,14 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
                                          options.precision, survey_of(surveys, tracers.size()));
                 return SpectralTracer<Tracer>(std::move(tracers), spectrum.shares, settings);
             },
-            settings, options, seen, spectrum.scenes.size());
+            spectrum.scenes, settings, options, seen);
     }
     return render_by<Tracer>(
         [&](Surveys& surveys) {
             return Tracer(scene, settings, core::Search::hierarchy, options.precision,
                           survey_of(surveys, 0));
         },
-        settings, options, seen);
+        {&scene, 1}, settings, options, seen);
 }
 
 const std::atomic<bool>* abandon_of(const RenderOptions& options) {
@@ -267,8 +271,8 @@ Rendering render_spectrum(const core::Scene& scene, const core::Settings& settin
                                                                abandon_of(options))});
             return Tracer(std::move(tracers), spectrum.shares, settings);
         },
-        settings, options, FirstHitPasses::are_wanted(settings, options) ? &data.front() : nullptr,
-        data.size());
+        spectrum.scenes, settings, options,
+        FirstHitPasses::are_wanted(settings, options) ? &data.front() : nullptr);
 }
 
 void require_part(const core::Settings& settings, const std::optional<core::Region>& crop) {
@@ -308,7 +312,8 @@ Rendering render_vector(const SceneData& scene, const core::Settings& settings,
         [&](Surveys& surveys) {
             return Wavefront(scene, settings, tracing, survey_of(surveys, 0), abandon_of(options));
         },
-        settings, options, FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
+        {&scene.scene(), 1}, settings, options,
+        FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
 }
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,

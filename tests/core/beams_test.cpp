@@ -7,6 +7,8 @@
 #include "tests/support/random.hpp"
 #include "tests/support/rounds.hpp"
 
+#include <cmath>
+
 /// Checks the claims of beams about all of their rays with single rays.
 using namespace raylane;
 using namespace little_scene;
@@ -126,8 +128,8 @@ TEST_CASE("sampling stops at a speck that is too small to matter") {
         builder.add_shape(Box{{-9, -9, -1}, {18, 0, 0}, {0, 18, 0}, {0, 0, 0.5F}}, matte(0.5F));
     builder.add_shape(Sphere{{0.05F, 0.05F, 0}, 0.001F}, matte(0.1F));
     const Scene scene = builder.finish();
-    Survey survey(scene.settings());
-    for (const auto pass : {Survey::Pass::look, Survey::Pass::sample}) {
+    Survey survey(scene, scene.settings());
+    for (const auto pass : Survey::passes) {
         for (std::size_t batch = 0; batch < survey.batches(pass); ++batch) {
             Survey::Samples samples(survey, pass, batch);
             do
@@ -149,4 +151,58 @@ TEST_CASE("sampling stops at a speck that is too small to matter") {
     const std::size_t with_speck = 7 * 16 + 8;
     CHECK(samples.taken(with_speck) >= 64);
     CHECK(samples.taken(with_speck) <= 256);
+}
+
+TEST_CASE("a survey expects noise that is not stratified to fall slowly") {
+    // A pixel has an edge and noise. Up to 32 samples, the error falls fast, as that of edges.
+    Builder builder;
+    builder.settings.width = builder.settings.height = 160;
+    builder.settings.quality = 48.0F;
+    builder.settings.transfer = Transfer::linear;
+    builder.add_shape(Sphere{{0, 0, 0}, 1}, matte(0.5F));
+    const Scene scene = builder.finish();
+    const auto sampled = [](const SampleName& name) {
+        const auto x = static_cast<std::uint32_t>(name.x), y = static_cast<std::uint32_t>(name.y);
+        const SamplePoint line = sequence_point(sequence_key(x, y, 8), 0),
+                          at = place_in_pixel(name);
+        const float below = 0.3F + 0.4F * line.x; // the area below the edge
+        const bool is_below = at.y < below + (line.y - 0.5F) * (at.x - 0.5F);
+        const auto number = static_cast<std::uint32_t>(name.number + 2000 * name.common);
+        const double noise =
+            static_cast<double>(sequence_point(sequence_key(x, y, 9 + number), 0).x) - 0.5;
+        return Sample{
+            Vec3d(0.5 + 0.4 * ((is_below ? 1.0 : 0.0) - static_cast<double>(below)) + 0.2 * noise),
+            0};
+    };
+    const auto take_all = [&](auto& samples, std::size_t pixels, const auto& x, const auto& y) {
+        do
+            for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+                for (int wanted = samples.wanted(pixel), first = samples.next(pixel), i = 0;
+                     i < wanted; ++i)
+                    samples.add(pixel, sampled({x(pixel), y(pixel), first + i, samples.common()}));
+        while (samples.end_round());
+    };
+    Survey survey(scene, scene.settings());
+    for (const auto pass : Survey::passes) {
+        for (std::size_t batch = 0; batch < survey.batches(pass); ++batch) {
+            Survey::Samples samples(survey, pass, batch);
+            take_all(
+                samples, samples.pixels(), [&](std::size_t i) { return samples.x(i); },
+                [&](std::size_t i) { return samples.y(i); });
+        }
+        survey.end(pass);
+    }
+    RegionSamples samples(scene, scene.settings(), survey);
+    samples.begin({0, 0, 160, 160});
+    take_all(
+        samples, 160 * 160, [](std::size_t i) { return static_cast<int>(i % 160); },
+        [](std::size_t i) { return static_cast<int>(i / 160); });
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 160 * 160; ++i) {
+        const double off = static_cast<double>(samples.mean(i).x) - 0.5;
+        sum += off * off;
+    }
+    const double quality = -10.0 * std::log10(sum / (160.0 * 160.0));
+    CHECK(quality >= 47.5);
+    CHECK(quality <= 50.0);
 }

@@ -187,10 +187,10 @@ TEST_CASE("a region that is abandoned does not change") {
         Settings settings = scene.settings();
         settings.quality = quality;
         std::atomic<bool> abandon = false;
-        core::Survey survey(settings);
+        core::Survey survey(scene, settings);
         simd::Wavefront wavefront(data, settings, {&simd::kernels_of(simd::best_isa())}, &survey,
                                   &abandon);
-        for (const auto pass : {core::Survey::Pass::look, core::Survey::Pass::sample}) {
+        for (const auto pass : core::Survey::passes) {
             if (quality == 0.0F) break;
             for (std::size_t batch = 0; batch < survey.batches(pass); ++batch)
                 wavefront.survey(pass, batch);
