@@ -600,7 +600,7 @@ def test_ids_that_are_none(ball):
         for call in (ball.material_of, ball.solid_of):
             with pytest.raises(InvalidValue) as error:
                 call(shapes)
-            assert error.value.field == "shapes"
+            assert error.value.field.split("/")[0] == "shapes"
     assert ball.material_of(np.array([[0, 1]])).tolist() == [[0, 1]] and ball.material_of(np.array([], int)).shape == (0,)
     for index in (-1, 2, 2**32, "a"):
         with pytest.raises(InvalidValue) as error:
