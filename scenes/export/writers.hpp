@@ -51,22 +51,30 @@ class PlacesById {
     void visit(core::ShapeId id, const Visit& visit) const {
         const std::size_t stored = scene_.material_indices().stored_index(id);
         if (stored == core::MaterialIndices::no_index) return visit_in_copy(id, visit);
+        visit_stored(stored, visit);
+    }
+
+  private:
+    template <class Visit>
+    void visit_stored(std::size_t stored, const Visit& visit) const {
         const Listed& listed = listed_[stored];
         if (listed.exists)
             core::with_table(scene_.shapes(), listed.kind,
                              [&](const auto& table) { visit(table.get(listed.place)); });
     }
-
-  private:
+    /// Prototypes have no copies themselves.
     template <class Visit>
     void visit_in_copy(core::ShapeId id, const Visit& visit) const {
         const core::Copies& copies = *scene_.copies();
         const core::Copies::Copy copy = copies.copy_with(id);
         const auto set = static_cast<std::size_t>(&copy.set - copies.sets().data());
         const core::Placer placer(copies.placement(copy.set.first_copy + copy.number));
-        of_prototypes_[set].visit(id - core::Copies::first_id_of(copy), [&](const auto& shape) {
-            if constexpr (requires { placer(shape); }) visit(placer(shape));
-        });
+        const PlacesById& prototype = of_prototypes_[set];
+        const core::ShapeId original = id - core::Copies::first_id_of(copy);
+        prototype.visit_stored(prototype.scene_.material_indices().stored_index(original),
+                               [&](const auto& shape) {
+                                   if constexpr (requires { placer(shape); }) visit(placer(shape));
+                               });
     }
 
     struct Listed {
