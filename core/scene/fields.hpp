@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/scene/appearance.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -10,8 +12,8 @@
 
 /// The one list of the fields of materials, patterns, glass, lights, fog, cameras, outlines and
 /// settings. The checks, the JSON reader and writer, the conversions of the library, of C and of
-/// Python, and the tests of the schema and of the pages follow from it. It includes nothing of
-/// core, because it serves any struct with these members.
+/// Python, and the tests of the schema and of the pages follow from it. It includes enumerators
+/// alone, because it serves any struct with these members.
 namespace raylane::core::fields {
 
 /// The words of an enumeration, as in JSON. Python has _ in place of -.
@@ -223,6 +225,60 @@ constexpr void for_each_field(const Visit& visit, Of&... of) {
     visit(Field("B", several, "Without a unit.", must()), of.B...);
     visit(Field("C", several, "In square micrometres.", must()), of.C...);
 }
+
+} // namespace raylane::core::fields
+
+namespace raylane::core {
+
+/// Sides from which a surface is visible. Rays pass the other side as if nothing were there. A
+/// shadow ray looks from a surface to the light.
+enum class Visible : std::uint8_t { both, outside, inside };
+
+/// The colour seen along a ray that hits this material. Symbols: light l of colour L_l; unit
+/// vectors n (normal), l (to the light) and h (halfway between l and the viewer; for Phong's
+/// highlight n.h stands for the cosine between l and the reflected ray); S the share of
+/// the light that the shadow lets through; C the pattern's colour; R the reflected fraction. The
+/// colour is
+///   C ambient + sum_l S L_l (C diffuse max(n.l, 0) + specular max(n.h, 0)^exponent)
+///   + R (colour reflected) + (1 - R) transmission (colour transmitted)
+/// This counts with weight `opacity`, and the colour straight behind the surface with 1 - opacity.
+///
+/// `Material` names it. A new member has its default here and its description in the list below.
+template <class Vec3, class Pattern, class Glass>
+struct MaterialOf {
+    Pattern pattern{};
+    float ambient = 0.1F;   ///< >= 0
+    float diffuse = 0.8F;   ///< >= 0
+    float specular = 0.0F;  ///< >= 0, of the highlight, in the light's colour
+    float exponent = 32.0F; ///< >= 0
+    Highlight highlight = Highlight::blinn;
+    Reflection reflection = Reflection::constant;
+    float reflectivity = 0.0F; ///< [0, 1]
+    float transmission = 0.0F; ///< [0, 1] per surface crossed; 0 is opaque
+    float index = 1.5F;        ///< index of refraction, > 0; empty space has 1
+    Glass glass{}; ///< if set, `index` is its n_d, or its index at each wavelength of a scene
+    /// Per unit of length inside, >= 0 (Beer-Lambert: exp(-absorption * length)).
+    Vec3 absorption{};
+    /// [0, 1]: the share of the colour that comes from the surface, as with paint on a pane. The
+    /// rest comes from straight behind it. Unlike transmitted light, the rest is not refracted,
+    /// absorbed, or reduced by reflections.
+    float opacity = 1.0F;
+    Visible visible = Visible::both;
+
+    bool transmits() const { return transmission > 0.0F; }
+    bool is_transparent() const { return opacity < 1.0F; }
+    /// Returns true if light may pass it in any way.
+    bool lets_light_pass() const { return transmits() || is_transparent(); }
+    bool reflects() const { return reflection != Reflection::constant || reflectivity > 0.0F; }
+    /// Returns true if a ray that enters (or leaves) here sees the surface.
+    bool is_seen(bool entering) const {
+        return visible == Visible::both || (visible == Visible::outside) == entering;
+    }
+};
+
+} // namespace raylane::core
+
+namespace raylane::core::fields {
 
 template <class Visit, MaterialLike... Of>
 constexpr void for_each_field(const Visit& visit, Of&... of) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/numbers/vector.hpp"
-#include "core/scene/appearance.hpp"
+#include "core/scene/fields.hpp"
 #include "core/scene/formula.hpp"
 #include "core/scene/glass.hpp"
 
@@ -34,47 +34,6 @@ struct Pattern {
     Formula formula{};
 };
 
-/// Sides from which a surface is visible. Rays pass the other side as if nothing were there. A
-/// shadow ray looks from a surface to the light.
-enum class Visible : std::uint8_t { both, outside, inside };
-
-/// The colour seen along a ray that hits this material. Symbols: light l of colour L_l; unit
-/// vectors n (normal), l (to the light) and h (halfway between l and the viewer; for Phong's
-/// highlight n.h stands for the cosine between l and the reflected ray); S the share of
-/// the light that the shadow lets through; C the pattern's colour; R the reflected fraction. The
-/// colour is
-///   C ambient + sum_l S L_l (C diffuse max(n.l, 0) + specular max(n.h, 0)^exponent)
-///   + R (colour reflected) + (1 - R) transmission (colour transmitted)
-/// This counts with weight `opacity`, and the colour straight behind the surface with 1 - opacity.
-struct Material {
-    Pattern pattern;
-    float ambient = 0.1F;   ///< >= 0
-    float diffuse = 0.8F;   ///< >= 0
-    float specular = 0.0F;  ///< >= 0, of the highlight, in the light's colour
-    float exponent = 32.0F; ///< >= 0
-    Highlight highlight = Highlight::blinn;
-    Reflection reflection = Reflection::constant;
-    float reflectivity = 0.0F; ///< [0, 1]
-    float transmission = 0.0F; ///< [0, 1] per surface crossed; 0 is opaque
-    float index = 1.5F;        ///< index of refraction, > 0; empty space has 1
-    Sellmeier glass{}; ///< if set, `index` is its n_d, or its index at each wavelength of a scene
-    Vec3f absorption{
-        0.0F}; ///< per unit of length inside, >= 0 (Beer-Lambert: exp(-absorption * length))
-    /// [0, 1]: the share of the colour that comes from the surface, as with paint on a pane. The
-    /// rest comes from straight behind it. Unlike transmitted light, the rest is not refracted,
-    /// absorbed, or reduced by reflections.
-    float opacity = 1.0F;
-    Visible visible = Visible::both;
-
-    bool transmits() const { return transmission > 0.0F; }
-    bool is_transparent() const { return opacity < 1.0F; }
-    /// Returns true if light may pass it in any way.
-    bool lets_light_pass() const { return transmits() || is_transparent(); }
-    bool reflects() const { return reflection != Reflection::constant || reflectivity > 0.0F; }
-    /// Returns true if a ray that enters (or leaves) here sees the surface.
-    bool is_seen(bool entering) const {
-        return visible == Visible::both || (visible == Visible::outside) == entering;
-    }
-};
+using Material = MaterialOf<Vec3f, Pattern, Sellmeier>;
 
 } // namespace raylane::core

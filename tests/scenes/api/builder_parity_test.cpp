@@ -1,3 +1,4 @@
+#include "core/scene/fields.hpp"
 #include "raylane/raylane.hpp"
 #include "tests/places.hpp"
 #include "tests/support/catch.hpp"
@@ -10,6 +11,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -330,6 +332,26 @@ std::string spheres_of(const std::vector<std::string>& materials) {
     return R"({"materials": {}, "objects": [)" + objects + "]}";
 }
 
+/// Returns a case with a material for each of a material's numbers, which is 1/2 in it.
+Case numbers() {
+    using core::fields::Field, core::fields::for_each_field;
+    std::vector<std::string> texts;
+    std::vector<Material> values;
+    const auto add = [&](const Field& field, const auto& number) {
+        if constexpr (std::is_same_v<decltype(number), const float&>) {
+            texts.push_back("{\"" + std::string(field.key()) + "\": 0.5}");
+            const auto set = [&](const Field& other, auto& value) {
+                if constexpr (std::is_same_v<decltype(value), float&>)
+                    if (other.key() == field.key()) value = 0.5F;
+            };
+            for_each_field(set, values.emplace_back());
+        }
+    };
+    const Material usual{};
+    for_each_field(add, usual);
+    return {"numbers", spheres_of(texts), [values](SceneBuilder& to) { add_spheres(to, values); }};
+}
+
 Case presets() {
     std::vector<std::string> texts;
     std::vector<Material> values;
@@ -575,8 +597,8 @@ std::vector<Case> images() {
 }
 
 std::vector<Case> all_cases() {
-    std::vector<Case> all = {shapes(), sphereflake(), lattices(), solids(), transforms(),
-                             groups(), presets(),     glasses(),  looks()};
+    std::vector<Case> all = {shapes(), sphereflake(), lattices(), solids(),  transforms(),
+                             groups(), numbers(),     presets(),  glasses(), looks()};
     for (const auto& make : {checkers, lights_and_fog, views, images})
         for (Case& one : make())
             all.push_back(std::move(one));
