@@ -25,9 +25,10 @@ Real largest(const Vec3<Real>& v) {
 
 template <class Real>
 ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& settings, Search search,
-                                       Precision precision, Survey* survey)
+                                       Precision precision, Survey* survey,
+                                       const std::atomic<bool>* abandon)
     : scene_(scene), settings_(settings), camera_rays_(scene.camera(), settings),
-      searcher_(scene, search, precision), survey_(survey) {
+      searcher_(scene, search, precision), survey_(survey), abandon_(abandon) {
     crossings_.reserve(64);
     pending_.reserve(64);
     for (const Light& light : scene.lights())
@@ -52,10 +53,10 @@ void ReferenceTracer<Real>::survey(Survey::Pass pass, std::size_t batch) {
     Survey::Samples samples(*survey_, pass, batch);
     do {
         for (std::size_t pixel = 0; pixel < samples.pixels(); ++pixel)
-            for (int wanted = samples.wanted(pixel); wanted > 0; --wanted)
+            for (int wanted = samples.wanted(pixel); wanted > 0 && !is_abandoned(); --wanted)
                 samples.add(pixel, taken({samples.x(pixel), samples.y(pixel), samples.next(pixel),
                                           samples.common()}));
-    } while (samples.end_round());
+    } while (!is_abandoned() && samples.end_round());
 }
 
 template <class Real>
@@ -63,7 +64,9 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
     if (settings_.quality == 0.0F) {
         for (int y = region.y0; y < region.y1; ++y)
             for (int x = region.x0; x < region.x1; ++x) {
-                film.at(x, y) = pixel(x, y);
+                const Color color = pixel(x, y);
+                if (is_abandoned()) return;
+                film.at(x, y) = color;
                 if (film.has_alpha())
                     film.alpha_at(x, y) = static_cast<float>(Real(1) - transmittance_);
             }
@@ -79,10 +82,11 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
     samples.begin(region);
     do {
         for_each_pixel([&](int x, int y, std::size_t pixel) {
-            for (int wanted = samples.wanted(pixel); wanted > 0; --wanted)
+            for (int wanted = samples.wanted(pixel); wanted > 0 && !is_abandoned(); --wanted)
                 samples.add(pixel, taken({x, y, samples.next(pixel), samples.common()}));
         });
-    } while (samples.end_round());
+    } while (!is_abandoned() && samples.end_round());
+    if (is_abandoned()) return;
     for_each_pixel([&](int x, int y, std::size_t pixel) {
         film.at(x, y) = samples.mean(pixel);
         if (film.has_alpha()) film.alpha_at(x, y) = samples.alpha(pixel);
@@ -94,7 +98,7 @@ Color ReferenceTracer<Real>::pixel(int x, int y) {
     const int samples = settings_.grid * settings_.grid;
     Vector sum(0);
     Real transmittance = 0;
-    for (int sample = 0; sample < samples; ++sample) {
+    for (int sample = 0; sample < samples && !is_abandoned(); ++sample) {
         sample_ = {x, y, sample, samples};
         sum += trace(camera_rays_.ray(x, y, sample));
         transmittance += transmittance_;

@@ -8,6 +8,7 @@
 #include "core/scene/film.hpp"
 #include "core/scene/region.hpp"
 
+#include <atomic>
 #include <optional>
 
 namespace raylane::core {
@@ -19,14 +20,18 @@ namespace raylane::core {
 template <class Real>
 class ReferenceTracer {
   public:
+    /// `survey`: needed if the settings have a quality. `abandon`: once it is true, survey() and
+    /// render() return early; may be null.
     ReferenceTracer(const Scene& scene, const Settings& settings, Search search = Search::hierarchy,
-                    Precision precision = precision_of<Real>, Survey* survey = nullptr);
+                    Precision precision = precision_of<Real>, Survey* survey = nullptr,
+                    const std::atomic<bool>* abandon = nullptr);
 
     /// Samples a batch of the survey.
     void survey(Survey::Pass pass, std::size_t batch);
 
     /// Renders a region. If the settings have a quality, the tracer needs a finished survey, and
-    /// the region must consist of whole squares (RegionSamples::square_size).
+    /// the region must consist of whole squares (RegionSamples::square_size). An abandoned region
+    /// keeps some or all of its old pixels.
     void render(const Region& region, Film& film);
 
     /// Returns the number of samples of a pixel of the last region; pixels are numbered row by row.
@@ -131,6 +136,7 @@ class ReferenceTracer {
     bool find_crossings(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real distance);
 
     Sample taken(const SampleName& name);
+    bool is_abandoned() const { return abandon_ != nullptr && *abandon_; }
     bool is_worth(const Vector& throughput) const;
     bool is_visible(const Hit<Real>& hit) const;
     Indices indices_at(const Hit<Real>& hit, Media media, Media behind);
@@ -157,6 +163,7 @@ class ReferenceTracer {
     std::optional<Media> start_media_; // media around start_
 
     Survey* survey_ = nullptr; // set if the image has a quality
+    const std::atomic<bool>* abandon_;
     std::optional<RegionSamples> to_quality_;
     Hit<Real> first_hit_; // first hit of the last camera ray
     Real transmittance_ = 0;

@@ -215,6 +215,10 @@ struct Spectrum {
     }
 };
 
+const std::atomic<bool>* abandon_of(const RenderOptions& options) {
+    return options.progress != nullptr ? &options.progress->abandon : nullptr;
+}
+
 template <class Real>
 Rendering render_reference(const core::Scene& scene, const core::Settings& settings,
                            const RenderOptions& options) {
@@ -229,7 +233,8 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
                 std::vector<Tracer> tracers;
                 for (const core::Scene& of_one : spectrum.scenes)
                     tracers.emplace_back(of_one, settings, core::Search::hierarchy,
-                                         options.precision, survey_of(surveys, tracers.size()));
+                                         options.precision, survey_of(surveys, tracers.size()),
+                                         abandon_of(options));
                 return SpectralTracer<Tracer>(std::move(tracers), spectrum.shares, settings);
             },
             spectrum.scenes, settings, options, seen);
@@ -237,13 +242,9 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
     return render_by<Tracer>(
         [&](Surveys& surveys) {
             return Tracer(scene, settings, core::Search::hierarchy, options.precision,
-                          survey_of(surveys, 0));
+                          survey_of(surveys, 0), abandon_of(options));
         },
         {&scene, 1}, settings, options, seen);
-}
-
-const std::atomic<bool>* abandon_of(const RenderOptions& options) {
-    return options.progress != nullptr ? &options.progress->abandon : nullptr;
 }
 
 /// Wavefronts cannot be moved; this holder can.
@@ -323,7 +324,8 @@ Rendering render(const core::Scene& scene, const core::Settings& settings,
     require_part(settings, asked.crop);
     RenderOptions options = asked;
     // Only exact decisions tell where a solid has its surface.
-    if (scene.solids().any() || scene.copies() != nullptr) options.precision = core::Precision::exact;
+    if (scene.solids().any() || scene.copies() != nullptr)
+        options.precision = core::Precision::exact;
     if (options.engine == Engine::vector) {
         const Tracing tracing{&kernels_of(options.isa), options.precision};
         return scene.wavelengths().empty()

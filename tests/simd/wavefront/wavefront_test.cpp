@@ -1,3 +1,4 @@
+#include "core/reference/tracer.hpp"
 #include "simd/isa/isa.hpp"
 #include "simd/wavefront/render.hpp"
 #include "simd/wavefront/wavefront.hpp"
@@ -6,7 +7,9 @@
 #include "tests/support/rounds.hpp"
 #include "tests/support/sanitized.hpp"
 
+#include <atomic>
 #include <cmath>
+#include <optional>
 
 /// Tests the queues of the wavefront loop at their limits.
 using namespace raylane;
@@ -180,34 +183,52 @@ TEST_CASE("the vector engine renders by default", "[native]") {
     CHECK(deferred(by(simd::Engine::reference)) == 0);
 }
 
-TEST_CASE("a region that is abandoned does not change") {
+/// Abandons a region before its first pixel, and then renders it. `make` returns a tracer.
+template <class Make>
+void check_abandoned(float quality, simd::Engine engine, const Make& make) {
     const Scene scene = panes(3);
-    const simd::SceneData data(scene);
-    for (const float quality : {0.0F, 30.0F}) {
-        Settings settings = scene.settings();
-        settings.quality = quality;
-        std::atomic<bool> abandon = false;
-        core::Survey survey(scene, settings);
-        simd::Wavefront wavefront(data, settings, {&simd::kernels_of(simd::best_isa())}, &survey,
-                                  &abandon);
-        for (const auto pass : core::Survey::passes) {
-            if (quality == 0.0F) break;
-            for (std::size_t batch = 0; batch < survey.batches(pass); ++batch)
-                wavefront.survey(pass, batch);
-            survey.end(pass);
-        }
-        abandon = true;
-        const std::uint64_t surveyed = wavefront.counters().rays();
-        const core::Region whole{0, 0, settings.width, settings.height};
-        Film film(settings.width, settings.height);
-        const Film untouched = film;
-        wavefront.render(whole, film);
-        CHECK(film.pixels() == untouched.pixels());
-        CHECK(wavefront.counters().rays() == surveyed);
+    Settings settings = scene.settings();
+    settings.quality = quality;
+    std::atomic<bool> abandon = false;
+    core::Survey survey(scene, settings);
+    auto tracer = make(scene, settings, survey, abandon);
+    for (const auto pass : core::Survey::passes) {
+        if (quality == 0.0F) break;
+        for (std::size_t batch = 0; batch < survey.batches(pass); ++batch)
+            tracer.survey(pass, batch);
+        survey.end(pass);
+    }
+    abandon = true;
+    const std::uint64_t surveyed = tracer.counters().rays();
+    const core::Region whole{0, 0, settings.width, settings.height};
+    Film film(settings.width, settings.height);
+    const Film untouched = film;
+    tracer.render(whole, film);
+    CHECK(film.pixels() == untouched.pixels());
+    CHECK(tracer.counters().rays() == surveyed);
 
-        abandon = false;
-        wavefront.render(whole, film);
-        CHECK(film.pixels() ==
-              simd::render(scene, settings, by(simd::Engine::vector)).film.pixels());
+    abandon = false;
+    tracer.render(whole, film);
+    CHECK(film.pixels() == simd::render(scene, settings, by(engine)).film.pixels());
+}
+
+TEST_CASE("a region that is abandoned does not change") {
+    for (const float quality : {0.0F, 30.0F}) {
+        std::optional<simd::SceneData> data;
+        check_abandoned(quality, simd::Engine::vector,
+                        [&](const Scene& scene, const Settings& settings, core::Survey& survey,
+                            const std::atomic<bool>& abandon) {
+                            data.emplace(scene);
+                            return simd::Wavefront(*data, settings,
+                                                   {&simd::kernels_of(simd::best_isa())}, &survey,
+                                                   &abandon);
+                        });
+        check_abandoned(quality, simd::Engine::reference,
+                        [](const Scene& scene, const Settings& settings, core::Survey& survey,
+                           const std::atomic<bool>& abandon) {
+                            return core::ReferenceTracer<double>(
+                                scene, settings, core::Search::hierarchy, core::Precision::exact,
+                                settings.quality != 0.0F ? &survey : nullptr, &abandon);
+                        });
     }
 }
