@@ -158,6 +158,24 @@ Polynomial slope_polynomial(const Dual<Dyadic>& dual) {
     return result;
 }
 
+/// Removes the factors that det and v have in common for any point, if A has equal eigenvalues that
+/// are among its diagonal, as those of surfaces of revolution about a coordinate axis.
+void remove_factors(Dual<Dyadic>& dual) {
+    const FormAbout<Dyadic>& form = dual.form();
+    for (int axis = 0; axis < 3; ++axis) {
+        const Dyadic m = form.diagonal[axis];
+        FormAbout<Dyadic> rest = form;
+        rest.diagonal = form.diagonal - Vec3<Dyadic>(m);
+        const Dual<Dyadic> of_rest(rest);
+        const FormAbout<Dyadic> adjugate = of_rest.adjugate();
+        const auto vanishes = [](const Vec3<Dyadic>& v) {
+            return v.x.sign() == 0 && v.y.sign() == 0 && v.z.sign() == 0;
+        };
+        if (vanishes(rest.diagonal) && vanishes(rest.mixed)) return dual.remove_both_factors(m);
+        if (vanishes(adjugate.diagonal) && vanishes(adjugate.mixed)) return dual.remove_factor(m);
+    }
+}
+
 /// The distance at a root of N, of points that are `beside` from a face or an edge of the box.
 class StationaryDistance : public QuadricDistance {
   public:
@@ -221,41 +239,40 @@ class StationarySearch {
             for (int end = 0; end < 2; ++end)
                 if (std::isfinite(limits[end]))
                     limits_[axis][end] = Dyadic(quadric.center[axis]) + limits[end];
-            has_limit_[axis][0] = std::isfinite(limits[0]);
-            has_limit_[axis][1] = std::isfinite(limits[1]);
         }
-        look_on(0, {-1, -1, -1});
+        look_on(0, {});
     }
     bool is_complete() const { return is_complete_; }
     std::unique_ptr<QuadricDistance> closest() { return std::move(closest_); }
 
   private:
-    /// An end of the box along each axis; -1: any place along it.
-    using Ends = std::array<int, 3>;
-
-    void look_on(int axis, Ends ends) {
+    const std::optional<Dyadic>& limit(int axis, int end) const {
+        return limits_[axis][end < 0 ? 0 : 1];
+    }
+    void look_on(int axis, BoxEnds ends) {
         if (axis == 3) return look_at(ends);
         look_on(axis + 1, ends);
-        for (int end = 0; end < 2; ++end)
-            if (has_limit_[axis][end]) {
+        for (const int end : {-1, 1})
+            if (limit(axis, end)) {
                 ends[static_cast<std::size_t>(axis)] = end;
                 look_on(axis + 1, ends);
             }
     }
     /// Looks for stationary points with some coordinates fixed. Corners of the box are ends of
     /// edges.
-    void look_at(const Ends& ends) {
+    void look_at(const BoxEnds& ends) {
         Vec3<Dyadic> beside(0.0), at = point_;
         int count = 0;
         for (int axis = 0; axis < 3; ++axis) {
             const int end = ends[static_cast<std::size_t>(axis)];
-            if (end < 0) continue;
+            if (end == 0) continue;
             ++count;
-            at[axis] = limits_[axis][end];
+            at[axis] = *limit(axis, end);
             beside[axis] = at[axis] - point_[axis];
         }
         if (count == 3) return;
-        const Dual<Dyadic> dual(restricted(ends, beside));
+        Dual<Dyadic> dual(restricted(form_, ends, beside));
+        remove_factors(dual);
         Polynomial slope = slope_polynomial(dual);
         trim(slope);
         Polynomial det(4);
@@ -271,33 +288,20 @@ class StationarySearch {
                                                              max_bits_),
                         ends);
     }
-    /// Returns the form of the points with some coordinates fixed, `beside` from the given point.
-    FormAbout<Dyadic> restricted(const Ends& ends, const Vec3<Dyadic>& beside) const {
-        FormAbout<Dyadic> result = form_;
-        const Vec3<Dyadic> change = form_.product(beside);
-        result.slope = form_.slope + change;
-        result.value = form_.value + dot(beside, Vec3<Dyadic>(form_.slope + result.slope));
-        for (int axis = 0; axis < 3; ++axis) {
-            if (ends[static_cast<std::size_t>(axis)] < 0) continue;
-            result.slope[axis] = 0.0;
-            result.diagonal[axis] = 0.0;
-            result.mixed[(axis + 1) % 3] = 0.0;
-            result.mixed[(axis + 2) % 3] = 0.0;
-        }
-        return result;
-    }
-    void keep_closer(std::unique_ptr<StationaryDistance> other, const Ends& ends) {
+    void keep_closer(std::unique_ptr<StationaryDistance> other, const BoxEnds& ends) {
         if (!other->find_det_sign()) {
             is_complete_ = false;
             return;
         }
         for (int axis = 0; axis < 3; ++axis) {
-            if (ends[static_cast<std::size_t>(axis)] >= 0) continue;
-            const auto& [lower, upper] = limits_[axis];
-            if (has_limit_[axis][0] && other->compare_coordinate(axis, lower - tolerance_) < 0)
-                return;
-            if (has_limit_[axis][1] && other->compare_coordinate(axis, upper + tolerance_) > 0)
-                return;
+            if (ends[static_cast<std::size_t>(axis)] != 0) continue;
+            for (const int end : {-1, 1}) {
+                const std::optional<Dyadic>& ends_at = limit(axis, end);
+                const double side = end;
+                if (ends_at &&
+                    end * other->compare_coordinate(axis, *ends_at + side * tolerance_) > 0)
+                    return;
+            }
         }
         if (closest_ == nullptr || compare(*other, *closest_) < 0) closest_ = std::move(other);
     }
@@ -306,8 +310,7 @@ class StationarySearch {
     Vec3<Dyadic> point_;
     Dyadic tolerance_;
     int max_depth_, max_bits_;
-    std::array<std::array<Dyadic, 2>, 3> limits_;
-    bool has_limit_[3][2] = {};
+    std::optional<Dyadic> limits_[3][2];
     bool is_complete_ = true;
     std::unique_ptr<QuadricDistance> closest_;
 };

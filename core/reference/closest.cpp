@@ -1,5 +1,6 @@
 #include "core/reference/closest.hpp"
 
+#include "core/reference/closest_filter.hpp"
 #include "core/reference/closest_on_quadric.hpp"
 #include "core/reference/rounding.hpp"
 #include "core/shapes/closest_point.hpp"
@@ -111,20 +112,38 @@ double nearest_distance(ExactClosest& closest) {
     return std::visit([](auto& of) { return of.nearest_distance(); }, closest);
 }
 
-/// Returns bounds on the distance, or infinite ones if the numbers do not know it.
-template <class Real>
-DistanceBounds bounds_in(const Scene& scene, Kind kind, Place place, const Vec3d& point) {
-    const auto closest = closest_in<Real>(scene, kind, place, point);
-    if (!closest) return {0.0, infinite};
-    const Bounded<double> distance = in_double(sqrt(closest->squared));
+/// Returns bounds on the root of a number, which may be infinite.
+template <class T>
+DistanceBounds bounds_of(const Bounded<T>& squared) {
+    const Bounded<double> distance = in_double(sqrt(squared));
     if (!(distance.error < infinite)) return {0.0, infinite};
     if (distance.error == 0.0) return {distance.value, distance.value};
     return {std::max(0.0, std::nextafter(distance.value - distance.error, -infinite)),
             std::nextafter(distance.value + distance.error, infinite)};
 }
 
-/// Returns bounds of finite width.
-DistanceBounds bounds_of_distance(const Scene& scene, Kind kind, Place place, const Vec3d& point) {
+/// Returns bounds on the distance, or infinite ones if the numbers do not know it.
+template <class Real>
+DistanceBounds bounds_in(const Scene& scene, Kind kind, Place place, const Vec3d& point) {
+    const auto closest = closest_in<Real>(scene, kind, place, point);
+    if (!closest) return {0.0, infinite};
+    return bounds_of(closest->squared);
+}
+
+/// Returns a lower bound on the distance from a quadric: that of its surface without the box.
+double least_distance(const Scene& scene, Place place, const Vec3d& point) {
+    const QuadricOf<double> quadric = std::get<Table<Quadric>>(scene.shapes()).get(place);
+    const auto closest = closest_on_whole_quadric<double>(quadric, convert<Bounded<double>>(point));
+    return closest ? bounds_of(closest->squared).lower : 0.0;
+}
+
+/// Returns bounds of finite width, or bounds beyond the limit.
+DistanceBounds bounds_of_distance(const Scene& scene, Kind kind, Place place, const Vec3d& point,
+                                  double limit) {
+    if (kind == Kind::quadric) { // exact numbers take long
+        const double least = least_distance(scene, place, point);
+        if (least > limit) return {least, infinite};
+    }
     const DistanceBounds in_double = bounds_in<Bounded<double>>(scene, kind, place, point);
     if (in_double.upper < infinite) return in_double;
     const DistanceBounds in_extended = bounds_in<Extended>(scene, kind, place, point);
@@ -133,21 +152,6 @@ DistanceBounds bounds_of_distance(const Scene& scene, Kind kind, Place place, co
     const double nearest = nearest_distance(exact);
     if (nearest == 0.0 || nearest == infinite) return {nearest, nearest};
     return {std::nextafter(nearest, 0.0), std::nextafter(nearest, infinite)};
-}
-
-/// Returns a lower bound on the distance of a point from the bounds of an entry. The factor covers
-/// the roundings, 4 half ulps. Squares of very small and large numbers are avoided.
-double distance_from(const WideNode& node, int entry, const Vec3d& point) {
-    double most = 0.0, squared = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double below = static_cast<double>(node.lower[axis][entry]) - point[axis];
-        const double above = point[axis] - static_cast<double>(node.upper[axis][entry]);
-        const double gap = std::max(std::max(below, above), 0.0);
-        most = std::max(most, gap);
-        squared += gap * gap;
-    }
-    const double distance = most > 0x1p-500 && most < 0x1p500 ? std::sqrt(squared) : most;
-    return distance * (1.0 - 0x1p-50);
 }
 
 /// Returns a number's double if all numbers within its error round to it.
@@ -181,37 +185,74 @@ Closest ClosestSearcher::find(const Vec3d& point, double max_distance) {
     return closest.distance <= max_distance ? closest : Closest{};
 }
 
-/// Adds the shapes of a block that may be the closest.
+/// Adds the shapes of a block that may be the closest. Looks at those that may be closer than
+/// others first.
 void ClosestSearcher::look_in(Kind kind, std::uint32_t block, const Vec3d& point) {
+    with_table(scene_.shapes(), kind, [&]<class Shape>(const Table<Shape>& table) {
+        LaneBounds bounds;
+        constexpr bool has_bounds = is_bounded<Shape>;
+        if constexpr (has_bounds)
+            if (largest_component(point) < filter_limit)
+                table.visit_block(block, [&](const Block<Shape>& shapes) {
+                    bound_distances(shapes, point, table.has_doubles(), bounds);
+                });
+        if (!has_bounds || !(largest_component(point) < filter_limit)) {
+            std::fill_n(bounds.lower, block_size, 0.0);
+            std::fill_n(bounds.upper, block_size, infinite);
+        }
+        look_at(kind, block, point, bounds);
+    });
+}
+
+/// `bounds`: of the shapes of a block. Shapes that are not in it are left out.
+void ClosestSearcher::look_at(Kind kind, std::uint32_t block, const Vec3d& point,
+                              const LaneBounds& bounds) {
+    std::uint8_t lanes[block_size];
+    int count = 0;
     with_table(scene_.shapes(), kind, [&](const auto& table) {
-        for_each_in_block(table, block, [&](Place place, ShapeId shape) {
-            const DistanceBounds bounds = bounds_of_distance(scene_, kind, place, point);
-            if (bounds.lower > limit_ || bounds.lower == infinite) return;
-            candidates_.push_back({kind, place, shape, bounds});
-            limit_ = std::min(limit_, bounds.upper);
+        for (std::uint8_t lane = 0; lane < block_size; ++lane) {
+            if (bounds.lower[lane] > limit_) continue;
+            if (table.id({block, lane}) == no_shape) break;
+            limit_ = std::min(limit_, bounds.upper[lane]);
+            lanes[count++] = lane;
+        }
+        std::sort(lanes, lanes + count, [&](std::uint8_t a, std::uint8_t b) {
+            return bounds.lower[a] < bounds.lower[b];
         });
+        for (int i = 0; i < count; ++i) {
+            const Place place{block, lanes[i]};
+            DistanceBounds of_shape{bounds.lower[lanes[i]], bounds.upper[lanes[i]]};
+            if (of_shape.lower > limit_) return;
+            if (kind != Kind::sphere || of_shape.upper == infinite)
+                of_shape = bounds_of_distance(scene_, kind, place, point, limit_);
+            if (of_shape.lower > limit_ || of_shape.lower == infinite) continue;
+            candidates_.push_back({kind, place, table.id(place), of_shape});
+            limit_ = std::min(limit_, of_shape.upper);
+        }
     });
 }
 
 /// Visits the blocks through the hierarchy, nearest first.
 void ClosestSearcher::walk(const Vec3d& point) {
+    const bool has_bounds = largest_component(point) < filter_limit;
+    double squared[block_size] = {};
     pending_.assign(1, {0.0, Child::node(0)});
     while (!pending_.empty()) {
         const Pending next = pending_.back();
         pending_.pop_back();
-        if (next.distance > limit_) continue;
+        if (next.squared > squared_limit(limit_)) continue;
         if (next.child.is_block()) {
             look_in(next.child.kind(), next.child.index(), point);
             continue;
         }
         const WideNode& node = scene_.hierarchy().nodes[next.child.index()];
+        if (has_bounds) squared_distances(node, point, squared);
         const auto first = static_cast<std::ptrdiff_t>(pending_.size());
-        for (int i = 0; i < block_size && !node.children[i].empty(); ++i) {
-            const double distance = distance_from(node, i, point);
-            if (distance <= limit_) pending_.push_back({distance, node.children[i]});
-        }
+        const double most = squared_limit(limit_);
+        for (int i = 0; i < block_size && !node.children[i].empty(); ++i)
+            if (squared[i] <= most) pending_.push_back({squared[i], node.children[i]});
         std::sort(pending_.begin() + first, pending_.end(),
-                  [](const Pending& a, const Pending& b) { return a.distance > b.distance; });
+                  [](const Pending& a, const Pending& b) { return a.squared > b.squared; });
     }
 }
 

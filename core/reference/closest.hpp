@@ -29,6 +29,8 @@ struct DistanceBounds {
     double lower, upper;
 };
 
+struct LaneBounds;
+
 /// Finds closest points, as real arithmetic decides. For use by one thread.
 class ClosestSearcher {
   public:
@@ -47,11 +49,12 @@ class ClosestSearcher {
         DistanceBounds bounds;
     };
     struct Pending {
-        double distance;
+        double squared; ///< distance
         Child child;
     };
 
     void look_in(Kind kind, std::uint32_t block, const Vec3d& point);
+    void look_at(Kind kind, std::uint32_t block, const Vec3d& point, const LaneBounds& bounds);
     void walk(const Vec3d& point);
     void drop_farther();
     const Candidate& decide(const Vec3d& point);

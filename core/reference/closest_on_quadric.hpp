@@ -69,16 +69,36 @@ class Dual {
   public:
     explicit Dual(const FormAbout<Real>& form) : form_(form) {
         const auto& [xx, yy, zz] = array_of(form.diagonal);
-        const auto& [yz, xz, xy] = array_of(form.mixed);
-        const FormAbout<Real> adjugate{{yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy},
-                                       {xy * xz - xx * yz, xy * yz - yy * xz, xz * yz - zz * xy},
-                                       {},
-                                       {}};
+        const FormAbout<Real> adjugate = this->adjugate();
         det_[0] = xx + yy + zz;
         det_[1] = adjugate.diagonal.x + adjugate.diagonal.y + adjugate.diagonal.z;
-        det_[2] = xx * adjugate.diagonal.x + xy * adjugate.mixed.z + xz * adjugate.mixed.y;
+        det_[2] = xx * adjugate.diagonal.x + form.mixed.z * adjugate.mixed.z +
+                  form.mixed.y * adjugate.mixed.y;
         v_[0] = det_[0] * form.slope - form.product(form.slope);
         v_[1] = adjugate.product(form.slope);
+    }
+
+    /// Returns the adjugate matrix of A, with no slope and value.
+    FormAbout<Real> adjugate() const {
+        const auto& [xx, yy, zz] = array_of(form_.diagonal);
+        const auto& [yz, xz, xy] = array_of(form_.mixed);
+        return {{yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy},
+                {xy * xz - xx * yz, xy * yz - yy * xz, xz * yz - zz * xy},
+                {},
+                {}};
+    }
+    /// Removes the factor 1 + l m from det and v, where m is a double eigenvalue of A: A - m I must
+    /// have a rank of at most 1. All relations between det, v and N remain.
+    void remove_factor(const Real& m) {
+        const Real other = det_[0] - Real(2.0) * m;
+        const Vec3<Real> rest = form_.product(form_.slope) - m * form_.slope;
+        det_ = {m + other, m * other, Real(0.0)};
+        v_ = {other * form_.slope - rest, Vec3<Real>(Real(0.0))};
+    }
+    /// Removes the factor twice: A is m I.
+    void remove_both_factors(const Real& m) {
+        det_ = {m, Real(0.0), Real(0.0)};
+        v_ = {Vec3<Real>(Real(0.0)), Vec3<Real>(Real(0.0))};
     }
 
     const FormAbout<Real>& form() const { return form_; }
@@ -135,49 +155,153 @@ extern template std::optional<Bounded<double>> certain_root(const Dual<Bounded<d
 extern template std::optional<Bounded<DoubleDouble>>
 certain_root(const Dual<Bounded<DoubleDouble>>&, double);
 
-/// Returns false if a point may be outside of a quadric's box.
+/// A closest point, as the root l and the offset y from the given point.
 template <class Real>
-bool is_surely_in_box(const QuadricOf<double>& quadric, const Vec3<Real>& point) {
-    const Vec3<Real> p = point - convert<Real>(quadric.center);
-    ErrorPredicate<Real> predicate;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const double limit : {quadric.lower[axis], quadric.upper[axis]}) {
-            if (std::isinf(limit)) continue;
-            const int side = predicate.sign(Real(p[axis] - Real(limit)));
-            if (limit == quadric.lower[axis] ? side < 0 : side > 0) return false;
-        }
-    }
-    return !predicate.doubt();
-}
-template <class Real>
-bool is_surely_in_box(const EllipsoidOf<double>&, const Vec3<Real>&) {
-    return true;
+struct RootOffset {
+    Real l;
+    Vec3<Real> offset;
+};
+
+/// Returns the closest point of a whole surface, or nothing if the numbers do not decide which one
+/// it is. `plain`: the same form in plain doubles.
+template <class T>
+std::optional<RootOffset<Bounded<T>>> closest_by_dual(const FormAbout<Bounded<T>>& form,
+                                                      const FormAbout<double>& plain) {
+    using Real = Bounded<T>;
+    if (form.value.is_zero()) return RootOffset<Real>{Real(0.0), Vec3<Real>(Real(0.0))};
+    const Dual<Real> dual(form);
+    const std::optional<Real> root = certain_root(dual, approximate_root(Dual<double>(plain)));
+    if (!root) return {};
+    return RootOffset<Real>{*root, Real(-(*root / dual.det(*root))) * dual.v(*root)};
 }
 
-/// Returns the closest point, or nothing if the numbers do not decide which one it is, or if the
-/// closest point of the whole surface is not in the quadric's box.
+/// The same for an ellipsoid, or for a quadric without its box.
 template <class T, class Shape>
-std::optional<ClosestPoint<Bounded<T>>> closest_on_quadric(const Shape& shape,
+std::optional<ClosestPoint<Bounded<T>>> closest_on_whole_quadric(const Shape& shape,
+                                                                 const Vec3<Bounded<T>>& point) {
+    const auto found =
+        closest_by_dual(form_about(shape, point), form_about(shape, convert<double>(point)));
+    if (!found) return {};
+    return ClosestPoint<Bounded<T>>{squared_length(found->offset),
+                                    Vec3<Bounded<T>>(point + found->offset)};
+}
+
+template <class T>
+std::optional<ClosestPoint<Bounded<T>>> closest_on_quadric(const EllipsoidOf<double>& ellipsoid,
                                                            const Vec3<Bounded<T>>& point) {
-    using Real = Bounded<T>;
-    const Dual<Real> dual(form_about(shape, point));
-    ClosestPoint<Real> closest{{}, point};
-    if (!dual.form().value.is_zero()) {
-        const double about =
-            approximate_root(Dual<double>(form_about(shape, convert<double>(point))));
-        const std::optional<Real> root = certain_root(dual, about);
-        if (!root) return {};
-        const Real factor = -(*root / dual.det(*root));
-        const Vec3<Real> v = dual.v(*root);
-        closest.squared = factor * factor * squared_length(v);
-        closest.point = mul_add(factor, v, point);
+    return closest_on_whole_quadric(ellipsoid, point);
+}
+
+/// The ends of a quadric's box that a point is on, along each axis: -1: the lower one, 1: the upper
+/// one, 0: none.
+using BoxEnds = std::array<int, 3>;
+
+/// Returns the form of the points with some coordinates fixed, at `beside` from the given point.
+template <class Real>
+FormAbout<Real> restricted(const FormAbout<Real>& form, const BoxEnds& ends,
+                           const Vec3<Real>& beside) {
+    FormAbout<Real> result = form;
+    result.slope = form.slope + form.product(beside);
+    result.value = form.value + dot(beside, Vec3<Real>(form.slope + result.slope));
+    for (int axis = 0; axis < 3; ++axis) {
+        if (ends[static_cast<std::size_t>(axis)] == 0) continue;
+        result.slope[axis] = Real(0.0);
+        result.diagonal[axis] = Real(0.0);
+        result.mixed[(axis + 1) % 3] = Real(0.0);
+        result.mixed[(axis + 2) % 3] = Real(0.0);
     }
-    if (!is_surely_in_box(shape, closest.point)) return {};
-    return closest;
+    return result;
+}
+
+/// Finds the closest point of a quadric in its box by following the ends of the box that the
+/// closest point is beyond, and proves that it is the closest.
+template <class T>
+class ClosestInBox {
+  public:
+    using Real = Bounded<T>;
+
+    ClosestInBox(const QuadricOf<double>& quadric, const Vec3<Real>& point)
+        : quadric_(quadric), point_(point), plain_point_(convert<double>(point)),
+          form_(form_about(quadric, point)), plain_(form_about(quadric, plain_point_)) {}
+
+    std::optional<ClosestPoint<Real>> closest() {
+        BoxEnds ends{};
+        for (int count = 0; count < 3; ++count) {
+            const Vec3<Real> beside = beside_of<Real>(ends, point_);
+            const auto found =
+                closest_by_dual(restricted(form_, ends, beside),
+                                restricted(plain_, ends, beside_of<double>(ends, plain_point_)));
+            if (!found) return {};
+            const Vec3<Real> offset = found->offset + beside;
+            const bool was_inside = !find_end_beyond(offset, ends);
+            if (predicate_.doubt()) return {};
+            if (!was_inside) continue;
+            if (!is_proven(found->l, offset, ends)) return {};
+            return ClosestPoint<Real>{squared_length(offset), Vec3<Real>(point_ + offset)};
+        }
+        return {};
+    }
+
+  private:
+    double limit(int axis, int end) const {
+        return end < 0 ? quadric_.lower[axis] : quadric_.upper[axis];
+    }
+    template <class Any>
+    Vec3<Any> beside_of(const BoxEnds& ends, const Vec3<Any>& point) const {
+        Vec3<Any> beside(Any(0.0));
+        for (int axis = 0; axis < 3; ++axis)
+            if (const int end = ends[static_cast<std::size_t>(axis)]; end != 0)
+                beside[axis] =
+                    Any(Any(quadric_.center[axis]) - point[axis]) + Any(limit(axis, end));
+        return beside;
+    }
+    /// Adds an end of the box that a point is beyond, and returns true, or returns false if the
+    /// point is in the box.
+    bool find_end_beyond(const Vec3<Real>& offset, BoxEnds& ends) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (ends[static_cast<std::size_t>(axis)] != 0) continue;
+            const Real place = Real(point_[axis] - Real(quadric_.center[axis])) + offset[axis];
+            for (const int end : {-1, 1}) {
+                if (std::isinf(limit(axis, end))) continue;
+                if (end * predicate_.sign(Real(place - Real(limit(axis, end)))) <= 0) continue;
+                ends[static_cast<std::size_t>(axis)] = end;
+                return true;
+            }
+        }
+        return false;
+    }
+    /// Let m be multipliers of the ends: y + l (A y + q) + m = 0, where m is 0 along other axes. If
+    /// I + l A is positive definite, |y|^2 + l F(p + y) + 2 m . (y - end) is least at y, where it
+    /// is |y|^2. If each m is >= 0 at an upper end and <= 0 at a lower one, it is at most the
+    /// squared distance of any other point in the box with F = 0.
+    bool is_proven(const Real& l, const Vec3<Real>& offset, const BoxEnds& ends) {
+        if (ends == BoxEnds{}) return true;
+        for (const Real& minor : Dual<Real>(form_).minors(l))
+            if (!predicate_.positive(minor)) return false;
+        const Vec3<Real> gradient = form_.product(offset) + form_.slope;
+        for (int axis = 0; axis < 3; ++axis) {
+            const Real against = mul_add(l, gradient[axis], offset[axis]); // -m
+            if (ends[static_cast<std::size_t>(axis)] * predicate_.sign(against) > 0) return false;
+        }
+        return !predicate_.doubt();
+    }
+
+    const QuadricOf<double>& quadric_;
+    Vec3<Real> point_;
+    Vec3d plain_point_;
+    FormAbout<Real> form_;
+    FormAbout<double> plain_;
+    ErrorPredicate<Real> predicate_;
+};
+
+template <class T>
+std::optional<ClosestPoint<Bounded<T>>> closest_on_quadric(const QuadricOf<double>& quadric,
+                                                           const Vec3<Bounded<T>>& point) {
+    return ClosestInBox<T>(quadric, point).closest();
 }
 
 /// The squared distance of a point from a surface of second degree, given by a root l, as
-/// accurately as needed. Numbers that agree in their first 1000 bits count as equal.
+/// accurately as needed. Numbers whose roots agree in `max_bits` bits count as equal.
 class QuadricDistance {
   public:
     QuadricDistance(const QuadricDistance&) = delete;

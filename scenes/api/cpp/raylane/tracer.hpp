@@ -361,8 +361,9 @@ class Tracer {
                QueryStatistics* statistics = nullptr) const;
 
     /// Finds the surface point that is closest to each point, and its distance. A tie occurs only if
-    /// two distances are equal in real arithmetic. Then the lower id counts. All sides of surfaces
-    /// count, also those that Material::visible hides.
+    /// two distances are equal in real arithmetic. Then the lower id counts. Distances from
+    /// ellipsoids and quadrics that agree in their first 75 digits count as equal. All sides of
+    /// surfaces count, also those that Material::visible hides.
     ///
     /// If several points of the shape are closest, the result is one of them:
     /// - for the centre of a sphere, the one with the largest z;

@@ -515,8 +515,9 @@ class Tracer:
     def closest(self, points: ArrayLike, max_distance: ArrayLike = np.inf) -> Closest:
         """Returns the surface point that is closest to each point, as :class:`Closest`. Always exact.
 
-        A tie occurs only if two distances are equal in real arithmetic. Then the lower id counts. All sides of surfaces
-        count, also those that ``Material.visible`` hides.
+        A tie occurs only if two distances are equal in real arithmetic. Then the lower id counts. Distances from
+        ellipsoids and quadrics that agree in their first 75 digits count as equal. All sides of surfaces count, also
+        those that ``Material.visible`` hides.
 
         If several points of the shape are closest, the result is one of them:
 
