@@ -180,8 +180,10 @@ void remove_factors(Dual<Dyadic>& dual) {
 class StationaryDistance : public QuadricDistance {
   public:
     StationaryDistance(const Dual<Dyadic>& dual, const Vec3<Dyadic>& point,
-                       const Dyadic& beside_squared, const Interval& root, int max_bits)
+                       const Dyadic& beside_squared, const Interval& root, const Dyadic& tolerance,
+                       int max_bits)
         : QuadricDistance(dual, point, max_bits), beside_squared_(beside_squared) {
+        tolerance_ = tolerance;
         low_ = root.low;
         high_ = root.high;
         sign_at_low_ = dual_.slope(low_).sign();
@@ -285,7 +287,7 @@ class StationarySearch {
         is_complete_ = is_complete_ && isolation.is_complete();
         for (const Interval& root : isolation.roots())
             keep_closer(std::make_unique<StationaryDistance>(dual, at, squared_length(beside), root,
-                                                             max_bits_),
+                                                             tolerance_, max_bits_),
                         ends);
     }
     void keep_closer(std::unique_ptr<StationaryDistance> other, const BoxEnds& ends) {

@@ -242,7 +242,8 @@ int QuadricDistance::compare_coordinate(int axis, const Dyadic& number) {
 
 double QuadricDistance::nearest_coordinate(int axis) {
     const int sign = compare_coordinate(axis, 0.0);
-    if (sign == 0) return 0.0;
+    if (sign == 0 || sign * compare_coordinate(axis, static_cast<double>(sign) * tolerance_) <= 0)
+        return 0.0;
     return sign * nearest_between(0.0, std::numeric_limits<double>::max(), [&](const Dyadic& sum) {
                return sign * compare_coordinate(axis, 0.5 * sign * sum);
            });
@@ -253,8 +254,9 @@ Vec3d QuadricDistance::nearest_point() {
 }
 
 WholeQuadricDistance::WholeQuadricDistance(const Dual<Dyadic>& dual, const Vec3<Dyadic>& point,
-                                           int max_bits)
-    : QuadricDistance(dual, point, max_bits) {
+                                           const Dyadic& tolerance)
+    : QuadricDistance(dual, point, 1000) {
+    tolerance_ = tolerance;
     bracket();
 }
 
@@ -312,14 +314,16 @@ bool WholeQuadricDistance::has_several_points() {
     return false;
 }
 
-/// If several points are closest, moves the given point by 2^-200 of the distance: one point is
+/// If several points are closest, moves the given point by 2^-300 of the distance: one point is
 /// then the closest, and as close to one of the several.
 Vec3d WholeQuadricDistance::nearest_point() {
     if (!has_several_points()) return QuadricDistance::nearest_point();
     const Scaled squared = bounds()[1].approximately();
-    const auto tiny = Dyadic::power_of_2(static_cast<int>(squared.exponent / 2) - 200);
+    const int size = static_cast<int>(squared.exponent / 2);
+    const Dyadic tiny = Dyadic::power_of_2(size - 300);
     const Vec3<Dyadic> step(tiny, 0.75 * tiny, 0.625 * tiny);
-    WholeQuadricDistance beside(Dual<Dyadic>(moved(dual_.form(), step)), point_);
+    WholeQuadricDistance beside(Dual<Dyadic>(moved(dual_.form(), step)), point_,
+                                Dyadic::power_of_2(size - 200));
     return beside.QuadricDistance::nearest_point();
 }
 

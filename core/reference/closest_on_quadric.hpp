@@ -342,6 +342,7 @@ class QuadricDistance {
     Vec3<Dyadic> point_;
     int max_bits_;
     Dyadic low_ = 0.0, high_ = 0.0; // around the root
+    Dyadic tolerance_ = 0.0;        // smaller coordinates are 0
     int det_sign_ = 1;
 
   private:
@@ -357,7 +358,9 @@ int compare(QuadricDistance& a, QuadricDistance& b);
 /// The distance from the whole surface, by the maximum of g.
 class WholeQuadricDistance : public QuadricDistance {
   public:
-    WholeQuadricDistance(const Dual<Dyadic>& dual, const Vec3<Dyadic>& point, int max_bits = 1000);
+    /// `tolerance`: coordinates of at most this size count as 0.
+    WholeQuadricDistance(const Dual<Dyadic>& dual, const Vec3<Dyadic>& point,
+                         const Dyadic& tolerance = 0.0);
 
     /// Returns false if no real point is on the surface.
     bool exists() const { return exists_; }

@@ -225,3 +225,41 @@ TEST_CASE("no point of a quadric in its box is closer than the answer") {
         }
     CHECK(tally.polished > tally.all / 2);
 }
+
+TEST_CASE("closest points of quadrics at their axes, apexes and rims are those of geometry") {
+    struct Case {
+        QuadricD quadric;
+        Vec3d point;
+        double distance, z;
+    };
+    const Vec3d origin(0.0), lower(-2.0), upper(2.0), above(-2.0, -2.0, 0.0);
+    const QuadricD paraboloid{origin, 1, 1, 0, 0, 0, 0, 0, 0, -0.5, 0, lower, upper};
+    const QuadricD hyperboloid{origin, 1, 1, -1, 0, 0, 0, 0, 0, 0, -1, lower, upper};
+    const QuadricD cone{origin, 1, 1, -1, 0, 0, 0, 0, 0, 0, 0, above, upper};
+    const QuadricD cylinder{origin, 1, 1, 0, 0, 0, 0, 0, 0, 0, -1, lower, upper};
+    const QuadricD line{origin, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, lower, upper};
+    const QuadricD two_planes{origin, 1, 0, 0, 0, 0, 0, 0, 0, 0, -1, lower, upper};
+    const QuadricD double_plane{origin, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, lower, upper};
+    for (const Case& it : {
+             Case{paraboloid, {0, 0, 1.5}, std::sqrt(1.25), 1},
+             {paraboloid, {0, 0, -1.5}, 1.5, 0},
+             {hyperboloid, {0, 0, 0}, 1, 0},
+             {cone, {0, 0, 1}, std::sqrt(0.5), 0.5},
+             {cone, {0, 0, -1}, 1, 0},
+             {cone, {1, 0, -0.5}, std::sqrt(1.125), 0.25},
+             {cylinder, {0, 0, 0.5}, 1, 0.5},
+             {cylinder, {0, 0, 5}, std::sqrt(10.0), 2},
+             {cylinder, {3, 0, 4}, std::sqrt(8.0), 2},
+             {line, {1, 0.25, 0.5}, std::sqrt(1.0625), 0.5},
+             {two_planes, {0, 0.25, 0.5}, 1, 0.5},
+             {double_plane, {1, 0.25, 0.5}, 1, 0.5},
+         }) {
+        const Closest got = closest_of(it.quadric, it.point);
+        CAPTURE(it.point.x, it.point.y, it.point.z, it.distance);
+        CHECK(got.distance == it.distance);
+        CHECK(got.point.z == it.z);
+        CHECK(length(got.point - it.point) == Approx(it.distance).epsilon(1e-14));
+    }
+    const QuadricD empty{origin, 1, 1, 1, 0, 0, 0, 0, 0, 0, 1, lower, upper};
+    CHECK(closest_of(empty, Vec3d(0.0)).shape == no_shape);
+}
