@@ -282,7 +282,7 @@ TEST_CASE("images of kept copies have the bits of those of shapes") {
     const Image kept = render(contents.built(true), options);
     const Image shapes = render(contents.built(false), options);
     CHECK((kept.rgb == shapes.rgb));
-    CHECK((kept.layers.shape == shapes.layers.shape));
+    CHECK((kept.layers.shape_id == shapes.layers.shape_id));
     CHECK((kept.layers.depth == shapes.layers.depth));
 }
 
@@ -325,11 +325,11 @@ TEST_CASE("all crossings with kept copies are those with shapes") {
         CHECK((found.first == expected.first));
         REQUIRE(found.t.size() == expected.t.size());
         for (std::size_t i = 0; i < found.t.size(); ++i) {
-            INFO(i << ": shape " << found.shape[i] << ", expected " << expected.shape[i]);
+            INFO(i << ": shape " << found.shape_id[i] << ", expected " << expected.shape_id[i]);
             REQUIRE(found.t[i] == expected.t[i]);
-            REQUIRE(found.shape[i] == expected.shape[i]);
+            REQUIRE(found.shape_id[i] == expected.shape_id[i]);
         }
-        CHECK((found.shape == expected.shape));
+        CHECK((found.shape_id == expected.shape_id));
         CHECK((found.entering == expected.entering));
         CHECK((found.normal_x == expected.normal_x));
         std::vector<std::uint64_t> counts(rays.size()), expected_counts(rays.size());

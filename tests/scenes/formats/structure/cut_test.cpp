@@ -65,7 +65,8 @@ TEST_CASE("a slab is across the view from the middle of the atoms") {
     LoadOptions options;
     options.drawing.style = Style::spheres;
     options.drawing.radius = "2";
-    options.drawing.slab = {-1.0, 0.5, {0.0F, 0.0F, -2.0F}}; // the middle is at z = 2
+    options.drawing.fit_camera.direction = {0.0F, 0.0F, -2.0F};
+    options.drawing.slab = {{-1.0, 0.5}}; // the middle is at z = 2
     const core::Scene scene = parse_scene("a.xyz", atoms, options);
     CHECK(height_at(scene, 0.0, 0.0) == 2.0); // touches the slab from below
     CHECK(height_at(scene, 0.0, 6.0) == 2.5);
