@@ -119,7 +119,7 @@ build_without() {
     refuses gemmi-dev "$raylane" render atom.pdb -o atom.png
     refuses libopenexr-dev "$raylane" render "$scene" --size 40x30 -o picture.exr
     refuses libtiff-dev "$raylane" render "$scene" --size 40x30 -o picture.tif
-    refuses libpango1.0-dev "$raylane" render "$source/scenes/fullerene.xyz" --size 40x30 --axes xyz -o axes.png
+    refuses libpango1.0-dev "$raylane" render "$source/scenes/fullerene.xyz" --size 40x30 --triad xyz -o axes.png
     refuses libsdl2-dev "$raylane" view "$scene"
     refuses libopenmpi-dev env OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=0 \
         "$raylane" render "$scene" --size 40x30 -o ranks.png

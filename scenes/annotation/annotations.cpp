@@ -288,7 +288,7 @@ class Composer {
             {{1, 0, 0}, "x", 0xC0392B}, {{0, 1, 0}, "y", 0x1E8449}, {{0, 0, 1}, "z", 0x1F5FBF}};
         if (*annotations_.axes == Axes::of_cell) {
             const Cell& cell = legend_.structure.cell;
-            if (!cell.any()) throw BadInput("--axes", "", "must be xyz: the atoms have no cell");
+            if (!cell.any()) throw BadInput("--triad", "", "must be xyz: the atoms have no cell");
             for (std::size_t k = 0; k < 3; ++k) {
                 const double length = core::length(cell.edges[k]);
                 axes[k].direction = length > 0.0 ? 1.0 / length * cell.edges[k] : Vec3d(0.0);

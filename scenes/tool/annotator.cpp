@@ -30,7 +30,7 @@ Annotator::Annotator(const RenderArguments& arguments)
     if (!annotations_.any()) {
         if (!first_option_.empty())
             throw BadInput(first_option_, "",
-                           "goes with --legend, --scale-bar, --axes, --label or --distance");
+                           "goes with --legend, --scale-bar, --triad, --label or --distance");
         return;
     }
     if (!file_.empty()) return;

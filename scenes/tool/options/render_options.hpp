@@ -112,7 +112,7 @@ struct AnnotationArguments : OptionTable {
                                         "Text above the bar of colours."};
     Option<double> scale_bar = {*this, "--scale-bar", bar_lengths().recorded(),
                                 "Bar of this length in angstrom; auto: of a round length."};
-    Option<Axes> axes = {*this, "--axes",
+    Option<Axes> axes = {*this, "--triad",
                          choice<Axes>({{"xyz", Axes::of_space}, {"abc", Axes::of_cell}}).recorded(),
                          "Arrows along the axes of space or of the cell."};
     ListOption<LabelWords> label = {
