@@ -145,7 +145,9 @@ void blend(const std::vector<std::uint32_t>& pixels, int width, const core::Regi
             if (over >> 24 == 0) continue;
             const double share = (over >> 24) / most;
             const int column = x - part.x0, row = y - part.y0;
-            const auto below = static_cast<double>(film.alpha_at(column, row)) * (1.0 - share);
+            const double before =
+                film.has_alpha() ? static_cast<double>(film.alpha_at(column, row)) : 1.0;
+            const double below = before * (1.0 - share);
             const double alpha = share + below;
             core::Color& color = film.at(column, row);
             for (int channel = 0; channel < 3; ++channel) {
@@ -153,10 +155,8 @@ void blend(const std::vector<std::uint32_t>& pixels, int width, const core::Regi
                 const double code = (over >> (16 - 8 * channel) & 0xFF) / most / share;
                 const double shown =
                     transfer == core::Transfer::srgb ? code : core::linear_of_srgb(code);
-                const double straight = below > 0.0
-                                            ? static_cast<double>(color[channel]) /
-                                                  static_cast<double>(film.alpha_at(column, row))
-                                            : 0.0;
+                const double straight =
+                    below > 0.0 ? static_cast<double>(color[channel]) / before : 0.0;
                 const double under =
                     below > 0.0 ? core::shown(std::clamp(straight, 0.0, 1.0), transfer) : 0.0;
                 color[channel] = static_cast<float>(
