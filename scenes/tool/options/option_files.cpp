@@ -158,6 +158,15 @@ bool OptionFiles::is_used(std::size_t line) const {
 
 BadInput OptionFiles::with_place(const BadInput& bad) const {
     const std::string_view text = bad.what();
+    // The message has the line's value, or a word of it.
+    const auto fits = [&](const Line& line) {
+        constexpr std::string_view before = "got \"";
+        const std::size_t got = text.find(before);
+        if (text.find(line.value) != std::string_view::npos) return true;
+        if (got == std::string_view::npos) return false;
+        const std::string_view word = text.substr(got + before.size());
+        return line.value.find(word.substr(0, word.find('"'))) != std::string::npos;
+    };
     const Line* found = nullptr;
     std::size_t count = 0;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -165,14 +174,12 @@ BadInput OptionFiles::with_place(const BadInput& bad) const {
         const std::string name = line.option->name();
         if (!is_used(i) || !text.starts_with(name + ":")) continue;
         ++count;
-        if (found == nullptr || text.find(line.value) != std::string_view::npos) found = &line;
+        if (found == nullptr || fits(line)) found = &line;
     }
     const bool is_elsewhere = found != nullptr && found->option->is_list() &&
                               std::find(on_command_line_.begin(), on_command_line_.end(),
                                         found->option) != on_command_line_.end();
-    if (found == nullptr ||
-        ((count > 1 || is_elsewhere) && text.find(found->value) == std::string_view::npos))
-        return bad;
+    if (found == nullptr || ((count > 1 || is_elsewhere) && !fits(*found))) return bad;
     return BadInput({{found->file, {found->number, 0}, "", bad.what()}});
 }
 

@@ -74,11 +74,11 @@ TEST_CASE("help has the ranges and defaults of options") {
     const std::string render = said(fixture, {"render", "--help"}),
                       merge = said(fixture, {"merge", "--help"});
     for (const char* part :
-         {"--size WxH                  Image width and height in pixels. Default for atoms: "
-          "1200x900; for scenes: as the file says.\n",
+         {"at the resolution of --dpi. Default for atoms: 1200x900; for scenes: as the file "
+          "says.\n",
           "Range: 10 to 80 dB. Default for atoms: 46, or 40 for spheres and points;",
           "Range: 0 to 1000. Default for atoms: 8; for scenes: as the file says.\n",
-          "slow. Default: vector.\n", "--bits 8|16|32 ", "Default: 8 (PNG), 16 (EXR).\n"})
+          "slow. Default: vector.\n", "--bits 8|16|32 ", "Default: 8 (PNG, TIFF), 16 (EXR).\n"})
         CHECK(holds(render, part));
     CHECK(holds(merge, "Default: 8 (PNG), 32 (EXR), same as the parts.\n"));
     CHECK(holds(said(fixture, {"compare", "--help"}), "Range: 0 or more. Default: 0.\n"));

@@ -154,7 +154,8 @@ TEST_CASE("the figures of a rendering are JSON") {
                                            "shadow_rays_walked",
                                            "searches",
                                            "rays_refined",
-                                           "left_to_the_reference"});
+                                           "left_to_the_reference",
+                                           "legend"});
     CHECK(figures["version"] == RAYLANE_VERSION);
     CHECK(figures["scene"] == "scene.json");
     CHECK(figures["engine"] == "reference");
