@@ -58,7 +58,7 @@ def test_points_and_scenes_that_are_refused(balls):
             call()
         assert error.value.field == field, str(error.value)
     builder = raylane.SceneBuilder()
-    builder.add(raylane.Solid.sphere([0, 0, 0], 1) - raylane.Solid.sphere([1, 0, 0], 1), material=builder.add_material())
+    builder.add_solid(raylane.Solid.sphere([0, 0, 0], 1) - raylane.Solid.sphere([1, 0, 0], 1))
     with pytest.raises(InvalidValue, match="constructed solids") as error:
         Tracer(builder.build()).closest([0, 0, 2])
     assert error.value.field == "scene"
