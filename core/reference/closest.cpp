@@ -154,6 +154,11 @@ DistanceBounds bounds_of_distance(const Scene& scene, Kind kind, Place place, co
     return {std::nextafter(nearest, 0.0), std::nextafter(nearest, infinite)};
 }
 
+bool is_within(const Bounds& bounds, double size) {
+    return static_cast<double>(largest_component(bounds.lower)) < size &&
+           static_cast<double>(largest_component(bounds.upper)) < size;
+}
+
 /// Returns a number's double if all numbers within its error round to it.
 std::optional<double> surely_nearest(const Extended& number) {
     if (number.error == 0.0 && number.value.low == 0.0) return number.value.high + 0.0; // no -0
@@ -234,21 +239,34 @@ void ClosestSearcher::look_at(Kind kind, std::uint32_t block, const Vec3d& point
 
 /// Visits the blocks through the hierarchy, nearest first.
 void ClosestSearcher::walk(const Vec3d& point) {
-    const bool has_bounds = largest_component(point) < filter_limit;
+    const double reach = largest_component(point);
+    const bool in_float =
+        reach < float_filter_limit && is_within(scene_.hierarchy().bounds, float_filter_limit);
     double squared[block_size] = {};
+    float squared_in_float[block_size];
+    Bounds around;
+    if (in_float) include_point(around, point);
+    const auto limit = [&] {
+        return in_float ? float_squared_limit(limit_) : squared_limit(limit_);
+    };
     pending_.assign(1, {0.0, Child::node(0)});
     while (!pending_.empty()) {
         const Pending next = pending_.back();
         pending_.pop_back();
-        if (next.squared > squared_limit(limit_)) continue;
+        if (next.squared > limit()) continue;
         if (next.child.is_block()) {
             look_in(next.child.kind(), next.child.index(), point);
             continue;
         }
         const WideNode& node = scene_.hierarchy().nodes[next.child.index()];
-        if (has_bounds) squared_distances(node, point, squared);
+        if (in_float) {
+            squared_distances(node, around, squared_in_float);
+            std::copy_n(squared_in_float, block_size, squared);
+        } else if (reach < filter_limit) {
+            squared_distances(node, point, squared);
+        }
         const auto first = static_cast<std::ptrdiff_t>(pending_.size());
-        const double most = squared_limit(limit_);
+        const double most = limit();
         for (int i = 0; i < block_size && !node.children[i].empty(); ++i)
             if (squared[i] <= most) pending_.push_back({squared[i], node.children[i]});
         std::sort(pending_.begin() + first, pending_.end(),

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "core/hierarchy/hierarchy.hpp"
+#include "core/numbers/float4.hpp"
 #include "core/shapes/types.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 /// Bounds on the distances of a point from the 16 children of a node, and from the 16 shapes of a
 /// block, in plain doubles. They decide for nearly all shapes that these are not the closest. Loops
@@ -22,6 +24,11 @@ struct LaneBounds {
 /// that may have underflowed.
 inline double squared_limit(double distance) {
     const double at_least = std::max(distance, 0x1p-500);
+    return at_least * at_least * (1.0 + 0x1p-48);
+}
+/// The same for squares in float.
+inline double float_squared_limit(double distance) {
+    const double at_least = std::max(distance, 0x1p-60);
     return at_least * at_least * (1.0 + 0x1p-48);
 }
 
@@ -42,6 +49,27 @@ inline void squared_distances(const WideNode& node, const Vec3d& point,
     for (double& lane : squared)
         lane *= 1.0 - 0x1p-49;
 }
+
+/// The same in float, for coordinates below 2^60. `point`: bounds of the point.
+inline void squared_distances(const WideNode& node, const Bounds& point,
+                              float (&squared)[block_size]) {
+    constexpr int width = 4;
+    for (int first = 0; first < block_size; first += width) {
+        Float4 sum = all4(0.0F);
+        for (int axis = 0; axis < 3; ++axis) {
+            Float4 lower, upper;
+            std::memcpy(&lower, node.lower[axis] + first, sizeof lower);
+            std::memcpy(&upper, node.upper[axis] + first, sizeof upper);
+            const Float4 gap =
+                greatest(greatest(lower - all4(point.upper[axis]), all4(point.lower[axis]) - upper),
+                         all4(0.0F));
+            sum += gap * gap;
+        }
+        sum *= all4(1.0F - 0x1p-20F);
+        std::memcpy(squared + first, &sum, sizeof sum);
+    }
+}
+inline constexpr double float_filter_limit = 0x1p60;
 
 /// Balls around the points of 16 shapes that are closest to a point, or around the whole shapes.
 struct LaneBalls {

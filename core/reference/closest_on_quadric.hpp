@@ -20,7 +20,7 @@
 ///
 /// In an interval around l = 0, I + l A is positive definite, and the Lagrangian is convex.
 /// So g(l) is its minimum: g is concave, and at most the squared distance of any point with F = 0.
-/// Its maximum is that distance (Moré, "Generalizations of the trust region problem", 1993). At the
+/// Its maximum is that distance (More, "Generalizations of the trust region problem", 1993). At the
 /// root of N in this interval, p + y is the only closest point. Without a root there, the maximum
 /// is at an end of the interval, and several points are closest.
 namespace raylane::core {

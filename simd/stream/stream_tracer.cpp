@@ -193,7 +193,7 @@ std::size_t StreamTracer::closest(const PointStream<Real>& points, const double*
     template std::size_t StreamTracer::path_lengths(const RayStream<Real>&, core::Bodies,          \
                                                     LengthRows&) const;                            \
     template std::size_t StreamTracer::containing(const PointStream<Real>&, SolidRows&) const;     \
-    template std::size_t StreamTracer::cells(const PointStream<Real>&, const CellStream&) const;  \
+    template std::size_t StreamTracer::cells(const PointStream<Real>&, const CellStream&) const;   \
     template std::size_t StreamTracer::closest(const PointStream<Real>&, const double*,            \
                                                const ClosestStream&) const;
 RAYLANE_INSTANTIATE(float)

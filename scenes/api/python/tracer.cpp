@@ -605,9 +605,12 @@ py::dict closest(const SharedTracer& tracer, const py::object& points,
             shape_id = py::array_t<ShapeId>(axes);
             face = py::array_t<std::uint8_t>(axes);
             double* const to = point.mutable_data();
-            all = {{distance.mutable_data(), count},  {to, count},
-                   {to + count, count},               {to + 2 * count, count},
-                   {shape_id.mutable_data(), count}, {face.mutable_data(), count}};
+            all = {{distance.mutable_data(), count},
+                   {to, count},
+                   {to + count, count},
+                   {to + 2 * count, count},
+                   {shape_id.mutable_data(), count},
+                   {face.mutable_data(), count}};
         },
         [&](const Tracer& asked, const auto& some, std::size_t from, std::size_t to) {
             const auto part = [&](auto span) { return span.subspan(from, to - from); };

@@ -360,18 +360,23 @@ class Tracer {
     void cells(const DoublePointSpan& points, const CellSpan& cells,
                QueryStatistics* statistics = nullptr) const;
 
-    /// Finds the surface point that is closest to each point, and its distance. A tie occurs only if
-    /// two distances are equal in real arithmetic. Then the lower id counts. Distances from
+    /// Finds the surface point that is closest to each point, and its distance. A tie occurs only
+    /// if two distances are equal in real arithmetic. Then the lower id counts. Distances from
     /// ellipsoids and quadrics that agree in their first 75 digits count as equal. All sides of
     /// surfaces count, also those that Material::visible hides.
     ///
     /// If several points of the shape are closest, the result is one of them:
     /// - for the centre of a sphere, the one with the largest z;
-    /// - for a point on the axis of a disc, cylinder or cone, the one in the direction axis x e. Here
+    /// - for a point on the axis of a disc, cylinder or cone, the one in the direction axis x e.
+    /// Here
     ///   e is the coordinate axis along which the axis has its smallest component, the first of
     ///   several;
     /// - for a box, the one on the lowest face;
     /// - for an ellipsoid or a quadric, any of them, but always the same one.
+    ///
+    /// A point takes 1.3 us with 10,000 spheres and 3 us with 1,000,000 (one thread). It may take
+    /// milliseconds if it is equally close to several shapes, or close to a quadric whose closest
+    /// point is on its box.
     ///
     /// `max_distance` has length n, or length 0 for infinity. Shapes farther away do not count. It
     /// compares with the distance as it is answered. A point whose max_distance is NaN is refused.

