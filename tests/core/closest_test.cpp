@@ -213,3 +213,20 @@ TEST_CASE("distances at the ends of the range of doubles are not rounded to 0 or
     const Scene alone = sphere.scene();
     CHECK(ClosestSearcher(alone).find(Vec3d(most, most, most), infinity<double>).distance == most);
 }
+
+TEST_CASE("mirrored spheres tie, and an ulp of their distance decides") {
+    Random r(tests::seed(9));
+    for (int i = 0; i < 200; ++i) {
+        const Vec3d center(r.uniform(1.0, 5.0), r.uniform(-3.0, 3.0), r.uniform(-3.0, 3.0));
+        const double radius = r.uniform(0.1, 0.9);
+        const int ulps = r.integer(-1, 1); // by which the mirrored one is farther
+        const double x = ulps == 0 ? center.x : std::nextafter(center.x, ulps * infinity<double>);
+        const SphereOf<double> one{center, radius}, other{Vec3d(-x, center.y, center.z), radius};
+        const bool is_first = r.integer(0, 1) == 0;
+        const TestScene shapes{{is_first ? one : other, is_first ? other : one}};
+        const Scene scene = shapes.scene();
+        const Vec3d point(0.0, r.uniform(-3.0, 3.0), r.uniform(-3.0, 3.0));
+        const ShapeId wanted = ulps == 0 || (ulps > 0) == is_first ? 0 : 1;
+        CHECK(ClosestSearcher(scene).find(point, infinity<double>).shape == wanted);
+    }
+}
