@@ -105,8 +105,9 @@ Bounds Copies::bounds_of(const Copy& copy) const {
 
 namespace {
 
-/// Builds a hierarchy. Each node's shapes are halved along the longest axis of the centres, and the
-/// halves again. So each of n copies takes a third of a node.
+/// Builds a hierarchy. Divides the items of a node into parts of 4^k items and a last one, by
+/// halving along the longest axis of their centres. So nodes are full, except for one of each
+/// level and above full ones, and each of n copies takes a third of a node.
 class TreeBuilder {
   public:
     struct Item {
@@ -128,7 +129,8 @@ class TreeBuilder {
   private:
     using Items = std::span<Item>;
 
-    static Items halved(Items items, Items& rest) {
+    /// Moves the `count` items with the smallest centres to the front.
+    static void divide(Items items, std::size_t count) {
         Bounds centers;
         for (const Item& item : items)
             for (int axis = 0; axis < 3; ++axis) {
@@ -140,29 +142,36 @@ class TreeBuilder {
             if (centers.upper[axis] - centers.lower[axis] >
                 centers.upper[longest] - centers.lower[longest])
                 longest = axis;
-        const std::size_t half = (items.size() + 1) / 2;
-        std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half),
+        std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(count),
                          items.end(), [longest](const Item& a, const Item& b) {
                              return a.center(longest) != b.center(longest)
                                         ? a.center(longest) < b.center(longest)
                                         : a.copy < b.copy;
                          });
-        rest = items.subspan(half);
-        return items.first(half);
+    }
+
+    /// Divides items into parts of `size` items and a last one.
+    static void divide(Items items, std::size_t size, std::vector<Items>& parts) {
+        const std::size_t count = (items.size() + size - 1) / size;
+        if (count == 1) return parts.push_back(items);
+        const std::size_t first = (count + 1) / 2 * size;
+        divide(items, first);
+        divide(items.first(first), size, parts);
+        divide(items.subspan(first), size, parts);
     }
 
     std::uint32_t add_node(Items items) {
-        Items parts[4] = {items};
-        int count = 1;
-        for (int level = 0; level < 2; ++level)
-            for (int part = 0, before = count; part < before; ++part)
-                if (parts[part].size() > 1) parts[part] = halved(parts[part], parts[count++]);
+        std::size_t size = 1; // of a part
+        while (4 * size < items.size())
+            size *= 4;
+        std::vector<Items> parts;
+        divide(items, size, parts);
         const auto number = static_cast<std::uint32_t>(nodes_.size());
         nodes_.emplace_back();
         for (int child = 0; child < 4; ++child) {
             Bounds bounds;
             std::uint32_t what = Copies::Node::none;
-            if (child < count) {
+            if (static_cast<std::size_t>(child) < parts.size()) {
                 for (const Item& item : parts[child])
                     bounds.include(item.bounds);
                 what = parts[child].size() == 1 ? parts[child].front().copy | Copies::Node::copy_bit

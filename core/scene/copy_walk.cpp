@@ -4,6 +4,7 @@
 #include "core/numbers/infinity.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -84,10 +85,11 @@ void CopyWalk::enter(const Copies::Node& node, float t_limit) {
         far = least((leaves - all4(until_[axis])) * inverse, far);
     }
     near *= all4(1.0F - 0x1p-20F);
-    const Int4 hits = near <= far * all4(1.0F + 0x1p-20F);
+    const Int4 hits = (near <= far * all4(1.0F + 0x1p-20F)) & Int4{1, 2, 4, 8};
     const std::size_t first = pending_.size();
-    for (int i = 0; i < 4; ++i) {
-        if (hits[i] == 0) continue;
+    for (auto left = static_cast<unsigned>(hits[0] | hits[1] | hits[2] | hits[3]); left != 0;
+         left &= left - 1) {
+        const int i = std::countr_zero(left);
         pending_.push_back({near[i], node.children[i]});
         for (std::size_t at = pending_.size() - 1;
              at > first && pending_[at - 1].t < pending_[at].t; --at)

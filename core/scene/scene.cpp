@@ -274,13 +274,14 @@ bool can_copy(const PartShape& shape) {
 
 } // namespace
 
-bool SceneBuilder::can_keep(std::span<const Solid> members,
-                            std::span<const Placement> placements) const {
+bool SceneBuilder::keeps_copies(std::span<const Solid> members,
+                                std::span<const Placement> placements) const {
     const std::size_t count = placements.size() * members.size();
     if (count == 0 || count < keep_from || solids_.any()) return false;
     return std::all_of(members.begin(), members.end(),
                        [&](const Solid& member) {
                            return member.made == Made::of_shape && can_copy(member.shape) &&
+                                  member.material < scene_.materials_.size() &&
                                   !scene_.materials_[member.material].transmits();
                        }) &&
            std::all_of(placements.begin(), placements.end(), [](const Placement& placement) {
@@ -306,7 +307,7 @@ ShapeId SceneBuilder::add_copies(std::span<const Solid> members,
     }
     require_room(count * placements.size());
     const auto first = static_cast<ShapeId>(shape_count());
-    if (!can_keep(members, placements)) {
+    if (!keeps_copies(members, placements)) {
         for (const Placement& placement : placements) {
             const Transform transform = transform_of(placement);
             for (const Solid& member : members)

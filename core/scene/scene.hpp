@@ -45,7 +45,7 @@ class Scene {
     const Tables& shapes() const { return shapes_; }
     /// Returns the number of shapes, including those of copies.
     std::size_t shape_count() const { return material_of_.size(); }
-    /// Returns the copies of groups that are kept as such; null if there are none.
+    /// Returns the kept copies of groups, or null.
     const Copies* copies() const { return copies_.get(); }
     /// Makes a block of a table that belongs to a copy; see Copies.
     void make_block(Kind kind, std::uint32_t block) const {
@@ -230,6 +230,8 @@ class SceneBuilder {
     /// Other copies become shapes. Fields of errors are those of add_group(), and
     /// "placements/2/translate/0", ...
     ShapeId add_copies(std::span<const Solid> members, std::vector<Placement> placements);
+    /// Returns true if add_copies() would keep valid copies as such.
+    bool keeps_copies(std::span<const Solid> members, std::span<const Placement> placements) const;
 
     /// Reserves memory for `count` more shapes, so that adding them copies nothing.
     void reserve(std::size_t count);
@@ -265,7 +267,6 @@ class SceneBuilder {
         std::vector<Placement> placements;
         ShapeId first_id;
     };
-    bool can_keep(std::span<const Solid> members, std::span<const Placement> placements) const;
     /// Turns all copies so far into shapes.
     void give_up_copies();
     void build_copies();

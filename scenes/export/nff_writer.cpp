@@ -55,7 +55,8 @@ class NffWriter {
     /// Returns the approximate size of the visible scene, including the camera.
     static double size_of(const core::Scene& scene) {
         double size = static_cast<double>(core::length(scene.camera().at - scene.camera().from));
-        const core::Bounds& bounds = scene.hierarchy().bounds;
+        core::Bounds bounds = scene.hierarchy().bounds;
+        if (scene.copies() != nullptr) bounds.include(scene.copies()->bounds());
         for (int axis = 0; axis < 3; ++axis)
             if (bounds.lower[axis] <= bounds.upper[axis])
                 size = std::max(size, static_cast<double>(bounds.upper[axis]) -

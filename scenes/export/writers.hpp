@@ -29,7 +29,7 @@ void write_json_without_objects(TextFile& file, const core::Scene& scene);
 void write_nff(TextFile& file, const core::Scene& scene, Differences& differences);
 void write_pov(TextFile& file, const core::Scene& scene, Differences& differences);
 
-/// Where the shapes of a scene are in its tables, by id.
+/// The places of a scene's shapes in its tables, by id.
 class PlacesById {
   public:
     explicit PlacesById(const core::Scene& scene)

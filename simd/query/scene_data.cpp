@@ -172,6 +172,9 @@ SceneData::SceneData(const core::Scene& scene, Transmissive transmissive)
 void SceneData::view_copies(Transmissive transmissive) {
     for (const core::Copies::Set& set : scene_.copies()->sets())
         prototypes_.push_back(std::make_unique<const SceneData>(*set.prototype, transmissive));
+    core::Bounds bounds = scene_.hierarchy().bounds;
+    bounds.include(scene_.copies()->bounds());
+    radius_ = 0.5F * core::length(core::Vec3f(bounds.upper - bounds.lower));
     view_with_copies_ = view_;
     core::for_each_table(scene_.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         view_with_copies_.tables[static_cast<int>(core::kind_of<Shape>)].block_count +=

@@ -26,7 +26,7 @@ class SlotsByName {
     }
     /// Fetches the slot of a shape into the cache.
     void prefetch(core::ShapeId id) const {
-        if (id < slots_.size()) __builtin_prefetch(&slots_[id]); // in vain beside copies
+        if (id < slots_.size()) __builtin_prefetch(&slots_[id]); // useless beside copies
     }
 
   private:

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,11 +28,13 @@ struct Contents {
     std::vector<std::vector<Placement>> placements; ///< by group
     Settings settings;
     Camera camera;
+    std::optional<AutoCamera> auto_camera;
 
     Scene built(bool as_copies) const {
         SceneBuilder builder;
         builder.settings = settings;
         builder.camera = camera;
+        builder.auto_camera = auto_camera;
         builder.add_light({.position = {40, 60, 50}});
         for (const Material& material : materials)
             builder.add_material(material);
@@ -42,7 +46,7 @@ struct Contents {
         builder.add(groups[0], placements[0], 0);
         for (std::size_t i = before; i < balls.size(); ++i)
             builder.add(balls[i], 1);
-        builder.add(groups[1], placements[1], 0);
+        if (groups.size() > 1) builder.add(groups[1], placements[1], 0);
         return builder.build();
     }
 };
@@ -277,13 +281,34 @@ TEST_CASE("images of kept copies have the bits of those of shapes") {
     contents.settings.width = 60;
     contents.settings.height = 40;
     contents.settings.grid = 2;
-    RenderOptions options;
-    options.layers = true;
-    const Image kept = render(contents.built(true), options);
-    const Image shapes = render(contents.built(false), options);
-    CHECK((kept.rgb == shapes.rgb));
-    CHECK((kept.layers.shape_id == shapes.layers.shape_id));
-    CHECK((kept.layers.depth == shapes.layers.depth));
+    const auto expect_same_images = [&] {
+        RenderOptions options;
+        options.layers = true;
+        const Image kept = render(contents.built(true), options);
+        const Image shapes = render(contents.built(false), options);
+        CHECK((kept.rgb == shapes.rgb));
+        CHECK((kept.layers.shape_id == shapes.layers.shape_id));
+        CHECK((kept.layers.depth == shapes.layers.depth));
+        CHECK((kept.layers.samples == shapes.layers.samples));
+    };
+    expect_same_images();
+    contents.auto_camera = AutoCamera{};
+    contents.settings.quality = 35.0F; // beams search for thin shapes
+    expect_same_images();
+}
+
+TEST_CASE("a kept copy takes at most 100 bytes") {
+    Random random(7);
+    Contents contents = any_contents(random, 100, 1, 0);
+    contents.groups.resize(1);
+    contents.placements = {{}};
+    const auto bytes_of = [&](std::size_t copies) {
+        while (contents.placements[0].size() < copies)
+            contents.placements[0].push_back(any_placement(random, 1000));
+        return static_cast<double>(library::Internals::of(contents.built(true)).bytes());
+    };
+    const double few = bytes_of(1000), many = bytes_of(11000);
+    CHECK((many - few) / 10000 <= 100.0);
 }
 
 TEST_CASE("solids turn copies into shapes with the same ids") {

@@ -187,15 +187,14 @@ class SceneBuilder {
     ///
     /// Copies of `keep_from` shapes or more are kept as copies, of less than 100 bytes each, under
     /// these conditions:
-    /// - nothing but lights is added after them;
     /// - all members are spheres and cylinders whose material has no transmission;
     /// - no coordinate exceeds 2^40, and the scale is from 2^-20 to 2^20;
-    /// - the scene has no solids and no automatic camera.
+    /// - the scene has no solids.
     ///
-    /// Answers to Tracer::nearest() and occluded(), and images, have the bits of a scene of shapes.
-    /// Equal shapes in different copies count each, however. Shapes that rays hit take memory from
-    /// then on. A scene with kept copies has no other queries, no with_positions(), no shapes() and
-    /// bounds() of its copies, and cannot be saved.
+    /// Answers and images have the bits of a scene of shapes, except that equal shapes of different
+    /// copies count each. Shapes that rays have hit take memory from then on, up to 1 kB for 16
+    /// spheres. Precision other than exact, contains(), cells(), with_positions() and files that end
+    /// in .rl need shapes: the first is ignored, the others throw.
     ShapeId add(const Group& group, std::span<const Placement> placements,
                 MaterialIndex material = no_material);
     /// Number of shapes in one call from which copies are kept. Fewer are faster as shapes.
