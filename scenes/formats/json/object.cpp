@@ -127,6 +127,7 @@ class ObjectReader {
     void made(Made by);
     void lens();
     void several();
+    void copies();
 
     void sphereflake() {
         refuse_unless_added();
@@ -319,8 +320,41 @@ void ObjectReader::lens() {
     checked(object_, [&] { builder_->add_solid(solid, own); });
 }
 
+/// Reads the place of one copy.
+core::Placement placement_of(const JsonValue& value) {
+    value.allow_only({"scale", "rotate", "translate"});
+    core::Placement placement;
+    if (const auto scale = value.find("scale")) placement.scale = scale->real();
+    if (const auto rotate = value.find("rotate")) placement.rotate = rotate->real_vector();
+    if (const auto translate = value.find("translate"))
+        placement.translate = translate->real_vector();
+    checked(value, [&] { core::validate(placement); });
+    return placement;
+}
+
+/// Adds copies of a definition.
+void ObjectReader::copies() {
+    object_.allow_only({"type", "material", "of", "placements"});
+    const Definition& definition = context_.definitions.named_by(object_.at("of"));
+    std::vector<Solid> members = definition.solids;
+    for (Solid& member : members) {
+        if (member.material == core::no_material) member.material = material_if_any();
+        if (member.material == core::no_material && member.made == Made::of_shape)
+            static_cast<void>(object_.at("material")); // throws, as it is missing
+    }
+    std::vector<core::Placement> placements;
+    for (const JsonValue& value : object_.at("placements").array("placements"))
+        placements.push_back(placement_of(value));
+    const bool are_kept = builder_->keeps_copies(members, placements);
+    context_.definitions.count(are_kept ? definition.parts + placements.size()
+                                        : definition.parts * placements.size(),
+                               object_);
+    checked(object_, [&] { builder_->add_copies(members, std::move(placements)); });
+}
+
 /// Adds the shapes of a group, an instance or a transformed object.
 void ObjectReader::several() {
+    if (object_.find("placements") && object_.at("type").string() == "instance") return copies();
     for (const Solid& solid : SolidReader(context_).described(object_, Use::member)) {
         if (solid.material == core::no_material && solid.made == Made::of_shape)
             static_cast<void>(object_.at("material")); // throws, as it is missing

@@ -277,6 +277,9 @@ Case groups() {
             "objects": [
                 {"type": "instance", "of": "pair", "material": "m"},
                 {"type": "instance", "of": "pair", "translate": [1, 0.1, 0], "material": "n"},
+                {"type": "instance", "of": "pair", "material": "m", "placements": [
+                    {"scale": 0.5, "rotate": [0, 0, 30], "translate": [2, 0.3, 0]},
+                    {"translate": [-2, 0.1, 0]}]},
                 {"type": "group", "material": "n", "rotate": [0, 0, 45], "objects": [
                     {"type": "instance", "of": "pair", "translate": [-1, -0.1, 0]},
                     {"type": "union", "objects": [
@@ -301,6 +304,8 @@ Case groups() {
                                            .upper = {1, 1, 1}});
                 to.add(pair, m);
                 to.add(pair.transformed(Transform().translated({1, 0.1, 0})), n);
+                const Placement small{{2, 0.3, 0}, {0, 0, 30}, 0.5}, left{{-2, 0.1, 0}};
+                to.add(pair, std::vector{small, left}, m);
                 Group group;
                 group.add(pair.transformed(Transform().translated({-1, -0.1, 0})));
                 group.add(Solid(SphereOf<double>{{0, -1, 0}, 0.4}, m));
