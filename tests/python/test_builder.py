@@ -101,6 +101,9 @@ def test_groups_and_instances():
         "definitions": {"pair": {"type": "group", "objects": [ball(0, 0, 0.4), ball(0.5, 0, 0.3)]}},
         "objects": [
             {"type": "instance", "of": "pair", "material": "m"},
+            {"type": "instance", "of": "pair", "material": "n", "placements": [
+                {"scale": 0.5, "rotate": [0, 0, 30], "translate": [2, 2, 0]},
+                {"scale": 0.5, "rotate": [90, 0, 30], "translate": [-2, 2, 0]}]},
             {
                 "type": "group",
                 "material": "n",
@@ -120,12 +123,14 @@ def test_groups_and_instances():
     pair = Group()
     assert pair.add_spheres([(0, 0, 0), (0.5, 0, 0)], [0.4, 0.3]) == range(0, 2)
     assert builder.add_group(pair, material=0) == range(0, 2)
+    turns = [(0, 0, 30), (90, 0, 30)]
+    assert builder.add_copies(pair, [(2, 2, 0), (-2, 2, 0)], rotate=turns, scale=0.5, material=1) == range(2, 6)
     group = Group()
     assert group.add_group(pair.transformed(Transform().translated((-1, -1, 0)))) == range(0, 2)
     group.add_discs((0, -2, 0), (0, 1, 1), 1, material=0)
     assert group.add_solid(Solid.sphere((2, 1, 0), 0.4)) == range(3, 4)
     assert len(group) == 4
-    assert builder.add_group(group.of(1).transformed(Transform().rotated((0, 0, 45)))) == range(2, 6)
+    assert builder.add_group(group.of(1).transformed(Transform().rotated((0, 0, 45)))) == range(6, 10)
     cut = pair.solid().transformed(Transform().translated((-1, 1, 0))) & Solid.half_space((0, 1, 0), (0, 1, 0))
     builder.add_solid(cut, material=0)
     check_same(builder, keys)

@@ -340,6 +340,26 @@ py::tuple add_group(Shared<To>& shared, SharedGroup& group, const py::object& ma
     return shared.numbers([&](To& to) { to.add(members, of); });
 }
 
+py::tuple add_copies(SharedBuilder& builder, SharedGroup& group, const py::object& translate,
+                     const py::object& rotate, const py::object& scale,
+                     const py::object& material) {
+    const std::size_t count =
+        count_of({{translate, 1, "translate"}, {rotate, 1, "rotate"}, {scale, 0, "scale"}});
+    const Rows<double> by(translate, {3}, "translate", count), angles(rotate, {3}, "rotate", count);
+    const Values<double> factors(scale, count, "scale");
+    const auto vectors = [](const Rows<double>& rows) {
+        return std::array{rows.column(0), rows.column(1), rows.column(2)};
+    };
+    const auto [x, y, z] = vectors(by);
+    const auto [about_x, about_y, about_z] = vectors(angles);
+    std::vector<Placement> placements(count);
+    for (std::size_t i = 0; i < count; ++i)
+        placements[i] = {{x[i], y[i], z[i]}, {about_x[i], about_y[i], about_z[i]}, factors[i]};
+    const MaterialIndex of = material_or_none(material);
+    const Group members = group.change([](const Group& all) { return all; });
+    return builder.numbers([&](SceneBuilder& to) { to.add(members, placements, of); });
+}
+
 py::tuple add_sphereflake(SharedBuilder& builder, const py::object& center,
                           const py::object& radius, const py::object& depth, const py::object& up,
                           const py::object& material) {
@@ -419,6 +439,7 @@ void bind_builder(py::module_& module) {
                  const Material value = material_from(material);
                  return to.change([&](SceneBuilder& all) { return added(all, value, name); });
              })
+        .def("add_copies", &add_copies)
         .def("add_sphereflake", &add_sphereflake)
         .def("add_lattice", &add_lattice)
         .def("add_light",
