@@ -174,6 +174,7 @@ std::size_t StreamTracer::cells(const PointStream<Real>& points, const CellStrea
 template <class Real>
 std::size_t StreamTracer::closest(const PointStream<Real>& points, const double* max_distance,
                                   const ClosestStream& closest) const {
+    refuse_copies("closest");
     core::require_closest_points(data_->scene());
     return answer(closest_workers_, points.count,
                   [&](ClosestWorker& worker, std::size_t first, std::size_t count) {

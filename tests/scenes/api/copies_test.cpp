@@ -380,6 +380,9 @@ TEST_CASE("scenes with kept copies refuse other queries") {
               tracer.contains(PointSpan{zero, zero, zero}, rows);
           }).find("copies") != std::string::npos);
     CHECK(message_of([&] {
+              tracer.closest(PointSpan{zero, zero, zero}, ClosestSpan{});
+          }).find("copies") != std::string::npos);
+    CHECK(message_of([&] {
               static_cast<void>(scene.with_positions(std::vector<Vec3>{}));
           }).find("copies") != std::string::npos);
 }

@@ -193,8 +193,8 @@ class SceneBuilder {
     ///
     /// Answers and images have the bits of a scene of shapes, except that equal shapes of different
     /// copies count each. Shapes that rays have hit take memory from then on, up to 1 kB for 16
-    /// spheres. Precision other than exact, contains(), cells(), with_positions() and files that end
-    /// in .rl need shapes: the first is ignored, the others throw.
+    /// spheres. Precision other than exact, contains(), cells(), closest(), with_positions() and
+    /// files that end in .rl need shapes: the first is ignored, the others throw.
     ShapeId add(const Group& group, std::span<const Placement> placements,
                 MaterialIndex material = no_material);
     /// Number of shapes in one call from which copies are kept. Fewer are faster as shapes.
