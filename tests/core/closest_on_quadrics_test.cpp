@@ -62,6 +62,8 @@ double sampled_distance(const QuadricD& q, const Vec3d& p, Random& r) {
             form_along(q, ExactRay{convert<Dyadic>(origin), convert<Dyadic>(direction)}, body);
         const double A = f.A.approximately().to_double(), B = f.B.approximately().to_double(),
                      C = f.C.approximately().to_double();
+        // Doubles give a double root to 8 digits only.
+        if (A != 0.0 && !(B * B - A * C > 1e-6 * (B * B + std::abs(A * C)))) continue;
         const double root = std::sqrt(B * B - A * C);
         bool is_better = false;
         for (const double t : {(-B - root) / A, (-B + root) / A, -C / (2.0 * B)}) {
