@@ -446,7 +446,10 @@ std::vector<Solid> SolidReader::described(const JsonValue& object, Use use) {
                 all.push_back(std::move(solid));
     } else if (type == "instance") {
         keys.emplace_back("of");
+        keys.emplace_back("placements");
         object.allow_only(keys);
+        if (const auto placements = object.find("placements"))
+            placements->fail("goes with an instance that is an object of the scene itself");
         all = instance_of(object, use);
     } else {
         ObjectReader reader(object, *this, use, all.emplace_back());

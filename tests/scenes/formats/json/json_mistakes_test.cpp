@@ -224,6 +224,10 @@ TEST_CASE("A mistake is reported where it is and not where it is used") {
           "/definitions/d/radius: must be positive, got -1");
     CHECK(complaint(R"("definitions": {})", use + ", " + use) ==
           "/objects/0/of: must be the name of an earlier definition, got \"d\"");
+    const std::string placed = R"({"type": "instance", "of": "d", "placements": []})";
+    CHECK(complaint(defined + sphere("1") + "}", solid + placed + "]}") ==
+          "/objects/0/objects/0/placements: goes with an instance that is an object of the scene "
+          "itself");
     CHECK(complaint(R"("parameters": {"r": "x"})", sphere("\"$r\"") + ", " + sphere("\"-$r\"")) ==
           "/parameters/r: must be a number, got \"x\"");
     CHECK(
