@@ -50,6 +50,7 @@ Sample ReferenceTracer<Real>::taken(const SampleName& name) {
 
 template <class Real>
 void ReferenceTracer<Real>::survey(Survey::Pass pass, std::size_t batch) {
+    if (batch >= survey_->batches(pass)) return;
     Survey::Samples samples(*survey_, pass, batch);
     do {
         for (std::size_t pixel = 0; pixel < samples.pixels(); ++pixel)

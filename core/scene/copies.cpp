@@ -222,15 +222,20 @@ Copies::Copy Copies::copy_with(ShapeId id) const {
 
 template <class Shape>
 void Copies::make_in(const CopiedBlocks<Shape>& blocks, std::size_t i) const {
-    std::uint8_t expected = CopiedBlocks<Shape>::unmade;
-    if (__atomic_compare_exchange_n(&blocks.made[i], &expected, CopiedBlocks<Shape>::in_work, false,
-                                    __ATOMIC_ACQUIRE, __ATOMIC_ACQUIRE)) {
-        fill(blocks, i);
+    using Blocks = CopiedBlocks<Shape>;
+    while (!blocks.is_made(i)) { // or another thread makes it, in some microseconds
+        std::uint8_t expected = Blocks::unmade;
+        if (!__atomic_compare_exchange_n(&blocks.made[i], &expected, Blocks::in_work, false,
+                                         __ATOMIC_ACQUIRE, __ATOMIC_ACQUIRE))
+            continue;
+        try {
+            fill(blocks, i);
+        } catch (...) {
+            __atomic_store_n(&blocks.made[i], Blocks::unmade, __ATOMIC_RELEASE);
+            throw;
+        }
         made_bytes_ += sizeof(Block<Shape>) + sizeof(DoubleBlock<Shape>);
-        __atomic_store_n(&blocks.made[i], CopiedBlocks<Shape>::done, __ATOMIC_RELEASE);
-        return;
-    }
-    while (!blocks.is_made(i)) { // another thread needs some microseconds
+        __atomic_store_n(&blocks.made[i], Blocks::done, __ATOMIC_RELEASE);
     }
 }
 

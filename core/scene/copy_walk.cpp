@@ -29,13 +29,13 @@ float rounded_up(double value) {
 
 } // namespace
 
-void CopyWalk::start(const Ray<double>& ray) {
+void CopyWalk::start(const Ray<double>& ray, double off) {
     const Vec3d& d = ray.direction;
     const double scale = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
     const Vec3d part(d.x / scale, d.y / scale, d.z / scale);
     const double rest = length(part), inverse_of_rest = 1.0 / rest;
     length_ = rest * scale;
-    double moved = 0.0;
+    double moved = 4.0 * off;
     float origin[3];
     for (int axis = 0; axis < 3; ++axis) {
         constexpr double most = 0x1p100;
@@ -48,10 +48,10 @@ void CopyWalk::start(const Ray<double>& ray) {
     }
     const float slack = rounded_up(moved);
     for (int axis = 0; axis < 3; ++axis) {
-        const float off = std::copysign(
+        const float shift = std::copysign(
             slack * (1.0F + 0x1p-20F) + 0x1p-22F * std::abs(origin[axis]), inverse_[axis]);
-        from_[axis] = origin[axis] + off;
-        until_[axis] = origin[axis] - off;
+        from_[axis] = origin[axis] + shift;
+        until_[axis] = origin[axis] - shift;
     }
     pending_.clear();
     if (!copies_.nodes().empty()) pending_.push_back({0.0F, 0});

@@ -14,8 +14,9 @@ class CopyWalk {
   public:
     explicit CopyWalk(const Copies& copies) : copies_(copies) { pending_.reserve(256); }
 
-    /// Starts a walk along a ray, whose direction may have any length.
-    void start(const Ray<double>& ray);
+    /// Starts a walk along a ray, whose direction may have any length. `off`: bound on the error
+    /// of each coordinate of its origin.
+    void start(const Ray<double>& ray, double off = 0.0);
 
     /// Returns true and the next copy whose bounds the ray enters before t_limit, which may be
     /// another one at each call.

@@ -263,8 +263,10 @@ bool can_copy(const PartShape& shape) {
                                    []<class Shape>(const Shape& of) {
                                        if constexpr (is_bounded<InFloat<Shape>>) {
                                            const Bounds bounds = bounds_of(of);
+                                           // No number that is above 0 becomes 0 in a copy.
                                            return is_ordinary(convert<double>(bounds.lower)) &&
-                                                  is_ordinary(convert<double>(bounds.upper));
+                                                  is_ordinary(convert<double>(bounds.upper)) &&
+                                                  length(bounds.upper - bounds.lower) >= 0x1p-40F;
                                        } else {
                                            return false;
                                        }
@@ -308,6 +310,18 @@ ShapeId SceneBuilder::add_copies(std::span<const Solid> members,
     require_room(count * placements.size());
     const auto first = static_cast<ShapeId>(shape_count());
     if (!keeps_copies(members, placements)) {
+        // All are checked before one is added.
+        for (std::size_t i = 0; i < placements.size(); ++i) {
+            const Transform transform = transform_of(placements[i]);
+            for (const Solid& member : members) {
+                try {
+                    check_member(transformed_member(member, transform));
+                } catch (const InvalidValue& invalid) {
+                    throw InvalidValue("placements/" + std::to_string(i) + "/" + invalid.field,
+                                       invalid.expectation);
+                }
+            }
+        }
         for (const Placement& placement : placements) {
             const Transform transform = transform_of(placement);
             for (const Solid& member : members)
@@ -324,6 +338,14 @@ ShapeId SceneBuilder::add_copies(std::span<const Solid> members,
 }
 
 void SceneBuilder::give_up_copies() {
+    constexpr std::size_t max_given_up = std::size_t{1} << 26;
+    std::size_t count = 0;
+    for (const KeptCopies& copies : kept_)
+        count += copies.members.size() * copies.placements.size();
+    if (count > max_given_up)
+        throw InvalidValue("", "must not be a constructed solid beside " + std::to_string(count) +
+                                   " shapes of kept copies, which it turns into shapes: at most " +
+                                   std::to_string(max_given_up) + " can be");
     scene_.material_of_ = scene_.material_of_.all_stored();
     for (const KeptCopies& copies : kept_) {
         ShapeId id = copies.first_id;

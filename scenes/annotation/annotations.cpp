@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -122,8 +123,8 @@ class Composer {
     }
 
   private:
-    SheetText text(const Point& at, std::string words, Anchor anchor) const {
-        return {at, size_, std::move(words), anchor, ink_, paper_};
+    SheetText text(const Point& at, const std::string& words, Anchor anchor) const {
+        return {at, size_, printable(words, 4096), anchor, ink_, paper_};
     }
     double margin() const { return size_; }
 
@@ -383,6 +384,11 @@ DistanceWords distance_words_of(const std::string& option, const std::string& te
 
 std::vector<double> round_numbers_in(double least, double most) {
     if (!(most > least)) return {least};
+    // Numbers that differ in their last digits alone, or by more than doubles can hold, stand as
+    // they are.
+    if (!(most - least < std::numeric_limits<double>::max()) ||
+        most - least < 1e-12 * std::max(std::abs(least), std::abs(most)))
+        return {least, most};
     const double step = round_below((most - least) / 3.0);
     std::vector<double> numbers;
     const double first = std::ceil(least / step - 1e-9);

@@ -34,6 +34,8 @@ std::string escaped(std::string_view text) {
             result += "&amp;";
         else if (c == '<')
             result += "&lt;";
+        else if (c == '>')
+            result += "&gt;";
         else if (c == '"')
             result += "&quot;";
         else if (static_cast<unsigned char>(c) >= ' ') // others are not XML

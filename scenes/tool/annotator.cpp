@@ -5,6 +5,7 @@
 #include "scenes/formats/structure/colors.hpp"
 #include "scenes/tool/system.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -50,6 +51,12 @@ void Annotator::require_single() const {
 void Annotator::compose(const core::Scene& scene, const core::Settings& settings,
                         const OnRemark& on_remark) {
     if (!annotations_.any()) return;
+    constexpr int most = 32767; // of a surface of cairo
+    if (covers_image() && std::max(settings.width, settings.height) > most)
+        throw BadInput("--size", "",
+                       "must be at most " + std::to_string(most) +
+                           " pixels on each side with annotations, unless --annotations puts them "
+                           "into a file");
     const core::Color background = settings.alpha ? core::Color(1.0F) : scene.background();
     sheet_ = sheet_of(annotations_, legend_,
                       {scene.camera(), settings.width, settings.height, background}, on_remark);

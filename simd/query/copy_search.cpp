@@ -98,7 +98,11 @@ void CopySearch::for_each_copy(const RoundedRays& rays, std::size_t i, const Lim
     const core::Vec3d origin = vector_at(rays.exact_origin, i);
     const core::Vec3d direction = vector_at(rays.exact_direction, i);
     const double before = before_of(rays, i);
-    walk_.start({before == 0.0 ? origin : core::Vec3d(origin + before * direction), direction});
+    // The start is moved along the ray, with a rounding of each product and sum, and of the
+    // direction.
+    const double size = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z) + before;
+    walk_.start({before == 0.0 ? origin : core::Vec3d(origin + before * direction), direction},
+                before == 0.0 ? 0.0 : 0x1p-49 * size);
     std::uint32_t copy = 0;
     while (walk_.next(t_limit(), copy)) {
         const Local local = place(rays, i, copy);

@@ -132,8 +132,12 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
     };
     if (!surveys.empty() && !is_stopped())
         for (const auto pass : core::Survey::passes) {
+            // Wavelengths have surveys of their own, and take the batches that they have.
+            std::size_t batches = 0;
+            for (const core::Survey& survey : surveys)
+                batches = std::max(batches, survey.batches(pass));
             on_threads(options.threads, [&] {
-                parallel_for(surveys.front().batches(pass), [&](std::size_t batch) {
+                parallel_for(batches, [&](std::size_t batch) {
                     if (!is_stopped()) tracers.local().survey(pass, batch);
                 });
             });

@@ -180,6 +180,7 @@ auto Wavefront::adder_to(Pixels& pixels) {
 }
 
 void Wavefront::survey(core::Survey::Pass pass, std::size_t batch) {
+    if (batch >= survey_->batches(pass)) return;
     core::Survey::Samples pixels(*survey_, pass, batch);
     const auto add = adder_to(pixels);
     is_surveying_ = true;

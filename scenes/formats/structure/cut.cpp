@@ -3,6 +3,7 @@
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/structure/lines.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -25,8 +26,13 @@ std::vector<double> numbers_in(std::string_view text, char separator) {
 
 std::optional<CutPlane> plane_in(std::string_view text) {
     if (const std::vector<double> list = numbers_in(text, ','); list.size() == 4) {
-        const CutPlane plane{{list[0], list[1], list[2]}, list[3]};
-        if (plane.normal == core::Vec3d(0.0)) return std::nullopt;
+        const core::Vec3d normal(list[0], list[1], list[2]);
+        const double largest =
+            std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+        const CutPlane plane{1.0 / largest * normal, list[3] / largest};
+        if (!std::isfinite(largest) || !std::isfinite(1.0 / largest) ||
+            !std::isfinite(plane.offset))
+            return std::nullopt;
         return plane;
     }
     const std::size_t sign = text.find_first_of("<>");

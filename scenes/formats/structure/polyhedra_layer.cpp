@@ -14,7 +14,7 @@ namespace {
 
 constexpr double in_plane = 0.05; // angstrom
 constexpr float edge_radius = 0.02F;
-constexpr std::size_t min_neighbours = 4;
+constexpr std::size_t min_neighbours = 4, max_neighbours = 64;
 
 using Face = std::vector<std::size_t>; // indices
 
@@ -68,7 +68,7 @@ std::vector<std::vector<std::size_t>> hull_of(std::span<const Vec3d> points) {
                 if (!(size > min_sine * core::length(u) * core::length(v))) continue;
                 const Vec3d normal = 1.0 / size * across;
                 Face face = face_through(points, points[i], normal);
-                if (!face.empty() && known.insert(face).second)
+                if (face.size() >= 3 && known.insert(face).second)
                     found.emplace_back(std::move(face), normal);
             }
     std::vector<Face> faces;
@@ -97,7 +97,7 @@ std::size_t add_polyhedra_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
     std::size_t count = 0;
     for (AtomIndex i = 0; i < neighbours.size(); ++i) {
         const std::vector<Vec3d>& points = neighbours[i];
-        if (points.size() < min_neighbours) continue;
+        if (points.size() < min_neighbours || points.size() > max_neighbours) continue;
         ++count;
         const AtomIndex atom = atoms.original(i);
         const auto add = [&](const auto& shape, core::MaterialIndex material) {

@@ -87,6 +87,12 @@ std::string checked_output(const RenderArguments& arguments) {
         require_other_than_scene("--stats", *arguments.stats, scene);
         require_other_output("--stats", *arguments.stats, "--output", output);
     }
+    if (const auto& file = arguments.annotation.annotations) {
+        require_other_than_scene("--annotations", *file, scene);
+        require_other_output("--annotations", *file, "--output", output);
+        if (arguments.stats)
+            require_other_output("--annotations", *file, "--stats", *arguments.stats);
+    }
     return output;
 }
 

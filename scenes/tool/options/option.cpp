@@ -250,8 +250,9 @@ Values<ImageSize> image_size_on_paper() {
             lengths[i] = unit * static_cast<double>(length);
         }
         if (unit > 0.0 && lengths[0] > 0.0) return {lengths[0], lengths[1], true};
-        // Letters other than x are no pixels.
-        if (text.find_first_not_of("0123456789+-.xX ") != std::string::npos)
+        // Numbers with letters other than x are no pixels.
+        if (text.find_first_of("0123456789") == 0 &&
+            text.find_first_not_of("0123456789+-.xX ") != std::string::npos)
             refuse(option, "a size on paper such as 8.5cm, 85x60mm or 3.3in, or in pixels", text);
         const auto [width, height] = image_size().parse(option, text);
         return {static_cast<double>(width), static_cast<double>(height)};

@@ -125,9 +125,18 @@ TEST_CASE("a scale bar is as long as it says") {
     CHECK(has(svg({.axes = Axes::of_space}, of), ">x</text>"));
 }
 
+TEST_CASE("texts of any bytes are texts of XML") {
+    const Drawn of = drawn("element");
+    const std::string text = svg({.labels = {{"index 1", "a<b]]>\xe9"}}}, of);
+    CHECK(has(text, "a&lt;b]]&gt;\\xe9</text>"));
+}
+
 TEST_CASE("round numbers cover a range") {
     CHECK(round_numbers_in(0.0, 100.0) == std::vector<double>{0, 20, 40, 60, 80, 100});
     CHECK(round_numbers_in(2.0, 2.0) == std::vector<double>{2.0});
+    // Without a round number between, and without an end of doubles' range.
+    CHECK(round_numbers_in(1e20, 1.0000000000000002e20).size() == 2);
+    CHECK(round_numbers_in(-1e308, 1e308).size() == 2);
     for (const double size : {1e-3, 0.7, 3.0, 17.0, 999.0}) {
         const std::vector<double> numbers = round_numbers_in(-0.3 * size, 0.7 * size);
         CHECK(numbers.size() >= 3);

@@ -188,6 +188,12 @@ struct DoubleRays {
             }
         }
     }
+    /// Moves the origins back along their rays.
+    void start_before(double distance) {
+        for (int axis = 0; axis < 3; ++axis)
+            for (std::size_t i = 0; i < columns[axis].size(); ++i)
+                columns[axis][i] -= distance * columns[3 + axis][i];
+    }
     DoubleRaySpan span() const {
         return {columns[0], columns[1], columns[2], columns[3], columns[4], columns[5]};
     }
@@ -238,9 +244,13 @@ void expect_same_answers(const Contents& contents, int count, Random& random) {
     Rays rays = hard_rays(shapes, count, random);
     expect_same(of_kept, of_shapes, rays.span());
     expect_same(of_kept, of_shapes, rays.part(0, 3));
-    const DoubleRays doubles(rays);
+    DoubleRays doubles(rays);
     expect_same(of_kept, of_shapes, doubles.span());
     expect_same_onward(of_kept, of_shapes, doubles, random);
+    for (const double distance : {1e6, 1e11, 1e15, 1e16}) {
+        doubles.start_before(distance);
+        expect_same(of_kept, of_shapes, doubles.span());
+    }
     limit(rays, random);
     expect_same(of_kept, of_shapes, rays.span());
 }

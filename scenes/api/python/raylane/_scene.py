@@ -352,7 +352,7 @@ class SceneBuilder(Adding):
         From 4194304 shapes on, spheres and cylinders without transmission take less than 100 bytes a copy, if the scene
         has no constructed solids. Shapes that rays have hit take memory from then on. Such a scene has the answers and
         images of one with shapes; equal shapes of different copies count each. ``Tracer.contains``, ``Tracer.cells``,
-        ``Scene.with_positions`` and files that end in .rl refuse it.
+        ``Tracer.closest``, ``Scene.with_positions`` and files that end in .rl refuse it.
         """
         return range(*self._builder.add_copies(inner_group(group), translate, rotate, scale, material))
 
