@@ -43,9 +43,10 @@ struct FormAbout {
 template <class Real, class Number>
 FormAbout<Real> form_about(const EllipsoidOf<Number>& ellipsoid, const Vec3<Real>& point) {
     const ToBall<Real> to_ball(ellipsoid);
-    const auto& [a, b, c] = to_ball.rows;
+    const auto& rows = to_ball.rows;
     const auto sum = [&](int i, int j) -> Real {
-        return mul_add(a[i], a[j], mul_add(b[i], b[j], Real(c[i] * c[j])));
+        return mul_add(rows[0][i], rows[0][j],
+                       mul_add(rows[1][i], rows[1][j], Real(rows[2][i] * rows[2][j])));
     };
     const Vec3<Real> in_ball = to_ball(Vec3<Real>(point - convert<Real>(ellipsoid.center)));
     return {{sum(0, 0), sum(1, 1), sum(2, 2)},
