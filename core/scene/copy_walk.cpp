@@ -22,7 +22,7 @@ Float4 load4(const float* from) {
 
 /// Returns a float that is not below a value >= 0.
 float rounded_up(double value) {
-    constexpr double most = std::numeric_limits<float>::max();
+    constexpr auto most = double(std::numeric_limits<float>::max());
     if (!(value < most)) return infinity<float>; // true for NaN
     return static_cast<float>(value) * (1.0F + 0x1p-22F) + std::numeric_limits<float>::min();
 }
