@@ -62,7 +62,7 @@ py::array numbers_of(const std::vector<Shape>& shapes) {
         return array;
     };
     const bool are_floats = std::ranges::all_of(
-        numbers, [](double number) { return double{static_cast<float>(number)} == number; });
+        numbers, [](double number) { return double(static_cast<float>(number)) == number; });
     return are_floats ? stored(std::type_identity<float>()) : stored(std::type_identity<double>());
 }
 
