@@ -72,14 +72,15 @@ std::vector<std::vector<std::size_t>> hull_of(std::span<const Vec3d> points) {
                     found.emplace_back(std::move(face), normal);
             }
     std::vector<Face> faces;
-    for (auto& [face, normal] : found) {
+    for (const auto& each : found) {
+        const Face& face = each.first;
         const bool is_part = std::any_of(known.begin(), known.end(), [&](const Face& other) {
             return other.size() > face.size() &&
                    std::includes(other.begin(), other.end(), face.begin(), face.end());
         });
         if (is_part) continue;
         faces.push_back(face);
-        sort_around(points, normal, faces.back());
+        sort_around(points, each.second, faces.back());
     }
     return faces;
 }
