@@ -14,7 +14,7 @@ namespace {
 /// Copies whose places are kept ready for rays; a power of two.
 constexpr std::size_t places = 1024;
 
-constexpr double largest_float = std::numeric_limits<float>::max();
+constexpr auto largest_float = double(std::numeric_limits<float>::max());
 
 float up(double value) {
     return value < largest_float ? rounded_up(static_cast<float>(value)) : core::infinity<float>;
@@ -180,7 +180,7 @@ void CopySearch::nearest_of(const RoundedRays& rays, std::size_t i, const Candid
     const double before = before_of(rays, i);
     float& first = candidates.first[i];
     float& second = candidates.second[i];
-    const auto limit = [&] { return static_cast<double>(first) * double{culling_slack}; };
+    const auto limit = [&] { return static_cast<double>(first) * double(culling_slack); };
     std::uint32_t copy = no_slot, slot = no_slot; // of the candidate, if it is in a copy
     for_each_copy(rays, i, limit, [&](const Local& local) {
         const auto to_local = [&](float t) {

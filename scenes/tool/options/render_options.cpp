@@ -148,7 +148,7 @@ core::Settings RenderArguments::settings_of(const core::Settings& own) const {
     apply_to(settings);
     if (size)
         std::tie(settings.width, settings.height) =
-            size->in_pixels(dpi().value_or(0.0F), {own.width, own.height});
+            size->in_pixels(double(dpi().value_or(0.0F)), {own.width, own.height});
     const std::optional<Finish>& look = scene_arguments.drawing.look.value();
     if (look && !image.outline) // as thick on a larger image
         settings.outline.width = std::min(core::Outline::max_width,
