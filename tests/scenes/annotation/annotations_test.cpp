@@ -128,7 +128,7 @@ TEST_CASE("a scale bar is as long as it says") {
 TEST_CASE("texts of any bytes are texts of XML") {
     const Drawn of = drawn("element");
     const std::string text = svg({.labels = {{"index 1", "a<b]]>\xe9"}}}, of);
-    CHECK(has(text, "a&lt;b]]&gt;\\xe9</text>"));
+    CHECK(has(text, "a&lt;b]]&gt;\\xE9</text>"));
 }
 
 TEST_CASE("round numbers cover a range") {

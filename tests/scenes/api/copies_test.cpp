@@ -179,8 +179,8 @@ void expect_same(const Tracer& kept, const Tracer& shapes, const BasicRaySpan<Re
 struct DoubleRays {
     std::vector<double> columns[6];
 
-    explicit DoubleRays(const Rays& rays) {
-        for (std::size_t i = 0; i < rays.size(); ++i) {
+    explicit DoubleRays(const Rays& rays, std::size_t most = 1'000'000) {
+        for (std::size_t i = 0; i < std::min(rays.size(), most); ++i) {
             const core::Ray<double> ray = rays.ray(i);
             for (int axis = 0; axis < 3; ++axis) {
                 columns[axis].push_back(ray.origin[axis] * (1.0 + 0x1p-40));
@@ -244,12 +244,13 @@ void expect_same_answers(const Contents& contents, int count, Random& random) {
     Rays rays = hard_rays(shapes, count, random);
     expect_same(of_kept, of_shapes, rays.span());
     expect_same(of_kept, of_shapes, rays.part(0, 3));
-    DoubleRays doubles(rays);
+    const DoubleRays doubles(rays);
     expect_same(of_kept, of_shapes, doubles.span());
     expect_same_onward(of_kept, of_shapes, doubles, random);
-    for (const double distance : {1e6, 1e11, 1e15, 1e16}) {
-        doubles.start_before(distance);
-        expect_same(of_kept, of_shapes, doubles.span());
+    DoubleRays far(rays, 50);
+    for (const double distance : {1e10, 1e16}) {
+        far.start_before(distance);
+        expect_same(of_kept, of_shapes, far.span());
     }
     limit(rays, random);
     expect_same(of_kept, of_shapes, rays.span());
