@@ -23,11 +23,11 @@ constexpr float share_of_stick = 0.55F; // of each of several
 class LayerShapes {
   public:
     LayerShapes(const DrawnAtoms& atoms, const AtomLayer& layer, const std::string& file,
-                core::SceneBuilder& builder, TransparentSolids& transparent,
+                core::SceneBuilder& builder, SharedSolids& shared,
                 std::vector<AtomPair>* atoms_of_shape)
         : atoms_(atoms), structure_(atoms.structure), layer_(layer), file_(file), builder_(builder),
           palette_(builder, *layer.look.opacity, layer.look.finish),
-          atoms_of_shape_(atoms_of_shape), transparent_(transparent) {}
+          atoms_of_shape_(atoms_of_shape), shared_(shared) {}
 
     void add_all() {
         add_atoms();
@@ -42,8 +42,7 @@ class LayerShapes {
 
     template <class Shape>
     void add(const Shape& shape, MaterialIndex material, const AtomPair& atoms) {
-        add_drawn(shape, material, atoms, layer_, atoms_.cuts, builder_, transparent_,
-                  atoms_of_shape_);
+        add_drawn(shape, material, atoms, layer_, atoms_.cuts, builder_, shared_, atoms_of_shape_);
     }
 
     void add_atoms() {
@@ -281,7 +280,7 @@ class LayerShapes {
     core::SceneBuilder& builder_;
     Palette palette_;
     std::vector<AtomPair>* atoms_of_shape_;
-    TransparentSolids& transparent_;
+    SharedSolids& shared_;
     std::vector<AtomIndex> one_, another_;
     std::vector<std::size_t> ellipsoid_of_; // by atom: one above the index of its axes; 0: a ball
     std::vector<std::array<Vec3d, 3>> axes_;
@@ -294,20 +293,35 @@ bool AtomLayer::has(const DrawnAtoms& atoms, AtomIndex atom) const {
            (has_kind.empty() || has_kind[atoms.structure.kinds[atom]] != 0);
 }
 
-void TransparentSolids::add_to(core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape) {
-    for (auto& [key, one] : solids_) {
+void SharedSolids::add_to(core::SceneBuilder& builder, std::span<const CutPlane> cuts,
+                          std::vector<AtomPair>* atoms_of_shape) {
+    const auto add = [&](One& one) {
         if (one.solid.parts.size() == 1) one.solid = core::Solid(one.solid.parts[0]);
         builder.add_solid(one.solid, one.solid.material);
         if (atoms_of_shape != nullptr)
             atoms_of_shape->insert(atoms_of_shape->end(), one.atoms.begin(), one.atoms.end());
+    };
+    for (auto& [key, one] : solids_)
+        add(one);
+    for (auto& [material, one] : cut_) {
+        core::Solid kept{.made = core::Made::by_intersection, .material = material};
+        kept.parts.push_back(one.solid.parts.size() == 1 ? core::Solid(one.solid.parts[0])
+                                                         : std::move(one.solid));
+        for (const CutPlane& plane : cuts) {
+            kept.parts.push_back(half_space_of(plane, material));
+            one.atoms.push_back(one.atoms.front());
+        }
+        one.solid = std::move(kept);
+        add(one);
     }
     solids_.clear();
+    cut_.clear();
 }
 
 void add_layer(const DrawnAtoms& atoms, const AtomLayer& layer, const std::string& file,
-               core::SceneBuilder& builder, TransparentSolids& transparent,
+               core::SceneBuilder& builder, SharedSolids& shared,
                std::vector<AtomPair>* atoms_of_shape) {
-    LayerShapes(atoms, layer, file, builder, transparent, atoms_of_shape).add_all();
+    LayerShapes(atoms, layer, file, builder, shared, atoms_of_shape).add_all();
 }
 
 } // namespace raylane::scenes

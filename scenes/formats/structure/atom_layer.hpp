@@ -75,9 +75,10 @@ struct DrawnAtoms {
     }
 };
 
-/// The transparent shapes of a drawing. Those of one style and opacity are one solid, as a molecule
-/// has no walls inside.
-class TransparentSolids {
+/// Solids of several shapes of a drawing. Transparent shapes of one style and opacity are one
+/// solid, as a molecule has no walls inside. Opaque shapes of one material that planes cut are one,
+/// as faces that coincide are slow.
+class SharedSolids {
   public:
     /// Adds a part, which has a material.
     void add(Style style, float opacity, core::Solid part, const AtomPair& atoms) {
@@ -85,8 +86,16 @@ class TransparentSolids {
         one.atoms.insert(one.atoms.end(), core::count_parts(part), atoms);
         one.solid.parts.push_back(std::move(part));
     }
-    /// Moves the solids into a builder. `atoms_of_shape`, unless null, receives their atoms.
-    void add_to(core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape);
+    /// Adds an opaque shape that planes cut.
+    void add_cut(core::Solid whole, const AtomPair& atoms) {
+        One& one = cut_[whole.material];
+        one.atoms.push_back(atoms);
+        one.solid.parts.push_back(std::move(whole));
+    }
+    /// Moves the solids into a builder. `cuts`: the planes. `atoms_of_shape`, unless null, receives
+    /// their atoms.
+    void add_to(core::SceneBuilder& builder, std::span<const CutPlane> cuts,
+                std::vector<AtomPair>* atoms_of_shape);
 
   private:
     struct One {
@@ -94,39 +103,35 @@ class TransparentSolids {
         std::vector<AtomPair> atoms;
     };
     std::map<std::pair<Style, float>, One> solids_;
+    std::map<core::MaterialIndex, One> cut_;
 };
 
-/// Adds the part of a shape that the cuts keep to a builder, or to `transparent`.
+/// Adds the part of a shape that the cuts keep to a builder, or to `shared`.
 template <class Shape>
 void add_drawn(const Shape& shape, core::MaterialIndex material, const AtomPair& atoms,
                const AtomLayer& layer, std::span<const CutPlane> cuts, core::SceneBuilder& builder,
-               TransparentSolids& transparent, std::vector<AtomPair>* atoms_of_shape) {
+               SharedSolids& shared, std::vector<AtomPair>* atoms_of_shape) {
     auto part = kept_part(shape, cuts, material);
     if (!part) return;
     auto* const solid = std::get_if<core::Solid>(&*part);
     // Triangles enclose nothing by themselves, so they are not parts of solids.
-    if constexpr (!core::AnyTriangle<Shape>)
-        if (*layer.look.opacity < 1.0F) {
-            core::Solid whole{.shape = core::to_doubles(shape), .material = material};
-            transparent.add(*layer.look.style, *layer.look.opacity,
-                            solid != nullptr ? std::move(*solid) : std::move(whole), atoms);
-            return;
-        }
-    const std::size_t before = builder.shape_count();
-    if (solid != nullptr)
-        builder.add_solid(*solid, material);
-    else
-        builder.add(shape, material);
-    if (atoms_of_shape != nullptr)
-        atoms_of_shape->insert(atoms_of_shape->end(), builder.shape_count() - before, atoms);
+    if constexpr (!core::AnyTriangle<Shape>) {
+        core::Solid whole{.shape = core::to_doubles(shape), .material = material};
+        if (*layer.look.opacity < 1.0F)
+            return shared.add(*layer.look.style, *layer.look.opacity,
+                              solid != nullptr ? std::move(*solid) : std::move(whole), atoms);
+        if (solid != nullptr) return shared.add_cut(std::move(whole), atoms);
+    }
+    builder.add(shape, material);
+    if (atoms_of_shape != nullptr) atoms_of_shape->push_back(atoms);
 }
 
-/// Adds a layer's atoms and bonds to a builder, or to `transparent`. A bond between two
+/// Adds a layer's atoms and bonds to a builder, or to `shared`. A bond between two
 /// representations that show bonds has a half in the look of each. `file` is the name in messages.
 /// `atoms_of_shape`, unless null, receives the atoms of each shape. Throws BadInput if
 /// displacements are missing.
 void add_layer(const DrawnAtoms& atoms, const AtomLayer& layer, const std::string& file,
-               core::SceneBuilder& builder, TransparentSolids& transparent,
+               core::SceneBuilder& builder, SharedSolids& shared,
                std::vector<AtomPair>* atoms_of_shape);
 
 } // namespace raylane::scenes

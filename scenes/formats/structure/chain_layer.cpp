@@ -21,13 +21,13 @@ ChainLook chain_look_of(const Look& look) {
 } // namespace
 
 std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
-                            core::SceneBuilder& builder, TransparentSolids& transparent,
+                            core::SceneBuilder& builder, SharedSolids& shared,
                             std::vector<AtomPair>* atoms_of_shape, bool is_only_look) {
     const float opacity = *layer.look.opacity;
     Palette palette(builder, opacity, layer.look.finish);
     const auto add = [&]<class Shape>(const Shape& shape, core::MaterialIndex material,
                                       const AtomPair& pair) {
-        add_drawn(shape, material, pair, layer, atoms.cuts, builder, transparent, atoms_of_shape);
+        add_drawn(shape, material, pair, layer, atoms.cuts, builder, shared, atoms_of_shape);
     };
     const ChainRemainder rest = add_chains(
         atoms.structure, chain_look_of(layer.look),

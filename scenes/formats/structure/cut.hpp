@@ -27,6 +27,15 @@ std::pair<double, double> depths_of(const std::string& option, const std::string
 /// Returns the range of dot(normal, p) over a box.
 std::pair<double, double> range_along(const core::Vec3d& normal, const core::Bounds& bounds);
 
+/// Returns the half-space of a plane, as a part of a solid.
+inline core::Solid half_space_of(const CutPlane& plane, core::MaterialIndex material) {
+    const double size = core::dot(plane.normal, plane.normal);
+    core::Solid part =
+        core::of_shape(core::PlaneOf<double>{(plane.offset / size) * plane.normal, plane.normal});
+    part.material = material;
+    return part;
+}
+
 /// Returns the part of a shape that all planes keep: nothing, the shape itself, or a solid.
 template <class Shape>
 std::optional<std::variant<Shape, core::Solid>>
@@ -44,10 +53,7 @@ kept_part(const Shape& shape, std::span<const CutPlane> planes, core::MaterialIn
                 solid->parts.push_back(core::of_shape(core::to_doubles(shape)));
                 solid->parts.back().material = solid->material = material;
             }
-            const double size = core::dot(plane.normal, plane.normal);
-            solid->parts.push_back(core::of_shape(
-                core::PlaneOf<double>{(plane.offset / size) * plane.normal, plane.normal}));
-            solid->parts.back().material = material;
+            solid->parts.push_back(half_space_of(plane, material));
         }
     }
     if (solid) return *std::move(solid);

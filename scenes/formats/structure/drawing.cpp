@@ -110,19 +110,19 @@ class SceneFromAtoms {
 
   private:
     void add_layers() {
-        TransparentSolids transparent;
+        SharedSolids shared;
         for (const AtomLayer& layer : layers_) {
             if (layer.look.style == Style::polyhedra) {
                 if (add_polyhedra_layer(atoms_, layer, builder_, atoms_of_shape_) == 0)
                     remark("no polyhedra are drawn: none of the atoms has four bonds");
             } else if (shows_chains(*layer.look.style)) {
-                remark(add_chain_layer(atoms_, layer, builder_, transparent, atoms_of_shape_,
+                remark(add_chain_layer(atoms_, layer, builder_, shared, atoms_of_shape_,
                                        !shows_atoms(layer.representation)));
             } else {
-                add_layer(atoms_, layer, file_, builder_, transparent, atoms_of_shape_);
+                add_layer(atoms_, layer, file_, builder_, shared, atoms_of_shape_);
             }
         }
-        transparent.add_to(builder_, atoms_of_shape_);
+        shared.add_to(builder_, atoms_.cuts, atoms_of_shape_);
         if (drawing_.hydrogen_bonds) add_hydrogen_bonds(atoms_, builder_, atoms_of_shape_);
     }
 

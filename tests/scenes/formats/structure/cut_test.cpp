@@ -46,7 +46,7 @@ TEST_CASE("a cut closes spheres by its plane exactly") {
     CHECK(height_at(scene, 6.25, 0.5) == 1.25);
     CHECK(height_at(scene, 0.0, 6.0) == -10.0);       // wholly on the other side
     CHECK(height_at(scene, 1.6, 0.0) == Approx(1.2)); // the rest of the sphere
-    CHECK(scene.shape_count() == 4);                  // two spheres and two planes
+    CHECK(scene.shape_count() == 3);                  // two spheres of a colour and their plane
     CHECK(cut({"z<7"}).solids().any() == false);
 }
 
