@@ -373,6 +373,15 @@ LabelWords label_words_of(const std::string& option, const std::string& text) {
     const std::size_t colon = text.find(": ");
     auto [select, words] =
         two_parts(option, text, colon, "SELECTION: TEXT, such as \"residue 25: Asp 25\"");
+    const std::vector<std::string_view> fields = {"{element}", "{name}",  "{resn}",
+                                                  "{resi}",    "{chain}", "{index}"};
+    for (std::size_t at = words.find('{'); at != std::string::npos; at = words.find('{', at + 1)) {
+        const std::string field = words.substr(at, words.find('}', at) + 1 - at);
+        if (std::find(fields.begin(), fields.end(), field) == fields.end())
+            throw BadInput(option, "",
+                           "must have fields such as {element} or {index}, got \"" +
+                               printable(field) + '"' + suggestion(field, fields));
+    }
     return {std::move(select), std::move(words)};
 }
 
