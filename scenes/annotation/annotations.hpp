@@ -52,8 +52,8 @@ struct AnnotatedView {
 };
 
 /// Returns the annotations as vector graphics. Throws BadInput, with the option, for selections
-/// without atoms, for --triad without a cell, and for a legend without colours. `on_remark` receives
-/// names that select nothing, and that the scale bar holds at one depth only.
+/// without atoms, for --triad without a cell, and for a legend without colours. `on_remark`
+/// receives names that select nothing, and that the scale bar holds at one depth only.
 Sheet sheet_of(const Annotations& annotations, const Legend& legend, const AnnotatedView& view,
                const OnRemark& on_remark);
 

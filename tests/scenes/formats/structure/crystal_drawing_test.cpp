@@ -245,9 +245,9 @@ TEST_CASE("hulls of points are their faces, counter-clockwise from outside") {
 
 TEST_CASE("faces whose corners lose their plane by rounding are left out") {
     const std::vector<Vec3d> far = {{1.1e16, 2.3e15, 3.7e16},
-                                          {-4.3e16, 5.9e15, 1.3e15},
-                                          {2.9e15, -7.7e16, 3.1e16},
-                                          {-6.1e15, 1.9e16, -8.3e16}};
+                                    {-4.3e16, 5.9e15, 1.3e15},
+                                    {2.9e15, -7.7e16, 3.1e16},
+                                    {-6.1e15, 1.9e16, -8.3e16}};
     for (const auto& face : hull_of(far))
         CHECK(face.size() >= 3);
 }
