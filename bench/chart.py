@@ -298,7 +298,7 @@ def pictures_figure(source):
         print("set title '%s' offset 0,-0.6\nset xrange [%g:%g]" % (scene, min(times) / 2.5, 1.5 * max(times)))
         plot = Plot()
         if scene == roomiest:  # free above its marks
-            print("set key at graph 0.97,0.97 right top samplen 2 spacing 1.1 font ',9'")
+            print("set key at graph 0.97,0.97 right top samplen 2 spacing 0.9 font ',9'")
         labels = []
         for precision, color in COLORS.items():
             points = sorted(series.get(("samples", precision), []))
