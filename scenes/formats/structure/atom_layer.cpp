@@ -304,14 +304,10 @@ void SharedSolids::add_to(core::SceneBuilder& builder, std::span<const CutPlane>
     for (auto& [key, one] : solids_)
         add(one);
     for (auto& [material, one] : cut_) {
-        core::Solid kept{.made = core::Made::by_intersection, .material = material};
-        kept.parts.push_back(one.solid.parts.size() == 1 ? core::Solid(one.solid.parts[0])
-                                                         : std::move(one.solid));
-        for (const CutPlane& plane : cuts) {
-            kept.parts.push_back(half_space_of(plane, material));
-            one.atoms.push_back(one.atoms.front());
-        }
-        one.solid = std::move(kept);
+        if (one.solid.parts.size() == 1) one.solid = core::Solid(one.solid.parts[0]);
+        one.solid.material = material;
+        one.solid = cut_by(std::move(one.solid), cuts);
+        one.atoms.insert(one.atoms.end(), cuts.size(), one.atoms.front());
         add(one);
     }
     solids_.clear();

@@ -111,16 +111,16 @@ template <class Shape>
 void add_drawn(const Shape& shape, core::MaterialIndex material, const AtomPair& atoms,
                const AtomLayer& layer, std::span<const CutPlane> cuts, core::SceneBuilder& builder,
                SharedSolids& shared, std::vector<AtomPair>* atoms_of_shape) {
-    auto part = kept_part(shape, cuts, material);
-    if (!part) return;
-    auto* const solid = std::get_if<core::Solid>(&*part);
+    const auto through = planes_through(shape, cuts);
+    if (!through) return;
     // Triangles enclose nothing by themselves, so they are not parts of solids.
     if constexpr (!core::AnyTriangle<Shape>) {
         core::Solid whole{.shape = core::to_doubles(shape), .material = material};
         if (*layer.look.opacity < 1.0F)
-            return shared.add(*layer.look.style, *layer.look.opacity,
-                              solid != nullptr ? std::move(*solid) : std::move(whole), atoms);
-        if (solid != nullptr) return shared.add_cut(std::move(whole), atoms);
+            return shared.add(
+                *layer.look.style, *layer.look.opacity,
+                through->empty() ? std::move(whole) : cut_by(std::move(whole), *through), atoms);
+        if (!through->empty()) return shared.add_cut(std::move(whole), atoms);
     }
     builder.add(shape, material);
     if (atoms_of_shape != nullptr) atoms_of_shape->push_back(atoms);

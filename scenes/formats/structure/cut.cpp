@@ -82,4 +82,16 @@ std::pair<double, double> range_along(const core::Vec3d& normal, const core::Bou
     return {least, most};
 }
 
+core::Solid cut_by(core::Solid solid, std::span<const CutPlane> planes) {
+    core::Solid kept{.made = core::Made::by_intersection, .material = solid.material};
+    kept.parts.push_back(std::move(solid));
+    for (const CutPlane& plane : planes) {
+        const double size = core::dot(plane.normal, plane.normal);
+        kept.parts.push_back(core::of_shape(
+            core::PlaneOf<double>{(plane.offset / size) * plane.normal, plane.normal}));
+        kept.parts.back().material = kept.material;
+    }
+    return kept;
+}
+
 } // namespace raylane::scenes

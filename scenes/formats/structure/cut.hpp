@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
+#include <vector>
 
 /// Cuts through atoms. Cut shapes are solids, whose faces on the plane have their material.
 namespace raylane::scenes {
@@ -27,37 +27,25 @@ std::pair<double, double> depths_of(const std::string& option, const std::string
 /// Returns the range of dot(normal, p) over a box.
 std::pair<double, double> range_along(const core::Vec3d& normal, const core::Bounds& bounds);
 
-/// Returns the half-space of a plane, as a part of a solid.
-inline core::Solid half_space_of(const CutPlane& plane, core::MaterialIndex material) {
-    const double size = core::dot(plane.normal, plane.normal);
-    core::Solid part =
-        core::of_shape(core::PlaneOf<double>{(plane.offset / size) * plane.normal, plane.normal});
-    part.material = material;
-    return part;
-}
+/// Returns the part of a solid that all planes keep. Its faces on them have the solid's material.
+core::Solid cut_by(core::Solid solid, std::span<const CutPlane> planes);
 
-/// Returns the part of a shape that all planes keep: nothing, the shape itself, or a solid.
+/// Returns the planes that cross a shape, or nothing if one of them removes it. Triangles enclose
+/// nothing, so they are kept or removed whole, by their middles.
 template <class Shape>
-std::optional<std::variant<Shape, core::Solid>>
-kept_part(const Shape& shape, std::span<const CutPlane> planes, core::MaterialIndex material) {
-    std::optional<core::Solid> solid;
+std::optional<std::vector<CutPlane>> planes_through(const Shape& shape,
+                                                    std::span<const CutPlane> planes) {
+    std::vector<CutPlane> through;
     for (const CutPlane& plane : planes) {
         const auto [least, most] = range_along(plane.normal, core::bounds_of(shape));
         if (least > plane.offset) return std::nullopt;
         if (most <= plane.offset) continue;
-        if constexpr (core::AnyTriangle<Shape>) { // encloses nothing
-            if (least + most > 2.0 * plane.offset) return std::nullopt;
-        } else {
-            if (!solid) {
-                solid.emplace(core::Solid{.made = core::Made::by_intersection});
-                solid->parts.push_back(core::of_shape(core::to_doubles(shape)));
-                solid->parts.back().material = solid->material = material;
-            }
-            solid->parts.push_back(half_space_of(plane, material));
-        }
+        if constexpr (!core::AnyTriangle<Shape>)
+            through.push_back(plane);
+        else if (least + most > 2.0 * plane.offset)
+            return std::nullopt;
     }
-    if (solid) return *std::move(solid);
-    return shape;
+    return through;
 }
 
 } // namespace raylane::scenes
