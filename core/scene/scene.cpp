@@ -236,13 +236,23 @@ void SceneBuilder::check_member(const Solid& member) const {
     trial.add(member, no_material, [](MaterialIndex) { return ShapeId{0}; });
 }
 
-ShapeId SceneBuilder::add_group(std::span<const Solid> members) {
+namespace {
+
+/// Checks members, by `check`, and returns the number of their parts.
+template <class Check>
+std::size_t checked_parts(std::span<const Solid> members, const Check& check) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < members.size(); ++i) {
-        check_object(i, [&] { check_member(members[i]); });
+        check_object(i, [&] { check(members[i]); });
         count += count_parts(members[i]);
     }
-    require_room(count);
+    return count;
+}
+
+} // namespace
+
+ShapeId SceneBuilder::add_group(std::span<const Solid> members) {
+    require_room(checked_parts(members, [&](const Solid& member) { check_member(member); }));
     const auto first = static_cast<ShapeId>(shape_count());
     for (const Solid& member : members)
         add_member(member);
@@ -294,34 +304,28 @@ bool SceneBuilder::keeps_copies(std::span<const Solid> members,
 
 ShapeId SceneBuilder::add_copies(std::span<const Solid> members,
                                  std::vector<Placement> placements) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        check_object(i, [&] { check_member(members[i]); });
-        count += count_parts(members[i]);
-    }
-    for (std::size_t i = 0; i < placements.size(); ++i) {
-        try {
-            validate(placements[i]);
-        } catch (const InvalidValue& invalid) {
-            throw InvalidValue("placements/" + std::to_string(i) + "/" + invalid.field,
-                               invalid.expectation);
+    const std::size_t count =
+        checked_parts(members, [&](const Solid& member) { check_member(member); });
+    const auto check_placements = [&](const auto& check) {
+        for (std::size_t i = 0; i < placements.size(); ++i) {
+            try {
+                check(placements[i]);
+            } catch (const InvalidValue& invalid) {
+                throw InvalidValue("placements/" + std::to_string(i) + "/" + invalid.field,
+                                   invalid.expectation);
+            }
         }
-    }
+    };
+    check_placements([](const Placement& placement) { validate(placement); });
     require_room(count * placements.size());
     const auto first = static_cast<ShapeId>(shape_count());
     if (!keeps_copies(members, placements)) {
         // All are checked before one is added.
-        for (std::size_t i = 0; i < placements.size(); ++i) {
-            const Transform transform = transform_of(placements[i]);
-            for (const Solid& member : members) {
-                try {
-                    check_member(transformed_member(member, transform));
-                } catch (const InvalidValue& invalid) {
-                    throw InvalidValue("placements/" + std::to_string(i) + "/" + invalid.field,
-                                       invalid.expectation);
-                }
-            }
-        }
+        check_placements([&](const Placement& placement) {
+            const Transform transform = transform_of(placement);
+            for (const Solid& member : members)
+                check_member(transformed_member(member, transform));
+        });
         for (const Placement& placement : placements) {
             const Transform transform = transform_of(placement);
             for (const Solid& member : members)

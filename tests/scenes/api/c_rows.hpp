@@ -110,31 +110,30 @@ inline CrossingRows check_crossings(const SceneHandle& in_c, const Scene& scene,
     return rows;
 }
 
-/// Checks that a scene with each material of `scene`, and with its lengths in them, was made in C.
-inline void check_lengths(const SceneHandle& in_c, const Scene& scene, const DoubleRays& rays) {
+/// Checks that a query of rows gives the same in C and in C++.
+template <class Rows, class InC>
+void check_rows(const SceneHandle& in_c, const Scene& scene, const DoubleRays& rays,
+                const InC& query,
+                void (Tracer::*in_cpp)(const DoubleRaySpan&, Rows&, QueryStatistics*) const) {
     const TracerHandle tracer = tracer_of(in_c);
     std::uint64_t refused = 77;
     const raylane_double_rays asked = to_c(rays, refused);
-    LengthRows rows;
-    Tracer(scene).path_lengths(rays.span(), rows);
-    check_same(made<RowsHandle>([&](raylane_rows** to) {
-                   return raylane_path_lengths_doubles(tracer.get(), &asked, to);
-               }),
-               rows);
+    Rows found;
+    (Tracer(scene).*in_cpp)(rays.span(), found, nullptr);
+    check_same(made<RowsHandle>([&](raylane_rows** to) { return query(tracer.get(), &asked, to); }),
+               found);
+}
+
+/// Checks that a scene with each material of `scene`, and with its lengths in them, was made in C.
+inline void check_lengths(const SceneHandle& in_c, const Scene& scene, const DoubleRays& rays) {
+    check_rows<LengthRows>(in_c, scene, rays, raylane_path_lengths_doubles, &Tracer::path_lengths);
 }
 
 /// The same for lengths inside of solids.
 inline void check_solid_lengths(const SceneHandle& in_c, const Scene& scene,
                                 const DoubleRays& rays) {
-    const TracerHandle tracer = tracer_of(in_c);
-    std::uint64_t refused = 77;
-    const raylane_double_rays asked = to_c(rays, refused);
-    SolidLengthRows rows;
-    Tracer(scene).solid_lengths(rays.span(), rows);
-    check_same(made<RowsHandle>([&](raylane_rows** to) {
-                   return raylane_solid_lengths_doubles(tracer.get(), &asked, to);
-               }),
-               rows);
+    check_rows<SolidLengthRows>(in_c, scene, rays, raylane_solid_lengths_doubles,
+                                &Tracer::solid_lengths);
 }
 
 } // namespace raylane::tests
