@@ -132,7 +132,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
     };
     if (!surveys.empty() && !is_stopped())
         for (const auto pass : core::Survey::passes) {
-            // Wavelengths have surveys of their own, and take the batches that they have.
+            // Each wavelength has a survey, whose number of batches may differ.
             std::size_t batches = 0;
             for (const core::Survey& survey : surveys)
                 batches = std::max(batches, survey.batches(pass));

@@ -114,7 +114,7 @@ class SceneFromAtoms {
         for (const AtomLayer& layer : layers_) {
             if (layer.look.style == Style::polyhedra) {
                 if (add_polyhedra_layer(atoms_, layer, builder_, atoms_of_shape_) == 0)
-                    remark("no polyhedra are drawn: none of their atoms has 4 to 64 bonds");
+                    remark("polyhedra are missing: they need an atom with 4 to 64 bonds");
             } else if (shows_chains(*layer.look.style)) {
                 remark(add_chain_layer(atoms_, layer, builder_, shared, atoms_of_shape_,
                                        !shows_atoms(layer.representation)));

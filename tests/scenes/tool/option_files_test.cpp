@@ -30,7 +30,7 @@ class Figures : public ToolFixture {
 
 } // namespace
 
-TEST_CASE("a file of options does what the command line does") {
+TEST_CASE("a file of options has the effect of the command line") {
     const Figures fixture;
     REQUIRE(fixture
                 .figure("# all figures\r\n\n  --size 20x10\n--spp=4\n--show all: sticks orange\n"

@@ -20,7 +20,7 @@ core::Scene cut(const std::vector<std::string>& planes, float opacity = 1.0F) {
     return parse_scene("a.xyz", atoms, options);
 }
 
-/// Returns the height of the first surface below z = 10, or -10 if there is none.
+/// Returns the height of the first surface below z = 10, or -10 for a miss.
 double height_at(const core::Scene& scene, double x, double y) {
     const double origin[3] = {x, y, 10.0}, direction[3] = {0.0, 0.0, -1.0};
     simd::RayStream<double> rays;
