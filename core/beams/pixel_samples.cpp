@@ -29,20 +29,15 @@ double light_rays_of(const Scene& scene, const Settings& settings) {
     return rays;
 }
 
-SamplePoint place_in_pixel(const SampleName& sample) {
-    if (sample.number < 0) {
-        int side = 1;
-        while (side * side < sample.common)
-            ++side;
-        const int cell = sample.number + side * side;
-        const auto center_of = [side](int index) {
-            return (static_cast<float>(index) + 0.5F) / static_cast<float>(side);
-        };
-        return {center_of(cell % side), center_of(cell / side)};
-    }
-    return sequence_point(sequence_key(static_cast<std::uint32_t>(sample.x),
-                                       static_cast<std::uint32_t>(sample.y), SequenceUse::in_pixel),
-                          static_cast<std::uint32_t>(sample.number));
+SamplePoint place_in_grid(int number, int samples) {
+    int side = 1;
+    while (side * side < samples)
+        ++side;
+    const int cell = number + side * side;
+    const auto center_of = [side](int index) {
+        return (static_cast<float>(index) + 0.5F) / static_cast<float>(side);
+    };
+    return {center_of(cell % side), center_of(cell / side)};
 }
 
 Shown::Shown(const Sample& sample) {

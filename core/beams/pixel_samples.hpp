@@ -25,9 +25,18 @@ struct Sample {
 /// Returns the number of rays to lights from each surface that a path meets.
 double light_rays_of(const Scene& scene, const Settings& settings);
 
+/// Returns the position of sample `number` < 0 of a first grid of `samples` samples, relative to
+/// the pixel's upper left corner: the centre of its cell.
+SamplePoint place_in_grid(int number, int samples);
+
 /// Returns the position of a sample in its pixel, relative to the upper left corner, before the
-/// filter is applied. The samples of the first grid are at the centres of its cells.
-SamplePoint place_in_pixel(const SampleName& sample);
+/// filter is applied.
+inline SamplePoint place_in_pixel(const SampleName& sample) {
+    if (sample.number < 0) return place_in_grid(sample.number, sample.common);
+    return sequence_point(sequence_key(static_cast<std::uint32_t>(sample.x),
+                                       static_cast<std::uint32_t>(sample.y), SequenceUse::in_pixel),
+                          static_cast<std::uint32_t>(sample.number));
+}
 
 /// A sample in roughly the scale of the film: square roots of the components, at most 1, and of the
 /// share of the background, which counts as white.

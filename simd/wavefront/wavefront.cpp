@@ -61,12 +61,11 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     first_points_.resize(light_keys_.size());
     pending_.reserve(64);
     if (transparent_) position_of_.resize(wave_rays);
-    if (camera_rays_.regular())
-        for (int number = 0; number < settings.grid * settings.grid; ++number)
-            cells_.push_back(camera_rays_.in_pixel(0, 0, number));
     constexpr std::size_t max_pixels = static_cast<std::size_t>(max_region) * max_region;
     if (settings.quality == 0.0F) {
         common_samples_ = settings.grid * settings.grid;
+        for (int number = 0; camera_rays_.regular() && number < common_samples_; ++number)
+            cells_.push_back(camera_rays_.in_pixel(0, 0, number));
         sums_.reserve(max_pixels);
         transmittances_.reserve(settings.alpha ? max_pixels : 0);
         return;
@@ -179,13 +178,24 @@ auto Wavefront::adder_to(Pixels& pixels) {
     };
 }
 
+void Wavefront::begin_samples(int common) {
+    if (common == common_samples_) return;
+    common_samples_ = common;
+    cells_.clear();
+    for (int number = -common; number < 0; ++number) {
+        const core::SamplePoint place = core::place_in_grid(number, common);
+        cells_.push_back(
+            camera_rays_.filtered({static_cast<double>(place.x), static_cast<double>(place.y)}));
+    }
+}
+
 void Wavefront::survey(core::Survey::Pass pass, std::size_t batch) {
     if (batch >= survey_->batches(pass)) return;
     core::Survey::Samples pixels(*survey_, pass, batch);
     const auto add = adder_to(pixels);
     is_surveying_ = true;
     do {
-        common_samples_ = pixels.common();
+        begin_samples(pixels.common());
         for (std::size_t pixel = 0; pixel < pixels.pixels(); ++pixel)
             take(
                 {pixels.x(pixel), pixels.y(pixel), pixel, pixels.next(pixel), pixels.wanted(pixel)},
@@ -201,7 +211,7 @@ void Wavefront::render_to_quality(const core::Region& region, core::Film& film) 
     const auto add = adder_to(pixels);
     pixels.begin(region);
     do {
-        common_samples_ = pixels.common();
+        begin_samples(pixels.common());
         for_each_pixel(region, [&](int x, int y, std::size_t pixel) {
             take({x, y, pixel, pixels.next(pixel), pixels.wanted(pixel)}, add);
         });
@@ -260,8 +270,8 @@ void Wavefront::flush(const Add& add) {
 
 core::CameraRays<double>::InPixel Wavefront::in_pixel(const Samples& some, int number) const {
     if (to_quality_) {
-        const core::SamplePoint place =
-            core::place_in_pixel({some.x, some.y, number, common_samples_});
+        if (number < 0) return cells_[static_cast<std::size_t>(number + common_samples_)];
+        const core::SamplePoint place = core::place_in_pixel({some.x, some.y, number});
         return camera_rays_.filtered({static_cast<double>(place.x), static_cast<double>(place.y)});
     }
     return camera_rays_.regular() ? cells_[static_cast<std::size_t>(number)]

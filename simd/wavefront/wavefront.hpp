@@ -76,6 +76,8 @@ class Wavefront {
     void for_each_pixel(const core::Region& region, const Visit& visit);
     template <class Pixels>
     auto adder_to(Pixels& pixels);
+    /// Sets SampleName::common of the samples that follow.
+    void begin_samples(int common);
     template <class Add>
     void take(Samples samples, const Add& add);
     template <class Add>
@@ -130,7 +132,7 @@ class Wavefront {
     std::vector<Deferred> pending_;
 
     std::vector<Samples> samples_;                         // of the chunk
-    std::vector<core::CameraRays<double>::InPixel> cells_; // by sample, if regular
+    std::vector<core::CameraRays<double>::InPixel> cells_; // by sample, if regular or in a grid
     double* way_ = nullptr;                                // HitPaths::way, where it differs from t
     double* on_shape_[2] = {};                             // by lane, if a formula needs them
     double* across_ = nullptr;
