@@ -87,12 +87,12 @@ void Copies::reserve_blocks(Tables& tables) {
 /// the sphere around it. Errors of the map are far below 2^-40 of the numbers.
 Bounds Copies::bounds_of(const Copy& copy) const {
     const Placement& placement = placements_[copy.set.first_copy + copy.number];
-    const Placer placer(placement);
+    const std::array<Vec3d, 3> rows = rows_of(placement);
     const Bounds& box = copy.set.prototype->hierarchy().bounds;
     const Vec3d half = 0.5 * (convert<double>(box.upper) - convert<double>(box.lower));
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
-        const Vec3d& row = placer.row(axis);
+        const Vec3d& row = rows[static_cast<std::size_t>(axis)];
         const double center = dot(row, copy.set.center) + placement.translate[axis];
         const double extent = std::min(dot(absolute(row), half), placement.scale * copy.set.radius);
         const double off = 0x1p-36 * (dot(absolute(row), absolute(copy.set.center)) +

@@ -54,10 +54,10 @@ void CopyWalk::start(const Ray<double>& ray, double off) {
         until_[axis] = origin[axis] - shift;
     }
     pending_.clear();
-    if (!copies_.nodes().empty()) pending_.push_back({0.0F, 0});
+    if (!copies_->nodes().empty()) pending_.push_back({0.0F, 0});
 }
 
-bool CopyWalk::next(double t_limit, std::uint32_t& copy) {
+CopyWalk::At CopyWalk::step(double t_limit, std::uint32_t& copy) {
     const bool is_usual = length_ > 0x1p-1000 && length_ < 0x1p1000;
     const float limit = is_usual ? rounded_up(t_limit * length_) : infinity<float>;
     while (!pending_.empty()) {
@@ -66,11 +66,27 @@ bool CopyWalk::next(double t_limit, std::uint32_t& copy) {
         if (nearest.t > limit) continue;
         if ((nearest.child & Copies::Node::copy_bit) != 0) {
             copy = nearest.child & ~Copies::Node::copy_bit;
-            return true;
+            return At::copy;
         }
-        enter(copies_.nodes()[nearest.child], limit);
+        enter(copies_->nodes()[nearest.child], limit);
+        load_next();
+        return At::node;
     }
-    return false;
+    return At::end;
+}
+
+void CopyWalk::load_next() const {
+    const auto load = [](const auto& object) {
+        const char* const bytes = reinterpret_cast<const char*>(&object);
+        __builtin_prefetch(bytes);
+        __builtin_prefetch(bytes + sizeof object - 1);
+    };
+    if (pending_.empty()) return;
+    const std::uint32_t child = pending_.back().child;
+    if ((child & Copies::Node::copy_bit) != 0)
+        load(copies_->placement(child & ~Copies::Node::copy_bit));
+    else
+        load(copies_->nodes()[child]);
 }
 
 /// Differences, inverses and products have a relative error of half an ulp each.

@@ -69,9 +69,20 @@ Placer::Placer(const Placement& placement) : placement_(placement), turns_(false
             rows_[k][column] = DoubleDouble(sine) * a + DoubleDouble(cosine) * b;
         }
     }
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            nearest_[i][j] = rows_[i][j].high;
+}
+
+std::array<Vec3d, 3> rows_of(const Placement& placement) {
+    std::array<Vec3d, 3> rows{};
+    for (int axis = 0; axis < 3; ++axis)
+        rows[axis][axis] = placement.scale;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (placement.rotate[axis] == 0.0) continue;
+        const auto [sine, cosine] = turn_by_degrees(placement.rotate[axis]);
+        const Vec3d a = rows[(axis + 1) % 3], b = rows[(axis + 2) % 3];
+        rows[(axis + 1) % 3] = cosine * a - sine * b;
+        rows[(axis + 2) % 3] = sine * a + cosine * b;
+    }
+    return rows;
 }
 
 bool Placer::place_point(const Vec3d& point, Vec3d& placed) const {

@@ -3,7 +3,7 @@
 #include "core/numbers/double_double.hpp"
 #include "core/solids/transform.hpp"
 
-#include <optional>
+#include <array>
 
 /// Copies of shapes at other places: the numbers of a copy are those of the transformed shape, each
 /// rounded once.
@@ -35,10 +35,6 @@ class Placer {
     template <Ends ends>
     CylinderOf<double, ends> operator()(const CylinderOf<double, ends>& shape) const;
 
-    /// Returns the linear map, rounded: its rows, each number with an error of a few ulps of the
-    /// scale.
-    const Vec3d& row(int i) const { return nearest_[i]; }
-
   private:
     bool place_point(const Vec3d& point, Vec3d& placed) const;
     bool place_vector(const Vec3d& vector, Vec3d& placed) const;
@@ -48,7 +44,10 @@ class Placer {
     Placement placement_;
     bool turns_;
     DoubleDouble rows_[3][3]; // with errors of less than 2^-96 of the scale; zeros are exact
-    Vec3d nearest_[3];
 };
+
+/// Returns the rows of the placement's linear map, each number with an error of at most 4 ulps of
+/// the scale. Faster than Placer.
+std::array<Vec3d, 3> rows_of(const Placement& placement);
 
 } // namespace raylane::core

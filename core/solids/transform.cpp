@@ -2,6 +2,7 @@
 
 #include "core/numbers/elementary.hpp"
 #include "core/numbers/infinity.hpp"
+#include "core/numbers/primitives.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +118,8 @@ Turn turn_by_degrees(double degrees) {
                 : std::abs(turn) == 180.0 ? -1.0
                                           : 0.0};
     constexpr double radians = 3.14159265358979323846 / 180.0;
-    return {core::sin(turn * radians), core::cos(turn * radians)};
+    const auto [sine, cosine] = Elementary<double>::sin_cos(turn * radians);
+    return {sine, cosine};
 }
 
 Transform::Transform() : even_(Dyadic(1.0)) {

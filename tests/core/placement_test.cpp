@@ -4,6 +4,7 @@
 #include "tests/support/random.hpp"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -69,6 +70,25 @@ TEST_CASE("a placed shape has the bits of the transformed one") {
         const Vec3d base = any_vector(random), axis = any_vector(random);
         expect(CylinderOf<double, Ends::open>{base, axis, radius});
         expect(CylinderOf<double, Ends::capped>{base, axis, radius});
+    }
+}
+
+TEST_CASE("the rows of a placement's map are those of its transform within 4 ulps of the scale") {
+    Random random(42);
+    for (int i = 0; i < 20'000; ++i) {
+        Placement placement = any_placement(random);
+        placement.translate = Vec3d(0.0);
+        if (random.integer(0, 9) == 0) placement.rotate = 1e20 * any_vector(random);
+        const Placer placer(placement);
+        const auto rows = rows_of(placement);
+        for (int column = 0; column < 3; ++column) {
+            SphereOf<double> at{Vec3d(0.0), 1.0};
+            at.center[column] = 1.0;
+            const Vec3d placed = placer(at).center;
+            for (int row = 0; row < 3; ++row)
+                REQUIRE(std::abs(rows[static_cast<std::size_t>(row)][column] - placed[row]) <=
+                        4.0 * 0x1p-52 * placement.scale);
+        }
     }
 }
 
