@@ -2,6 +2,7 @@
 
 #include "core/reference/closest_filter.hpp"
 #include "core/reference/closest_on_quadric.hpp"
+#include "core/reference/require_shapes.hpp"
 #include "core/reference/rounding.hpp"
 #include "core/shapes/closest_point.hpp"
 #include "core/shapes/shapes.hpp"
@@ -170,6 +171,7 @@ std::optional<double> surely_nearest(const Extended& number) {
 } // namespace
 
 void require_closest_points(const Scene& scene) {
+    require_shapes(scene, "closest points");
     if (scene.solids().any())
         throw InvalidValue("scene", "must have no constructed solids: closest points on them are "
                                     "not supported");

@@ -21,7 +21,7 @@ struct Closest {
 };
 
 /// Throws InvalidValue, field "scene", if the closest points of a scene's shapes cannot be found:
-/// it has constructed solids.
+/// it has constructed solids, or keeps copies of groups.
 void require_closest_points(const Scene& scene);
 
 /// Bounds on the distance of a point from a shape.

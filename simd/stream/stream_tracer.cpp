@@ -1,5 +1,6 @@
 #include "simd/stream/stream_tracer.hpp"
 
+#include "core/reference/require_shapes.hpp"
 #include "simd/stream/closest_worker.hpp"
 #include "simd/stream/row_worker.hpp"
 #include "simd/stream/worker.hpp"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -86,13 +86,6 @@ std::size_t StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t coun
     return refused;
 }
 
-/// Throws InvalidValue if the scene has copies, whose shapes a query does not find.
-void StreamTracer::refuse_copies(const char* query) const {
-    if (data_->scene().copies() != nullptr)
-        throw core::InvalidValue("scene", std::string("must not keep copies of groups for ") +
-                                              query + "; build() it with shapes in their place");
-}
-
 template <class Real>
 std::size_t StreamTracer::nearest(const RayStream<Real>& rays, const HitStream& hits,
                                   const NormalStream& normals) const {
@@ -154,7 +147,7 @@ std::size_t StreamTracer::path_lengths(const RayStream<Real>& rays, core::Bodies
 
 template <class Real>
 std::size_t StreamTracer::containing(const PointStream<Real>& points, SolidRows& rows) const {
-    refuse_copies("solids around points");
+    core::require_shapes(data_->scene(), "solids around points");
     return answer_in_rows(
         row_workers_, points.count, rows,
         [&](RowWorker& worker, std::size_t first, std::size_t count, SolidRows& some) {
@@ -164,7 +157,7 @@ std::size_t StreamTracer::containing(const PointStream<Real>& points, SolidRows&
 
 template <class Real>
 std::size_t StreamTracer::cells(const PointStream<Real>& points, const CellStream& cells) const {
-    refuse_copies("cells");
+    core::require_shapes(data_->scene(), "cells");
     return answer(row_workers_, points.count,
                   [&](RowWorker& worker, std::size_t first, std::size_t count) {
                       return worker.cells(part_of(points, first, count), part_of(cells, first));
@@ -174,7 +167,6 @@ std::size_t StreamTracer::cells(const PointStream<Real>& points, const CellStrea
 template <class Real>
 std::size_t StreamTracer::closest(const PointStream<Real>& points, const double* max_distance,
                                   const ClosestStream& closest) const {
-    refuse_copies("closest");
     core::require_closest_points(data_->scene());
     return answer(closest_workers_, points.count,
                   [&](ClosestWorker& worker, std::size_t first, std::size_t count) {

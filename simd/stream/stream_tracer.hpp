@@ -84,7 +84,6 @@ class StreamTracer {
         std::size_t size, count;
     };
     Parts parts_of(std::size_t count) const;
-    void refuse_copies(const char* query) const;
     template <class Worker, class Answer>
     std::size_t answer(Pool<Worker>& workers, std::size_t count, const Answer& answer) const;
     template <class Worker, class AnyRows, class Answer>

@@ -230,3 +230,35 @@ TEST_CASE("mirrored spheres tie, and an ulp of their distance decides") {
         CHECK(ClosestSearcher(scene).find(point, infinity<double>).shape == wanted);
     }
 }
+
+TEST_CASE("scenes with copies or constructed solids have no closest points") {
+    const Solid ball = of_shape(SphereOf<double>{Vec3d(0.0), 1.0});
+    const auto scene_of = [&](const auto& add) {
+        SceneBuilder builder;
+        builder.wants_light = false;
+        builder.keep_from = 0;
+        Solid member = ball;
+        member.material = builder.add_material({});
+        add(builder, member);
+        return std::move(builder).build();
+    };
+    const Scene copies = scene_of([](SceneBuilder& builder, const Solid& member) {
+        builder.add_copies({&member, 1}, {{}, {Vec3d(3.0, 0.0, 0.0)}});
+    });
+    REQUIRE(copies.copies() != nullptr);
+    CHECK_THROWS_WITH(require_closest_points(copies),
+                      "scene: must not keep copies of groups for closest points; build() it with "
+                      "shapes in their place");
+    const Scene solids = scene_of([](SceneBuilder& builder, const Solid& member) {
+        Solid both{.made = Made::by_union, .parts = {member, member}};
+        std::get<SphereOf<double>>(both.parts[1].shape).center.x = 1.0;
+        builder.add_solid(both, member.material);
+    });
+    CHECK_THROWS_WITH(require_closest_points(solids),
+                      "scene: must have no constructed solids: closest points on them are not "
+                      "supported");
+    const Scene shapes = scene_of([](SceneBuilder& builder, const Solid& member) {
+        builder.add_group({&member, 1});
+    });
+    CHECK_NOTHROW(require_closest_points(shapes));
+}
