@@ -34,6 +34,7 @@ struct raylane_rows {
     std::variant<raylane::CrossingRows, raylane::SolidRows, raylane::LengthRows,
                  raylane::SolidLengthRows>
         rows;
+    raylane_crossing_statistics statistics{};
 };
 
 namespace raylane::c {

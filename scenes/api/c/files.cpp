@@ -10,6 +10,17 @@ using namespace raylane::c;
 
 namespace {
 
+thread_local std::string kept_remarks; // NOLINT: in place of a callback
+
+/// Clears the remarks, and returns a callback that keeps those of a call.
+OnRemark keeping_remarks() {
+    kept_remarks.clear();
+    return [](const std::string& remark) {
+        if (!kept_remarks.empty()) kept_remarks += '\n';
+        kept_remarks += remark;
+    };
+}
+
 AtomOptions options_of(const raylane_atom_option* options, std::size_t count) {
     AtomOptions result;
     for (const raylane_atom_option& option : span_of("options", options, count))
@@ -19,34 +30,44 @@ AtomOptions options_of(const raylane_atom_option* options, std::size_t count) {
 
 } // namespace
 
+const char* raylane_remarks(void) {
+    return kept_remarks.c_str();
+}
+
 raylane_status raylane_load(const char* path, raylane_scene** scene) {
-    return scene_of(scene, [&] { return load(&checked("path", path)); });
+    return scene_of(scene, [&, on_remark = keeping_remarks()] {
+        return load(&checked("path", path), on_remark);
+    });
 }
 
 raylane_status raylane_parse(const char* text, size_t length, const char* name,
                              raylane_scene** scene) {
-    return scene_of(scene, [&] {
-        return parse({length != 0 ? &checked("text", text) : "", length}, &checked("name", name));
+    return scene_of(scene, [&, on_remark = keeping_remarks()] {
+        return parse({length != 0 ? &checked("text", text) : "", length}, &checked("name", name),
+                     on_remark);
     });
 }
 
 raylane_status raylane_parse_atoms(const char* text, size_t length, const char* name,
                                    const raylane_atom_option* options, size_t count,
                                    raylane_scene** scene) {
-    return scene_of(scene, [&] {
+    return scene_of(scene, [&, on_remark = keeping_remarks()] {
         const std::string_view atoms{length != 0 ? &checked("text", text) : "", length};
-        return parse_atoms(atoms, &checked("name", name), options_of(options, count));
+        return parse_atoms(atoms, &checked("name", name), options_of(options, count), on_remark);
     });
 }
 
 raylane_status raylane_load_atoms(const char* path, const raylane_atom_option* options,
                                   size_t count, raylane_scene** scene) {
-    return scene_of(scene,
-                    [&] { return load_atoms(&checked("path", path), options_of(options, count)); });
+    return scene_of(scene, [&, on_remark = keeping_remarks()] {
+        return load_atoms(&checked("path", path), options_of(options, count), on_remark);
+    });
 }
 
 raylane_status raylane_save(const raylane_scene* scene, const char* path) {
-    return guarded([&] { save(checked("scene", scene).scene, &checked("path", path)); });
+    return guarded([&, on_remark = keeping_remarks()] {
+        save(checked("scene", scene).scene, &checked("path", path), on_remark);
+    });
 }
 
 raylane_status raylane_write_image(const char* path, int width, int height, const float* rgb,

@@ -5,8 +5,9 @@
 #include <array>
 #include <bit>
 #include <string>
+#include <vector>
 
-/// Transforms and groups.
+/// Transforms, groups and their copies.
 using namespace raylane;
 using namespace raylane::c;
 
@@ -139,4 +140,23 @@ raylane_status raylane_add_group(raylane_builder* builder, const raylane_group* 
                                  uint32_t material, uint32_t* first) {
     return added(builder, first,
                  [&](SceneBuilder& to) { return to.add(checked("group", group).group, material); });
+}
+
+raylane_placement raylane_default_placement(void) {
+    return std::bit_cast<raylane_placement>(Placement{});
+}
+
+raylane_status raylane_add_copies(raylane_builder* builder, const raylane_group* group,
+                                  const raylane_placement* placements, size_t count,
+                                  uint32_t material, uint32_t* first) {
+    return added(builder, first, [&](SceneBuilder& to) {
+        std::vector<Placement> all;
+        for (const raylane_placement& placement : span_of("placements", placements, count))
+            all.push_back(std::bit_cast<Placement>(placement));
+        return to.add(checked("group", group).group, all, material);
+    });
+}
+
+raylane_status raylane_set_keep_from(raylane_builder* builder, size_t shapes) {
+    return guarded([&] { checked("builder", builder).builder.keep_from = shapes; });
 }

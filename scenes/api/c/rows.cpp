@@ -18,6 +18,10 @@ const uint64_t* raylane_rows_first(const raylane_rows* rows) {
     return std::visit([](const auto& of) { return of.first.data(); }, rows->rows);
 }
 
+raylane_crossing_statistics raylane_rows_statistics(const raylane_rows* rows) {
+    return rows != nullptr ? rows->statistics : raylane_crossing_statistics{};
+}
+
 #define RAYLANE_COLUMN(Element, name)                                                              \
     const Element* raylane_rows_##name(const raylane_rows* rows) {                                 \
         if (rows == nullptr) return nullptr;                                                       \

@@ -2,7 +2,10 @@
 #include "values.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 using namespace raylane;
 using namespace raylane::c;
@@ -10,8 +13,7 @@ using namespace raylane::c;
 namespace {
 
 template <class Real, class CRays>
-BasicRaySpan<Real> rays_from(const CRays* from) {
-    const CRays& rays = checked("rays", from);
+BasicRaySpan<Real> rays_from(const CRays& rays) {
     const std::size_t n = rays.count;
     return {span_of("origin_x", rays.origin_x, n),
             span_of("origin_y", rays.origin_y, n),
@@ -27,15 +29,22 @@ BasicRaySpan<Real> rays_from(const CRays* from) {
 }
 
 template <class Real, class CPoints>
-BasicPointSpan<Real> points_from(const CPoints* from) {
-    const CPoints& points = checked("points", from);
+BasicPointSpan<Real> points_from(const CPoints& points) {
     const std::size_t n = points.count;
     return {span_of("x", points.x, n), span_of("y", points.y, n), span_of("z", points.z, n)};
 }
 
-template <class Statistics, class CRays>
-void store(const Statistics& statistics, const CRays* rays) {
-    if (rays->refused != nullptr) *rays->refused = statistics.refused;
+RaySpan span_from(const raylane_rays* rays) {
+    return rays_from<float>(checked("rays", rays));
+}
+DoubleRaySpan span_from(const raylane_double_rays* rays) {
+    return rays_from<double>(checked("rays", rays));
+}
+PointSpan span_from(const raylane_points* points) {
+    return points_from<float>(checked("points", points));
+}
+DoublePointSpan span_from(const raylane_double_points* points) {
+    return points_from<double>(checked("points", points));
 }
 
 HitSpan hits_from(const raylane_hits* from, std::size_t n) {
@@ -53,106 +62,119 @@ HitSpan hits_from(const raylane_hits* from, std::size_t n) {
             span_of(hits.normal_double_z, n)};
 }
 
-template <class Real, class CRays>
+/// Calls query(tracer, asked, count, &statistics) for rays or points, and stores how many of them
+/// are refused.
+template <class Statistics = QueryStatistics, class From, class Query>
+raylane_status answered(const raylane_tracer* tracer, const From* from,
+                        const Query& query) noexcept {
+    return guarded([&] {
+        const auto asked = span_from(from);
+        Statistics statistics;
+        query(checked("tracer", tracer).tracer, asked, from->count, &statistics);
+        if (from->refused != nullptr) *from->refused = statistics.refused;
+    });
+}
+
+template <class CRays>
 raylane_status intersect(const raylane_tracer* tracer, const CRays* rays,
                          const raylane_hits* hits) noexcept {
-    return guarded([&] {
-        const BasicRaySpan<Real> asked = rays_from<Real>(rays);
-        const HitSpan to = hits_from(hits, rays->count);
-        QueryStatistics statistics;
-        checked("tracer", tracer).tracer.intersect(asked, to, &statistics);
-        store(statistics, rays);
-    });
+    return answered(tracer, rays,
+                    [&](const Tracer& of, const auto& asked, std::size_t n, auto* statistics) {
+                        of.intersect(asked, hits_from(hits, n), statistics);
+                    });
 }
 
-template <class Real, class CRays>
+template <class CRays>
 raylane_status occluded(const raylane_tracer* tracer, const CRays* rays,
                         std::uint8_t* result) noexcept {
-    return guarded([&] {
-        const BasicRaySpan<Real> asked = rays_from<Real>(rays);
-        QueryStatistics statistics;
-        checked("tracer", tracer)
-            .tracer.occluded(asked, span_of("occluded", result, rays->count), &statistics);
-        store(statistics, rays);
-    });
+    return answered(tracer, rays,
+                    [&](const Tracer& of, const auto& asked, std::size_t n, auto* statistics) {
+                        of.occluded(asked, span_of("occluded", result, n), statistics);
+                    });
 }
 
-/// Makes the rows that query(tracer, asked, rows, statistics) fills for rays or points.
-template <class AnyRows, class Statistics, class Asked, class From, class Query>
-raylane_status rows_of(const raylane_tracer* tracer, const From* from,
-                       Asked (*convert)(const From*), raylane_rows** rows,
+template <class CRays>
+raylane_status count_crossings(const raylane_tracer* tracer, const CRays* rays,
+                               std::uint64_t* counts) noexcept {
+    return answered(tracer, rays,
+                    [&](const Tracer& of, const auto& asked, std::size_t n, auto* statistics) {
+                        of.count_crossings(asked, span_of("counts", counts, n), statistics);
+                    });
+}
+
+template <class CPoints>
+raylane_status cells(const raylane_tracer* tracer, const CPoints* points,
+                     const raylane_cell_columns* columns) noexcept {
+    return answered(
+        tracer, points, [&](const Tracer& of, const auto& asked, std::size_t n, auto* statistics) {
+            const raylane_cell_columns& to = checked("cells", columns);
+            of.cells(asked,
+                     {span_of(to.shape_id, n), span_of(to.material, n), span_of(to.on_surface, n)},
+                     statistics);
+        });
+}
+
+template <class CPoints>
+raylane_status find_closest(const raylane_tracer* tracer, const CPoints* points,
+                            const double* max_distance,
+                            const raylane_closest_points* closest) noexcept {
+    return answered(
+        tracer, points, [&](const Tracer& of, const auto& asked, std::size_t n, auto* statistics) {
+            const raylane_closest_points& to = checked("closest", closest);
+            of.closest(asked,
+                       {span_of(to.distance, n), span_of(to.point_x, n), span_of(to.point_y, n),
+                        span_of(to.point_z, n), span_of(to.shape_id, n), span_of(to.face, n)},
+                       span_of(max_distance, n), statistics);
+        });
+}
+
+/// Makes the rows that query(tracer, asked, rows, &statistics) fills for rays or points.
+template <class Rows, class Statistics, class From, class Query>
+raylane_status rows_of(const raylane_tracer* tracer, const From* from, raylane_rows** rows,
                        const Query& query) noexcept {
     return handle_of("rows", rows, [&] {
-        const Asked asked = convert(from);
-        AnyRows found;
+        raylane_rows made;
+        const auto asked = span_from(from);
         Statistics statistics;
-        query(checked("tracer", tracer).tracer, asked, found, statistics);
-        store(statistics, from);
-        return found;
+        query(checked("tracer", tracer).tracer, asked, made.rows.emplace<Rows>(), &statistics);
+        if constexpr (std::is_same_v<Statistics, CrossingStatistics>)
+            made.statistics = std::bit_cast<raylane_crossing_statistics>(statistics);
+        else
+            made.statistics.refused = statistics.refused;
+        if (from->refused != nullptr) *from->refused = statistics.refused;
+        return made;
     });
 }
 
-template <class Real, class CRays>
+/// The same for a function of Tracer.
+template <class Rows, class Span>
+using RowQuery = void (Tracer::*)(const Span&, Rows&, QueryStatistics*) const;
+
+template <class Rows, class From>
+raylane_status rows_by(RowQuery<Rows, decltype(span_from(std::declval<const From*>()))> query,
+                       const raylane_tracer* tracer, const From* from,
+                       raylane_rows** rows) noexcept {
+    return rows_of<Rows, QueryStatistics>(
+        tracer, from, rows,
+        [&](const Tracer& of, const auto& asked, Rows& found, QueryStatistics* statistics) {
+            (of.*query)(asked, found, statistics);
+        });
+}
+
+template <class CRays>
 raylane_status crossings(const raylane_tracer* tracer, const CRays* rays, std::size_t most,
                          int normals, raylane_rows** rows) noexcept {
     return rows_of<CrossingRows, CrossingStatistics>(
-        tracer, rays, rays_from<Real, CRays>, rows,
-        [&](const Tracer& of, const auto& asked, auto& found, auto& statistics) {
+        tracer, rays, rows,
+        [&](const Tracer& of, const auto& asked, auto& found, auto* statistics) {
             if (normals < 0 || normals > (RAYLANE_NORMALS | RAYLANE_NORMALS_DOUBLE))
                 throw InvalidValue("normals",
                                    "must be from 0 to 3, got " + std::to_string(normals));
             of.crossings(
                 asked, found,
                 {most, (normals & RAYLANE_NORMALS) != 0, (normals & RAYLANE_NORMALS_DOUBLE) != 0},
-                &statistics);
+                statistics);
         });
-}
-
-template <class Real, class CPoints>
-raylane_status contains(const raylane_tracer* tracer, const CPoints* points,
-                        raylane_rows** rows) noexcept {
-    return rows_of<SolidRows, QueryStatistics>(
-        tracer, points, points_from<Real, CPoints>, rows,
-        [](const Tracer& of, const auto& asked, auto& found, auto& statistics) {
-            of.contains(asked, found, &statistics);
-        });
-}
-
-template <class Real, class CRays>
-raylane_status path_lengths(const raylane_tracer* tracer, const CRays* rays,
-                            raylane_rows** rows) noexcept {
-    return rows_of<LengthRows, QueryStatistics>(
-        tracer, rays, rays_from<Real, CRays>, rows,
-        [](const Tracer& of, const auto& asked, auto& found, auto& statistics) {
-            of.path_lengths(asked, found, &statistics);
-        });
-}
-
-template <class Real, class CRays>
-raylane_status solid_lengths(const raylane_tracer* tracer, const CRays* rays,
-                             raylane_rows** rows) noexcept {
-    return rows_of<SolidLengthRows, QueryStatistics>(
-        tracer, rays, rays_from<Real, CRays>, rows,
-        [](const Tracer& of, const auto& asked, auto& found, auto& statistics) {
-            of.solid_lengths(asked, found, &statistics);
-        });
-}
-
-template <class Real, class CPoints>
-raylane_status cells(const raylane_tracer* tracer, const CPoints* points,
-                     const raylane_cell_columns* columns) noexcept {
-    return guarded([&] {
-        const BasicPointSpan<Real> asked = points_from<Real>(points);
-        const raylane_cell_columns& to = checked("cells", columns);
-        const std::size_t n = points->count;
-        QueryStatistics statistics;
-        checked("tracer", tracer)
-            .tracer.cells(
-                asked,
-                {span_of(to.shape_id, n), span_of(to.material, n), span_of(to.on_surface, n)},
-                &statistics);
-        store(statistics, points);
-    });
 }
 
 /// The columns x, y and z.
@@ -164,7 +186,7 @@ raylane_status onward_from(const CRays* rays, const raylane_hits* hits,
                            Columns<const Real> directions, Columns<Real> origins,
                            std::uint8_t* inward) noexcept {
     return guarded([&] {
-        const BasicRaySpan<Real> asked = rays_from<Real>(rays);
+        const BasicRaySpan<Real> asked = span_from(rays);
         const std::size_t n = rays->count;
         const auto next = onward(
             asked, hits_from(hits, n), span_of("direction_x", directions[0], n),
@@ -176,18 +198,6 @@ raylane_status onward_from(const CRays* rays, const raylane_hits* hits,
         give("origin_y", origins[1], next.origin_y);
         give("origin_z", origins[2], next.origin_z);
         give("inward", inward, next.inward);
-    });
-}
-
-template <class Real, class CRays>
-raylane_status count_crossings(const raylane_tracer* tracer, const CRays* rays,
-                               std::uint64_t* counts) noexcept {
-    return guarded([&] {
-        const BasicRaySpan<Real> asked = rays_from<Real>(rays);
-        QueryStatistics statistics;
-        checked("tracer", tracer)
-            .tracer.count_crossings(asked, span_of("counts", counts, rays->count), &statistics);
-        store(statistics, rays);
     });
 }
 
@@ -210,86 +220,98 @@ void raylane_tracer_release(raylane_tracer* tracer) {
 
 raylane_status raylane_intersect(const raylane_tracer* tracer, const raylane_rays* rays,
                                  const raylane_hits* hits) {
-    return intersect<float>(tracer, rays, hits);
+    return intersect(tracer, rays, hits);
 }
 
 raylane_status raylane_intersect_doubles(const raylane_tracer* tracer,
                                          const raylane_double_rays* rays,
                                          const raylane_hits* hits) {
-    return intersect<double>(tracer, rays, hits);
+    return intersect(tracer, rays, hits);
 }
 
 raylane_status raylane_occluded(const raylane_tracer* tracer, const raylane_rays* rays,
                                 uint8_t* result) {
-    return occluded<float>(tracer, rays, result);
+    return occluded(tracer, rays, result);
 }
 
 raylane_status raylane_occluded_doubles(const raylane_tracer* tracer,
                                         const raylane_double_rays* rays, uint8_t* result) {
-    return occluded<double>(tracer, rays, result);
+    return occluded(tracer, rays, result);
 }
 
 raylane_status raylane_crossings(const raylane_tracer* tracer, const raylane_rays* rays,
                                  size_t most, int normals, raylane_rows** rows) {
-    return crossings<float>(tracer, rays, most, normals, rows);
+    return crossings(tracer, rays, most, normals, rows);
 }
 
 raylane_status raylane_crossings_doubles(const raylane_tracer* tracer,
                                          const raylane_double_rays* rays, size_t most, int normals,
                                          raylane_rows** rows) {
-    return crossings<double>(tracer, rays, most, normals, rows);
+    return crossings(tracer, rays, most, normals, rows);
 }
 
 raylane_status raylane_contains(const raylane_tracer* tracer, const raylane_points* points,
                                 raylane_rows** rows) {
-    return contains<float>(tracer, points, rows);
+    return rows_by<SolidRows>(&Tracer::contains, tracer, points, rows);
 }
 
 raylane_status raylane_contains_doubles(const raylane_tracer* tracer,
                                         const raylane_double_points* points, raylane_rows** rows) {
-    return contains<double>(tracer, points, rows);
+    return rows_by<SolidRows>(&Tracer::contains, tracer, points, rows);
 }
 
 raylane_status raylane_path_lengths(const raylane_tracer* tracer, const raylane_rays* rays,
                                     raylane_rows** rows) {
-    return path_lengths<float>(tracer, rays, rows);
+    return rows_by<LengthRows>(&Tracer::path_lengths, tracer, rays, rows);
 }
 
 raylane_status raylane_path_lengths_doubles(const raylane_tracer* tracer,
                                             const raylane_double_rays* rays, raylane_rows** rows) {
-    return path_lengths<double>(tracer, rays, rows);
+    return rows_by<LengthRows>(&Tracer::path_lengths, tracer, rays, rows);
 }
 
 raylane_status raylane_count_crossings(const raylane_tracer* tracer, const raylane_rays* rays,
                                        std::uint64_t* counts) {
-    return count_crossings<float>(tracer, rays, counts);
+    return count_crossings(tracer, rays, counts);
 }
 
 raylane_status raylane_count_crossings_doubles(const raylane_tracer* tracer,
                                                const raylane_double_rays* rays,
                                                std::uint64_t* counts) {
-    return count_crossings<double>(tracer, rays, counts);
+    return count_crossings(tracer, rays, counts);
 }
 
 raylane_status raylane_solid_lengths(const raylane_tracer* tracer, const raylane_rays* rays,
                                      raylane_rows** rows) {
-    return solid_lengths<float>(tracer, rays, rows);
+    return rows_by<SolidLengthRows>(&Tracer::solid_lengths, tracer, rays, rows);
 }
 
 raylane_status raylane_solid_lengths_doubles(const raylane_tracer* tracer,
                                              const raylane_double_rays* rays, raylane_rows** rows) {
-    return solid_lengths<double>(tracer, rays, rows);
+    return rows_by<SolidLengthRows>(&Tracer::solid_lengths, tracer, rays, rows);
 }
 
 raylane_status raylane_cells(const raylane_tracer* tracer, const raylane_points* points,
                              const raylane_cell_columns* columns) {
-    return cells<float>(tracer, points, columns);
+    return cells(tracer, points, columns);
 }
 
 raylane_status raylane_cells_doubles(const raylane_tracer* tracer,
                                      const raylane_double_points* points,
                                      const raylane_cell_columns* columns) {
-    return cells<double>(tracer, points, columns);
+    return cells(tracer, points, columns);
+}
+
+raylane_status raylane_closest(const raylane_tracer* tracer, const raylane_points* points,
+                               const double* max_distance, const raylane_closest_points* closest) {
+    return find_closest(tracer, points, max_distance, closest);
+}
+
+raylane_status raylane_closest_doubles(const raylane_tracer* tracer,
+                                       const raylane_double_points* points,
+                                       const double* max_distance,
+                                       const raylane_closest_points* closest) {
+    return find_closest(tracer, points, max_distance, closest);
 }
 
 raylane_status raylane_onward(const raylane_rays* rays, const raylane_hits* hits,

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <variant>
 
 /// Tests of transforms, groups, generators, values by name, and shapes that are given back, of the
@@ -181,6 +182,60 @@ TEST_CASE("transformed groups and solids in C are those of C++") {
     CHECK(raylane_scene_material_name(scene_in_c.get(), 0, nullptr, 0, &length) == RAYLANE_OK);
 }
 
+TEST_CASE("copies of groups in C are those of C++, kept or not") {
+    const raylane_placement in_c[] = {
+        {{0, 0, 0}, {0, 0, 0}, 1}, {{3, 0, 0}, {0, 0, 30}, 0.5}, {{0, 3, 1}, {90, 0, 0}, 2}};
+    const Placement in_cpp[] = {{},
+                                {{3, 0, 0}, {0, 0, 30}, 0.5},
+                                {.translate = {0, 3, 1}, .rotate = {90, 0, 0}, .scale = 2}};
+    CHECK(raylane_default_placement().scale == 1);
+    const GroupHandle group = group_in_c();
+    REQUIRE(raylane_group_add_spheres(group.get(), balls, 2, RAYLANE_NO_MATERIAL) == RAYLANE_OK);
+    REQUIRE(raylane_group_add_capped_cylinders(group.get(), &rod, 1, 0) == RAYLANE_OK);
+    Group same;
+    for (const raylane_double_sphere& ball : balls)
+        same.add(std::bit_cast<SphereOf<double>>(ball));
+    same.add(std::bit_cast<CappedCylinderOf<double>>(rod), 0);
+    for (const std::size_t keep_from : {std::size_t{10}, std::size_t{9}}) {
+        const Builder builder = builder_in_c();
+        SceneBuilder cpp;
+        for (int i = 0; i < 2; ++i) {
+            const raylane_material material = raylane_default_material();
+            CHECK(raylane_add_material(builder.get(), &material, nullptr) == RAYLANE_OK);
+            cpp.add_material({});
+        }
+        CHECK(raylane_set_keep_from(builder.get(), keep_from) == RAYLANE_OK);
+        std::uint32_t first = 77;
+        CHECK(raylane_add_copies(builder.get(), group.get(), in_c, 3, 1, &first) == RAYLANE_OK);
+        CHECK(first == 0);
+        cpp.keep_from = keep_from;
+        cpp.add(same, in_cpp, 1);
+        const SceneHandle scene = built(builder);
+        const Scene expected = cpp.build();
+        check_each_shape(scene, expected);
+        check_crossings(scene, expected, rays_through_all(300, 5));
+        // Kept copies have no closest points.
+        const TracerHandle tracer = tracer_of(scene);
+        const float zero = 0.0F;
+        const raylane_points point{1, &zero, &zero, &zero, nullptr};
+        const raylane_closest_points none{};
+        CHECK((raylane_closest(tracer.get(), &point, nullptr, &none) == RAYLANE_OK) ==
+              (keep_from > 9));
+    }
+    const Builder builder = builder_in_c();
+    const raylane_material material = raylane_default_material();
+    REQUIRE(raylane_add_material(builder.get(), &material, nullptr) == RAYLANE_OK);
+    raylane_placement wrong = raylane_default_placement();
+    wrong.scale = 0;
+    says(raylane_add_copies(builder.get(), group.get(), &wrong, 1, 0, nullptr),
+         "placements/0/scale: must be positive, got 0");
+    says(raylane_add_copies(builder.get(), group.get(), nullptr, 1, 0, nullptr),
+         "placements: must not be NULL");
+    says(raylane_add_copies(builder.get(), nullptr, &wrong, 1, 0, nullptr),
+         "group: must not be NULL");
+    says(raylane_set_keep_from(nullptr, 1), "builder: must not be NULL");
+}
+
 TEST_CASE("a scene of all types gives its shapes back in C") {
     Heap all = heap(false, 3, 32);
     SceneHandle in_c;
@@ -354,6 +409,33 @@ TEST_CASE("atoms are read with options in C") {
     raylane_scene* none = nullptr;
     const raylane_atom_option wrong[] = {{"style", nullptr}};
     says(raylane_load_atoms(file.path().c_str(), wrong, 1, &none), "options: must not be NULL");
+}
+
+TEST_CASE("remarks on files can be read in C") {
+    const std::string pov = "camera { location <0, 0, -5> look_at 0 }\n"
+                            "light_source { <1, 2, -3> color rgb 1 shadowless }\n"
+                            "sphere { 0, 1 pigment { color rgb 1 } no_shadow }\n";
+    std::vector<std::string> remarks;
+    static_cast<void>(parse(pov, "a.pov", [&](const std::string& it) { remarks.push_back(it); }));
+    REQUIRE(remarks.size() > 1);
+    std::string expected = remarks[0];
+    for (std::size_t i = 1; i < remarks.size(); ++i)
+        expected += "\n" + remarks[i];
+    const auto parsed = [](const std::string& text) {
+        return made<SceneHandle>([&](raylane_scene** to) {
+            return raylane_parse(text.data(), text.size(), "a.pov", to);
+        });
+    };
+    const SceneHandle scene = parsed(pov);
+    CHECK(raylane_remarks() == expected);
+    std::thread([] { CHECK(std::string(raylane_remarks()).empty()); }).join();
+    const TemporaryFile file(pov, ".pov");
+    static_cast<void>(made<SceneHandle>(
+        [&](raylane_scene** to) { return raylane_load(file.path().c_str(), to); }));
+    CHECK(std::string(raylane_remarks()).find('\n') != std::string::npos);
+    raylane_scene* none = nullptr;
+    CHECK(raylane_load(nullptr, &none) == RAYLANE_INVALID_VALUE);
+    CHECK(std::string(raylane_remarks()).empty());
 }
 
 TEST_CASE("parts, alpha and layers of images in C are those of C++") {

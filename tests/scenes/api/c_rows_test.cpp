@@ -69,6 +69,16 @@ TEST_CASE("rows of float rays and points in C are those of C++") {
             refused = 77;
         }
     CHECK(crossings.t.size() > 50);
+    const raylane_crossing_statistics counts =
+        raylane_rows_statistics(crossings_in_c(asked, in_c, 0, 0).get());
+    CrossingStatistics statistics;
+    tracer.crossings(rays.span(), crossings, {}, &statistics);
+    CHECK(statistics.by_bounds > 0);
+    CHECK(counts.by_bounds == statistics.by_bounds);
+    CHECK(counts.by_digits == statistics.by_digits);
+    CHECK(counts.exactly == statistics.exactly);
+    CHECK(counts.beyond_double == statistics.beyond_double);
+    CHECK(counts.refused == 1);
     LengthRows lengths;
     tracer.path_lengths(rays.span(), lengths);
     check_same(made<RowsHandle>(
@@ -80,11 +90,12 @@ TEST_CASE("rows of float rays and points in C are those of C++") {
     SolidLengthRows of_solids;
     tracer.solid_lengths(rays.span(), of_solids);
     refused = 77;
-    check_same(made<RowsHandle>([&](raylane_rows** to) {
-                   return raylane_solid_lengths(asked.get(), &in_c, to);
-               }),
-               of_solids);
+    const RowsHandle solid_lengths = made<RowsHandle>(
+        [&](raylane_rows** to) { return raylane_solid_lengths(asked.get(), &in_c, to); });
+    check_same(solid_lengths, of_solids);
     CHECK(refused == 1);
+    CHECK(raylane_rows_statistics(solid_lengths.get()).refused == 1);
+    CHECK(raylane_rows_statistics(solid_lengths.get()).by_bounds == 0);
 
     const raylane_points points = {rays.size(), rays.x.data(), rays.y.data(), rays.z.data(),
                                    nullptr};
@@ -235,6 +246,7 @@ TEST_CASE("rows in C tell of mistakes and take NULL") {
     CHECK(raylane_rows_t(empty.get()) == nullptr);
 
     CHECK(raylane_rows_count(nullptr) == 0);
+    CHECK(raylane_rows_statistics(nullptr).refused == 0);
     CHECK(raylane_rows_first(nullptr) == nullptr);
     CHECK(raylane_rows_t(nullptr) == nullptr);
     CHECK(raylane_rows_shape_id(nullptr) == nullptr);

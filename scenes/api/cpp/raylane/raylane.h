@@ -258,7 +258,8 @@ RAYLANE_API raylane_status raylane_material_preset(const char* name, raylane_mat
 RAYLANE_API raylane_status raylane_catalogue_glass(const char* name, double* B, double* C);
 RAYLANE_API raylane_status raylane_named_view(const char* name, raylane_auto_camera* camera);
 RAYLANE_API raylane_status raylane_color_from_srgb(const char* text, raylane_vec3* color);
-/** Gives the box with faces across the axes and these opposite corners, lower < upper. */
+/** Gives the box with faces across the axes and these opposite corners, lower < upper. The edges
+ * are upper - lower, rounded to doubles. */
 RAYLANE_API raylane_status raylane_aligned_box(raylane_double_vec3 lower, raylane_double_vec3 upper,
                                                raylane_double_box* box);
 
@@ -572,9 +573,30 @@ RAYLANE_API raylane_status raylane_solid_group(const raylane_group* group, uint3
 RAYLANE_API raylane_status raylane_add_group(raylane_builder* builder, const raylane_group* group,
                                              uint32_t material, uint32_t* first);
 
+/** The place of a copy of a group, same as Placement in group.hpp. */
+typedef struct raylane_placement {
+    raylane_double_vec3 translate, rotate;
+    double scale;
+} raylane_placement;
+/** Returns the default values of the C++ struct. */
+RAYLANE_API raylane_placement raylane_default_placement(void);
+/** Adds `count` copies of a group, same as SceneBuilder::add(group, placements, material) in
+ * scene.hpp, which tells when copies are kept as copies. *first is the id of the first shape;
+ * `first` may be NULL. */
+RAYLANE_API raylane_status raylane_add_copies(raylane_builder* builder, const raylane_group* group,
+                                              const raylane_placement* placements, size_t count,
+                                              uint32_t material, uint32_t* first);
+/** Sets SceneBuilder::keep_from, the number of shapes in one call from which copies are kept. */
+RAYLANE_API raylane_status raylane_set_keep_from(raylane_builder* builder, size_t shapes);
+
 /** Builds the scene. Leaves the builder empty, even if the call fails, unless it fails because the
  * environment variable RAYLANE_THREADS is invalid. */
 RAYLANE_API raylane_status raylane_build(raylane_builder* builder, raylane_scene** scene);
+/** Returns the remarks of the calling thread's last call of raylane_load(), raylane_parse(), their
+ * variants for atoms or raylane_save(), one a line; empty without remarks. These are warnings:
+ * contents of a file that raylane ignores, a scene without objects, or a feature that a format
+ * cannot express. Valid until the next such call of this thread. */
+RAYLANE_API const char* raylane_remarks(void);
 /** Reads a scene from a file. `path` is in the system's encoding; "-" is a file of that name. */
 RAYLANE_API raylane_status raylane_load(const char* path, raylane_scene** scene);
 /** Reads a scene from a text of `length` bytes in memory. `name` stands for the file's name in
@@ -594,7 +616,7 @@ RAYLANE_API raylane_status raylane_parse_atoms(const char* text, size_t length, 
 RAYLANE_API raylane_status raylane_load_atoms(const char* path, const raylane_atom_option* options,
                                               size_t count, raylane_scene** scene);
 /** Writes a scene to a file in the format of its ending: .json, .rl, .nff or .pov. Same as save()
- * in scene.hpp, without remarks. */
+ * in scene.hpp. */
 RAYLANE_API raylane_status raylane_save(const raylane_scene* scene, const char* path);
 RAYLANE_API void raylane_scene_release(raylane_scene* scene);
 RAYLANE_API size_t raylane_shape_count(const raylane_scene* scene);
@@ -843,6 +865,14 @@ RAYLANE_API raylane_status raylane_solid_lengths_doubles(const raylane_tracer* t
                                                          const raylane_double_rays* rays,
                                                          raylane_rows** rows);
 RAYLANE_API void raylane_rows_release(raylane_rows* rows);
+
+/** Counts of a query for all crossings, same as CrossingStatistics in tracer.hpp. */
+typedef struct raylane_crossing_statistics {
+    uint64_t by_bounds, by_digits, exactly, beyond_double, refused;
+} raylane_crossing_statistics;
+/** Returns the counts of the query that made the rows. Rows of other queries than those for
+ * crossings count only refused rays or points. All counts are 0 for NULL. */
+RAYLANE_API raylane_crossing_statistics raylane_rows_statistics(const raylane_rows* rows);
 
 /** Returns the number of rows. */
 RAYLANE_API size_t raylane_rows_count(const raylane_rows* rows);

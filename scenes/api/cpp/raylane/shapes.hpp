@@ -137,7 +137,7 @@ using Quadric = QuadricOf<float>;
 using Ellipsoid = EllipsoidOf<float>;
 
 /// Returns the box with faces across the axes and these opposite corners. Throws InvalidValue,
-/// field "upper/0", ..., unless lower < upper on each axis.
+/// field "upper/0", ..., unless lower < upper on each axis. Rounds upper - lower to doubles.
 RAYLANE_API BoxOf<double> aligned_box(const Vec3Of<double>& lower, const Vec3Of<double>& upper);
 
 namespace detail {
