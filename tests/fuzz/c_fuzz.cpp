@@ -23,7 +23,9 @@ constexpr float untouched = -7777.0F;
 
 struct Handles {
     std::array<raylane_builder*, slots> builders{};
+    std::array<raylane_transform*, slots> transforms{};
     std::array<raylane_solid*, slots> solids{};
+    std::array<raylane_group*, slots> groups{};
     std::array<raylane_scene*, slots> scenes{};
     std::array<raylane_tracer*, slots> tracers{};
 
@@ -34,7 +36,9 @@ struct Handles {
         for (int i = 0; i < slots; ++i) {
             const auto slot = static_cast<std::size_t>(i);
             raylane_builder_release(builders[slot]);
+            raylane_transform_release(transforms[slot]);
             raylane_solid_release(solids[slot]);
+            raylane_group_release(groups[slot]);
             raylane_scene_release(scenes[slot]);
             raylane_tracer_release(tracers[slot]);
         }
@@ -57,6 +61,26 @@ void check(raylane_status status, bool has_null = false) {
 template <class Handle>
 Handle*& slot_of(std::array<Handle*, slots>& handles, Bytes& bytes) {
     return handles[static_cast<std::size_t>(bytes.below(slots))];
+}
+
+/// Puts a handle in a slot, in place of another one, unless it is NULL.
+template <class Handle>
+void keep(Handle* made, std::array<Handle*, slots>& handles, void (*release)(Handle*),
+          Bytes& bytes) {
+    if (made == nullptr) return;
+    Handle*& slot = slot_of(handles, bytes);
+    release(slot);
+    slot = made;
+}
+
+/// Returns an index of a material, or RAYLANE_NO_MATERIAL.
+std::uint32_t material_of(Bytes& bytes) {
+    return static_cast<std::uint32_t>(bytes.below(4) - 1);
+}
+
+raylane_double_vec3 double_vector_of(Bytes& bytes) {
+    const double x = bytes.number<double>(), y = bytes.number<double>();
+    return {x, y, bytes.number<double>()};
 }
 
 raylane_vec3 vector_of(Bytes& bytes) {
@@ -102,8 +126,31 @@ void add_by(raylane_builder* builder, Bytes& bytes) {
     add(add_shapes, builder, bytes);
 }
 
+void add_sphereflake(raylane_builder* builder, Bytes& bytes) {
+    raylane_sphereflake flake = raylane_default_sphereflake();
+    flake.center = vector_of(bytes);
+    flake.radius = bytes.any_float();
+    flake.depth = bytes.below(5) - 1;
+    flake.up = vector_of(bytes);
+    std::uint32_t first = 0;
+    check(raylane_add_sphereflake(builder, &flake, material_of(bytes), &first), builder == nullptr);
+}
+
+void add_lattice(raylane_builder* builder, Bytes& bytes) {
+    raylane_lattice lattice = raylane_default_lattice();
+    lattice.corner = double_vector_of(bytes);
+    lattice.n = bytes.below(6) - 1;
+    for (float* number : {&lattice.spacing, &lattice.sphere_radius, &lattice.strut_radius})
+        *number = bytes.any_float();
+    const std::uint32_t material = material_of(bytes);
+    check(raylane_add_lattice(builder, &lattice, material, material_of(bytes), nullptr),
+          builder == nullptr);
+}
+
 constexpr void (*all_adding[])(raylane_builder*,
-                               Bytes&) = {add_by<raylane_add_spheres>,
+                               Bytes&) = {add_sphereflake,
+                                          add_lattice,
+                                          add_by<raylane_add_spheres>,
                                           add_by<raylane_add_spheres_doubles>,
                                           add_by<raylane_add_planes>,
                                           add_by<raylane_add_planes_doubles>,
@@ -204,14 +251,157 @@ void make_solid(Handles& handles, Bytes& bytes) {
     }
     raylane_solid* made = nullptr;
     raylane_solid** const to = bytes.below(32) == 31 ? nullptr : &made;
-    if (bytes.flag())
+    const raylane_solid* const solid = slot_of(handles.solids, bytes);
+    const int how = bytes.below(16);
+    if (how < 7) {
         combine(handles, to, bytes);
-    else
+    } else if (how < 13) {
         all_solids[static_cast<std::size_t>(bytes.below(int(std::size(all_solids))))](to, bytes);
-    if (made == nullptr) return;
-    raylane_solid*& slot = slot_of(handles.solids, bytes);
-    raylane_solid_release(slot);
-    slot = made;
+    } else if (how == 13) {
+        const raylane_transform* const map = slot_of(handles.transforms, bytes);
+        check(raylane_solid_transformed(solid, map, to),
+              to == nullptr || solid == nullptr || map == nullptr);
+    } else if (how == 14) {
+        const raylane_group* const group = slot_of(handles.groups, bytes);
+        check(raylane_solid_group(group, material_of(bytes), to),
+              to == nullptr || group == nullptr);
+    } else {
+        check(raylane_solid_of_material(solid, material_of(bytes), to),
+              to == nullptr || solid == nullptr);
+    }
+    keep(made, handles.solids, raylane_solid_release, bytes);
+}
+
+void change_transform(Handles& handles, Bytes& bytes) {
+    raylane_transform* const map = slot_of(handles.transforms, bytes);
+    switch (bytes.below(6)) {
+    case 0:
+        return check(raylane_transform_scale(map, double_vector_of(bytes)), map == nullptr);
+    case 1:
+        return check(raylane_transform_rotate(map, double_vector_of(bytes)), map == nullptr);
+    case 2:
+        return check(raylane_transform_translate(map, double_vector_of(bytes)), map == nullptr);
+    case 3: {
+        const raylane_transform* const next = slot_of(handles.transforms, bytes);
+        return check(raylane_transform_then(map, next), map == nullptr || next == nullptr);
+    }
+    default: {
+        raylane_transform* made = nullptr;
+        if (bytes.flag()) {
+            check(raylane_transform_create(&made));
+        } else {
+            double rows[12];
+            for (double& number : rows)
+                number = static_cast<double>(bytes.any_float());
+            const bool leaves_out = bytes.below(16) == 15;
+            check(raylane_transform_matrix(leaves_out ? nullptr : rows, &made), leaves_out);
+        }
+        return keep(made, handles.transforms, raylane_transform_release, bytes);
+    }
+    }
+}
+
+template <auto add_shapes>
+void add_to_group(raylane_group* group, Bytes& bytes) {
+    const auto add = [&]<class Shape>(
+                         raylane_status (*call)(raylane_group*, const Shape*, size_t, uint32_t)) {
+        std::vector<Shape> shapes(static_cast<std::size_t>(bytes.below(4)));
+        for (Shape& shape : shapes)
+            shape = shape_of<Shape>(bytes);
+        const bool leaves_out = bytes.below(16) == 15;
+        check(call(group, leaves_out ? nullptr : shapes.data(), shapes.size(), material_of(bytes)),
+              group == nullptr || (leaves_out && !shapes.empty()));
+    };
+    add(add_shapes);
+}
+
+constexpr void (*all_members[])(raylane_group*,
+                                Bytes&) = {add_to_group<raylane_group_add_spheres>,
+                                           add_to_group<raylane_group_add_planes>,
+                                           add_to_group<raylane_group_add_discs>,
+                                           add_to_group<raylane_group_add_triangles>,
+                                           add_to_group<raylane_group_add_smooth_triangles>,
+                                           add_to_group<raylane_group_add_boxes>,
+                                           add_to_group<raylane_group_add_open_cylinders>,
+                                           add_to_group<raylane_group_add_capped_cylinders>,
+                                           add_to_group<raylane_group_add_open_cones>,
+                                           add_to_group<raylane_group_add_capped_cones>,
+                                           add_to_group<raylane_group_add_quadrics>,
+                                           add_to_group<raylane_group_add_ellipsoids>};
+
+/// Members of a group, which is added several times, are limited by this number.
+constexpr std::size_t most_members = 64;
+
+void make_group(Handles& handles, Bytes& bytes) {
+    raylane_group* made = nullptr;
+    raylane_group** const to = bytes.below(32) == 31 ? nullptr : &made;
+    const raylane_group* const group = slot_of(handles.groups, bytes);
+    switch (bytes.below(4)) {
+    case 0: {
+        const raylane_transform* const map = slot_of(handles.transforms, bytes);
+        check(raylane_group_transformed(group, map, to),
+              to == nullptr || group == nullptr || map == nullptr);
+        break;
+    }
+    case 1:
+        check(raylane_group_of_material(group, material_of(bytes), to),
+              to == nullptr || group == nullptr);
+        break;
+    default:
+        check(raylane_group_create(to), to == nullptr);
+    }
+    keep(made, handles.groups, raylane_group_release, bytes);
+}
+
+void add_copies(Handles& handles, Bytes& bytes) {
+    raylane_builder* const builder = slot_of(handles.builders, bytes);
+    const raylane_group* const group = slot_of(handles.groups, bytes);
+    if (bytes.flag())
+        check(raylane_set_keep_from(builder, static_cast<std::size_t>(bytes.below(8))),
+              builder == nullptr);
+    std::vector<raylane_placement> placements(static_cast<std::size_t>(bytes.below(4)),
+                                              raylane_default_placement());
+    for (raylane_placement& placement : placements) {
+        placement.translate = double_vector_of(bytes);
+        if (bytes.flag()) placement.rotate = double_vector_of(bytes);
+        if (bytes.flag()) placement.scale = static_cast<double>(bytes.any_float());
+    }
+    const bool leaves_out = bytes.below(16) == 15;
+    std::uint32_t first = 0;
+    check(raylane_add_copies(builder, group, leaves_out ? nullptr : placements.data(),
+                             placements.size(), material_of(bytes),
+                             bytes.flag() ? &first : nullptr),
+          builder == nullptr || group == nullptr || (leaves_out && !placements.empty()));
+}
+
+void change_group(Handles& handles, Bytes& bytes) {
+    raylane_group* const group = slot_of(handles.groups, bytes);
+    switch (bytes.below(8)) {
+    case 0:
+    case 1:
+        return make_group(handles, bytes);
+    case 2: {
+        raylane_builder* const builder = slot_of(handles.builders, bytes);
+        return check(raylane_add_group(builder, group, material_of(bytes), nullptr),
+                     builder == nullptr || group == nullptr);
+    }
+    case 3:
+        return add_copies(handles, bytes);
+    case 4: {
+        const raylane_solid* const solid = slot_of(handles.solids, bytes);
+        return check(raylane_group_add_solid(group, solid, material_of(bytes)),
+                     group == nullptr || solid == nullptr);
+    }
+    case 5: {
+        const raylane_group* const members = slot_of(handles.groups, bytes);
+        if (raylane_group_size(group) + raylane_group_size(members) > most_members) return;
+        return check(raylane_group_add_group(group, members, material_of(bytes)),
+                     group == nullptr || members == nullptr);
+    }
+    default:
+        return all_members[static_cast<std::size_t>(bytes.below(int(std::size(all_members))))](
+            group, bytes);
+    }
 }
 
 void add_material(raylane_builder* builder, Bytes& bytes) {
@@ -239,7 +429,7 @@ void add_material(raylane_builder* builder, Bytes& bytes) {
 }
 
 void set_surroundings(raylane_builder* builder, Bytes& bytes) {
-    switch (bytes.below(4)) {
+    switch (bytes.below(8)) {
     case 0: {
         raylane_light light = raylane_default_light();
         light.kind = enumerator(bytes, 6);
@@ -268,6 +458,25 @@ void set_surroundings(raylane_builder* builder, Bytes& bytes) {
         return check(raylane_set_camera(builder, bytes.below(16) == 15 ? nullptr : &camera),
                      builder == nullptr);
     }
+    case 3: {
+        raylane_auto_camera camera = raylane_default_auto_camera();
+        const bool is_named = bytes.flag();
+        if (is_named) check(raylane_named_view(bytes.flag() ? "corner" : "nowhere", &camera));
+        if (bytes.flag()) camera.direction = vector_of(bytes);
+        if (bytes.flag()) camera.zoom = bytes.any_float();
+        return check(raylane_set_auto_camera(builder, bytes.below(16) == 15 ? nullptr : &camera),
+                     builder == nullptr);
+    }
+    case 4:
+        return check(raylane_set_camera_lights(builder, bytes.flag()), builder == nullptr);
+    case 5: {
+        const double waves[] = {550.0, static_cast<double>(bytes.any_float())};
+        return check(
+            raylane_set_wavelengths(builder, waves, static_cast<std::size_t>(bytes.below(3))),
+            builder == nullptr);
+    }
+    case 6:
+        return check(raylane_set_merge_duplicates(builder, bytes.flag()), builder == nullptr);
     default:
         return check(raylane_set_background(builder, vector_of(bytes)), builder == nullptr);
     }
@@ -380,27 +589,100 @@ void check_rows(raylane_status status, bool has_null, raylane_rows* rows, std::s
     reads(raylane_rows_touching(rows), all);
     for (const auto normal : {raylane_rows_normal_x, raylane_rows_normal_y, raylane_rows_normal_z})
         reads(normal(rows), all);
+    reads(raylane_rows_inside(rows), all);
+    for (const auto normal :
+         {raylane_rows_normal_double_x, raylane_rows_normal_double_y, raylane_rows_normal_double_z})
+        reads(normal(rows), all);
+    if (raylane_rows_statistics(rows).refused > count) found("more refused rays than rays");
     raylane_rows_release(rows);
 }
 
-template <class CRays, class Crossings, class Lengths>
-void ask_rows(const raylane_tracer* tracer, const CRays& rays, bool has_null, Bytes& bytes,
-              const Crossings& crossings, const Lengths& lengths) {
+/// The calls for rays or points of one type of numbers.
+struct OfFloats {
+    using Real = float;
+    using Rays = raylane_rays;
+    using Points = raylane_points;
+    static constexpr auto intersect = raylane_intersect;
+    static constexpr auto occluded = raylane_occluded;
+    static constexpr auto count_crossings = raylane_count_crossings;
+    static constexpr auto crossings = raylane_crossings;
+    static constexpr auto path_lengths = raylane_path_lengths;
+    static constexpr auto solid_lengths = raylane_solid_lengths;
+    static constexpr auto onward = raylane_onward;
+    static constexpr auto contains = raylane_contains;
+    static constexpr auto cells = raylane_cells;
+    static constexpr auto closest = raylane_closest;
+};
+struct OfDoubles {
+    using Real = double;
+    using Rays = raylane_double_rays;
+    using Points = raylane_double_points;
+    static constexpr auto intersect = raylane_intersect_doubles;
+    static constexpr auto occluded = raylane_occluded_doubles;
+    static constexpr auto count_crossings = raylane_count_crossings_doubles;
+    static constexpr auto crossings = raylane_crossings_doubles;
+    static constexpr auto path_lengths = raylane_path_lengths_doubles;
+    static constexpr auto solid_lengths = raylane_solid_lengths_doubles;
+    static constexpr auto onward = raylane_onward_doubles;
+    static constexpr auto contains = raylane_contains_doubles;
+    static constexpr auto cells = raylane_cells_doubles;
+    static constexpr auto closest = raylane_closest_doubles;
+};
+
+template <class Of>
+void ask_rows(const raylane_tracer* tracer, const typename Of::Rays& rays, bool has_null,
+              Bytes& bytes) {
     raylane_rows* rows = nullptr;
     const auto most = static_cast<std::size_t>(bytes.below(4));
-    const int normals = bytes.flag() ? 1 : 0;
-    check_rows(crossings(tracer, &rays, most, normals, &rows), has_null, rows, rays.count);
+    const int normals = bytes.below(4);
+    check_rows(Of::crossings(tracer, &rays, most, normals, &rows), has_null, rows, rays.count);
     rows = nullptr;
-    check_rows(lengths(tracer, &rays, &rows), has_null, rows, rays.count);
-    check(crossings(tracer, &rays, most, normals, nullptr), true);
+    check_rows(Of::path_lengths(tracer, &rays, &rows), has_null, rows, rays.count);
+    rows = nullptr;
+    check_rows(Of::solid_lengths(tracer, &rays, &rows), has_null, rows, rays.count);
+    check(Of::crossings(tracer, &rays, most, normals, nullptr), true);
 }
 
-template <class Real, class CPoints, class Contains>
-void ask_points(const raylane_tracer* tracer, Bytes& bytes, const Contains& contains) {
+/// Asks for cells and closest points. Scenes with kept copies have neither, and such with
+/// constructed solids no closest points.
+template <class Of>
+void ask_columns(const raylane_tracer* tracer, const typename Of::Points& points, bool has_null,
+                 Bytes& bytes) {
+    const std::size_t count = points.count;
+    Arrays<std::uint32_t> ids(count, bytes);
+    Arrays<std::uint8_t> flags(count, bytes);
+    Arrays<double> doubles(count, bytes);
+    raylane_cell_columns cells{};
+    for (std::uint32_t** array : {&cells.shape_id, &cells.material})
+        *array = ids.make(true, [] { return std::uint32_t{77777}; });
+    cells.on_surface = flags.make(true, [] { return std::uint8_t{77}; });
+    const raylane_status of_cells = Of::cells(tracer, &points, &cells);
+    check(of_cells, has_null);
+    raylane_closest_points closest{};
+    for (double** array : {&closest.distance, &closest.point_x, &closest.point_y, &closest.point_z})
+        *array = doubles.make(true, [] { return -7777.0; });
+    closest.shape_id = ids.make(true, [] { return std::uint32_t{77777}; });
+    closest.face = flags.make(true, [] { return std::uint8_t{77}; });
+    const double* const max_distance =
+        doubles.make(true, [&] { return static_cast<double>(bytes.any_float()); });
+    const raylane_status of_closest = Of::closest(tracer, &points, max_distance, &closest);
+    check(of_closest, has_null);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (cells.on_surface != nullptr && (cells.on_surface[i] == 77) == (of_cells == RAYLANE_OK))
+            found("another cell");
+        if (closest.distance != nullptr &&
+            (closest.distance[i] == -7777.0) == (of_closest == RAYLANE_OK))
+            found("another distance");
+    }
+}
+
+template <class Of>
+void ask_points(const raylane_tracer* tracer, Bytes& bytes) {
+    using Real = typename Of::Real;
     const auto count = static_cast<std::size_t>(bytes.below(20));
     Arrays<Real> reals(count, bytes);
     std::uint64_t refused = 0;
-    CPoints points{};
+    typename Of::Points points{};
     points.count = count;
     points.refused = bytes.flag() ? &refused : nullptr;
     bool has_null = tracer == nullptr;
@@ -409,21 +691,63 @@ void ask_points(const raylane_tracer* tracer, Bytes& bytes, const Contains& cont
         has_null = has_null || (*array == nullptr && count != 0);
     }
     raylane_rows* rows = nullptr;
-    check_rows(contains(tracer, &points, &rows), has_null, rows, count);
+    check_rows(Of::contains(tracer, &points, &rows), has_null, rows, count);
+    ask_columns<Of>(tracer, points, has_null, bytes);
     if (refused > count) found("more refused points than points");
 }
 
-template <class Real, class CRays, class Intersect, class Occluded, class Count, class Crossings,
-          class Lengths>
-void ask(const raylane_tracer* tracer, Bytes& bytes, const Intersect& intersect,
-         const Occluded& occluded, const Count& count_crossings, const Crossings& crossings,
-         const Lengths& lengths) {
+/// Makes rays that continue from hits, and asks whether something occludes them. Hits that were
+/// computed belong to their shapes, so no such ray is an error.
+template <class Of>
+void go_on(const raylane_tracer* tracer, const typename Of::Rays& rays, const raylane_hits& hits,
+           bool has_null, Bytes& bytes) {
+    using Real = typename Of::Real;
+    const std::size_t count = rays.count;
+    Arrays<Real> reals(count, bytes);
+    Arrays<std::uint8_t> flags(count, bytes);
+    const Real* directions[3];
+    Real* origins[3];
+    for (const Real*& array : directions) {
+        array = reals.make(false, [&] { return bytes.number<Real>(); });
+        has_null = has_null || array == nullptr;
+    }
+    for (Real*& array : origins) {
+        array = reals.make(false, [] { return Real(-7777); });
+        has_null = has_null || array == nullptr;
+    }
+    std::uint8_t* const inward = flags.make(false, [] { return std::uint8_t{77}; });
+    has_null = has_null || inward == nullptr || (hits.t == nullptr && hits.t_double == nullptr) ||
+               hits.normal_x == nullptr || hits.normal_y == nullptr || hits.normal_z == nullptr ||
+               hits.shape_id == nullptr || hits.face == nullptr;
+    const raylane_status status =
+        Of::onward(&rays, &hits, directions[0], directions[1], directions[2], origins[0],
+                   origins[1], origins[2], inward);
+    check(status, has_null && count != 0);
+    if (status != RAYLANE_OK || tracer == nullptr) return;
+    typename Of::Rays next{};
+    next.count = count;
+    next.origin_x = origins[0];
+    next.origin_y = origins[1];
+    next.origin_z = origins[2];
+    next.direction_x = directions[0];
+    next.direction_y = directions[1];
+    next.direction_z = directions[2];
+    next.origin_shape = hits.shape_id;
+    next.origin_face = hits.face;
+    next.origin_inward = inward;
+    std::vector<std::uint8_t> blocked(count + 1);
+    check(Of::occluded(tracer, &next, blocked.data()));
+}
+
+template <class Of>
+void ask(const raylane_tracer* tracer, Bytes& bytes) {
+    using Real = typename Of::Real;
     const auto count = static_cast<std::size_t>(bytes.below(40));
     Arrays<Real> reals(count, bytes);
     Arrays<std::uint32_t> ids(count, bytes);
     Arrays<std::uint8_t> flags(count, bytes);
     const auto number = [&] { return static_cast<Real>(bytes.any_float()); };
-    CRays rays{};
+    typename Of::Rays rays{};
     rays.count = count;
     bool has_null = tracer == nullptr;
     for (const Real** array : {&rays.origin_x, &rays.origin_y, &rays.origin_z, &rays.direction_x,
@@ -442,21 +766,22 @@ void ask(const raylane_tracer* tracer, Bytes& bytes, const Intersect& intersect,
     raylane_hits hits{};
     for (float** array : {&hits.t, &hits.normal_x, &hits.normal_y, &hits.normal_z})
         *array = floats.make(true, [] { return untouched; });
-    hits.shape = ids.make(true, [] { return std::uint32_t{77777}; });
+    hits.shape_id = ids.make(true, [] { return std::uint32_t{77777}; });
     hits.entering = flags.make(true, [] { return std::uint8_t{77}; });
     hits.face = flags.make(true, [] { return std::uint8_t{77}; });
     for (double** array :
          {&hits.t_double, &hits.normal_double_x, &hits.normal_double_y, &hits.normal_double_z})
         *array = doubles.make(true, [] { return -7777.0; });
-    const raylane_status status = intersect(tracer, &rays, &hits);
+    const raylane_status status = Of::intersect(tracer, &rays, &hits);
     check(status, has_null);
     std::uint8_t* const blocked = flags.make(false, [] { return std::uint8_t{77}; });
-    const raylane_status of_blocked = occluded(tracer, &rays, blocked);
+    const raylane_status of_blocked = Of::occluded(tracer, &rays, blocked);
     check(of_blocked, has_null || (blocked == nullptr && count != 0));
-    ask_rows(tracer, rays, has_null, bytes, crossings, lengths);
+    ask_rows<Of>(tracer, rays, has_null, bytes);
+    if (status == RAYLANE_OK) go_on<Of>(tracer, rays, hits, false, bytes);
     Arrays<std::uint64_t> numbers(count, bytes);
     std::uint64_t* const counts = numbers.make(false, [] { return std::uint64_t{777777}; });
-    const raylane_status of_counts = count_crossings(tracer, &rays, counts);
+    const raylane_status of_counts = Of::count_crossings(tracer, &rays, counts);
     check(of_counts, has_null || (counts == nullptr && count != 0));
     for (std::size_t i = 0; i < count; ++i) {
         if (counts != nullptr && (counts[i] == 777777) == (of_counts == RAYLANE_OK))
@@ -477,7 +802,7 @@ void make_scene(Handles& handles, Bytes& bytes) {
     raylane_scene* made = nullptr;
     const bool leaves_out = bytes.below(32) == 31;
     raylane_scene** const to = leaves_out ? nullptr : &made;
-    switch (bytes.below(4)) {
+    switch (bytes.below(5)) {
     case 0:
     case 1: {
         raylane_builder* const builder = slot_of(handles.builders, bytes);
@@ -488,6 +813,21 @@ void make_scene(Handles& handles, Bytes& bytes) {
         constexpr const char* paths[] = {"", ".", "nothing.json", "/nowhere/of.nff"};
         const int which = bytes.below(5);
         check(raylane_load(which == 4 ? nullptr : paths[which], to), leaves_out || which == 4);
+        break;
+    }
+    case 3: {
+        constexpr raylane_atom_option options[] = {{"style", "sticks"},
+                                                   {"representations", "element O: spheres"},
+                                                   {"style", "none"},
+                                                   {"cell", "on"},
+                                                   {"", ""},
+                                                   {nullptr, "on"}};
+        const std::string atoms = "2\n\nC 0 0 0\nO 1.2 0 0\n";
+        const int first = bytes.below(6), count = bytes.below(7 - first);
+        const bool has_null = leaves_out || (count != 0 && first + count == 6);
+        check(raylane_parse_atoms(atoms.data(), atoms.size(), "a.xyz", options + first,
+                                  static_cast<std::size_t>(count), to),
+              has_null);
         break;
     }
     default: {
@@ -502,10 +842,25 @@ void make_scene(Handles& handles, Bytes& bytes) {
               leaves_out || has_none);
     }
     }
-    raylane_scene*& slot = slot_of(handles.scenes, bytes);
-    if (made == nullptr) return;
-    raylane_scene_release(slot);
-    slot = made;
+    const std::string remarks = raylane_remarks();
+    if (!remarks.empty() && (remarks.back() == '\n' || remarks.front() == '\n'))
+        found("an empty remark");
+    keep(made, handles.scenes, raylane_scene_release, bytes);
+}
+
+/// Asks for the rays of a scene's camera, or of any other one.
+void ask_camera(const raylane_scene* scene, Bytes& bytes) {
+    raylane_camera camera = raylane_scene_camera(scene);
+    if (bytes.flag()) camera.from = vector_of(bytes);
+    if (bytes.flag()) camera.field_of_view = bytes.any_float();
+    const int width = bytes.below(6) - 1, height = bytes.below(6) - 1;
+    std::vector<double> origins(3 * 5 * 5), directions(3 * 5 * 5);
+    const bool leaves_out = bytes.below(16) == 15;
+    const raylane_status status = raylane_camera_rays(&camera, width, height, origins.data(),
+                                                      leaves_out ? nullptr : directions.data());
+    check(status, leaves_out);
+    check(raylane_camera_on_all(scene, vector_of(bytes), bytes.any_float(), &camera),
+          scene == nullptr);
 }
 
 void look_at(raylane_scene* scene, Bytes& bytes) {
@@ -520,6 +875,21 @@ void look_at(raylane_scene* scene, Bytes& bytes) {
     check(raylane_scene_material_of(scene, id, &index), scene == nullptr);
     check(raylane_scene_solid_of(scene, id, &index), scene == nullptr);
     check(raylane_scene_material(scene, id, nullptr), true);
+    char name[8];
+    std::size_t length = 0, count = 0;
+    check(raylane_scene_material_name(scene, id, name, static_cast<std::size_t>(bytes.below(9)),
+                                      &length),
+          scene == nullptr);
+    raylane_light lights[4];
+    check(raylane_scene_lights(scene, lights, static_cast<std::size_t>(bytes.below(5)), &count),
+          scene == nullptr);
+    int type = -1;
+    double numbers[RAYLANE_MAX_NUMBERS];
+    check(raylane_scene_shape(scene, id, &type, numbers), scene == nullptr);
+    raylane_double_sphere spheres[4];
+    check(raylane_scene_spheres(scene, nullptr, nullptr, spheres,
+                                static_cast<std::size_t>(bytes.below(5)), &count),
+          scene == nullptr);
 }
 
 void write(Bytes& bytes) {
@@ -538,7 +908,7 @@ void write(Bytes& bytes) {
 }
 
 void call(Handles& handles, Bytes& bytes) {
-    switch (bytes.below(20)) {
+    switch (bytes.below(24)) {
     case 16:
     case 17:
     case 18:
@@ -578,19 +948,19 @@ void call(Handles& handles, Bytes& bytes) {
                      scene == nullptr);
     }
     case 11:
-        return ask<float, raylane_rays>(slot_of(handles.tracers, bytes), bytes, raylane_intersect,
-                                        raylane_occluded, raylane_count_crossings,
-                                        raylane_crossings, raylane_path_lengths);
+        return ask<OfFloats>(slot_of(handles.tracers, bytes), bytes);
     case 12:
-        return ask<double, raylane_double_rays>(
-            slot_of(handles.tracers, bytes), bytes, raylane_intersect_doubles,
-            raylane_occluded_doubles, raylane_count_crossings_doubles, raylane_crossings_doubles,
-            raylane_path_lengths_doubles);
+        return ask<OfDoubles>(slot_of(handles.tracers, bytes), bytes);
     case 19:
-        return bytes.flag() ? ask_points<float, raylane_points>(slot_of(handles.tracers, bytes),
-                                                                bytes, raylane_contains)
-                            : ask_points<double, raylane_double_points>(
-                                  slot_of(handles.tracers, bytes), bytes, raylane_contains_doubles);
+        return bytes.flag() ? ask_points<OfFloats>(slot_of(handles.tracers, bytes), bytes)
+                            : ask_points<OfDoubles>(slot_of(handles.tracers, bytes), bytes);
+    case 20:
+        return change_transform(handles, bytes);
+    case 21:
+    case 22:
+        return change_group(handles, bytes);
+    case 23:
+        return ask_camera(slot_of(handles.scenes, bytes), bytes);
     case 13:
         return render(slot_of(handles.scenes, bytes), bytes);
     case 14:

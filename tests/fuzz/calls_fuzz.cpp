@@ -193,13 +193,14 @@ void ask_spans(Bytes& bytes) {
         hold(normals[i] == Vec3d(rows.normal_double_x[row], rows.normal_double_y[row],
                                  rows.normal_double_z[row]),
              "the first crossing has another normal", i);
-        hold(rows.shape[row] == hits.shape[i] && rows.t[row] == t_double[i] &&
+        hold(rows.shape_id[row] == hits.shape[i] && rows.t[row] == t_double[i] &&
                  rows.face[row] == face[i] && rows.entering[row] == hits.entering[i] &&
                  rows.normal_x[row] == hits.nx[i] && rows.normal_y[row] == hits.ny[i] &&
                  rows.normal_z[row] == hits.nz[i],
              "the first crossing is not the hit", i);
         const std::uint64_t once = first.first[i];
-        hold(first.shape[once] == hits.shape[i] && first.t[once] == t_double[i], "most, first", i);
+        hold(first.shape_id[once] == hits.shape[i] && first.t[once] == t_double[i], "most, first",
+             i);
     }
     for (std::size_t i = 0; i < count; i += 1 + count / 16) { // some of them alone
         Hits alone(1);
@@ -221,9 +222,9 @@ double length_inside(const CrossingRows& rows, std::size_t row, double t_max) {
     std::vector<std::pair<ShapeId, double>> open;
     for (std::uint64_t k = rows.first[row]; k < rows.first[row + 1]; ++k) {
         const auto of_shape = std::find_if(
-            open.begin(), open.end(), [&](const auto& at) { return at.first == rows.shape[k]; });
+            open.begin(), open.end(), [&](const auto& at) { return at.first == rows.shape_id[k]; });
         if (rows.entering[k] != 0) {
-            open.emplace_back(rows.shape[k], rows.t[k]);
+            open.emplace_back(rows.shape_id[k], rows.t[k]);
         } else if (of_shape != open.end()) {
             intervals.emplace_back(of_shape->second, rows.t[k]);
             open.erase(of_shape);
@@ -281,13 +282,13 @@ void ask_insides(Bytes& bytes) {
                 },
                 shapes[id]);
             if (side == core::Side::outside || counts[id] == 0) continue;
-            hold(at < solids.first[i + 1] && solids.shape[at] == id &&
+            hold(at < solids.first[i + 1] && solids.shape_id[at] == id &&
                      solids.on_surface[at] == (side == core::Side::surface ? 1 : 0),
                  "not the solids around a point", i);
             ++at;
         }
         hold(at == solids.first[i + 1], "too many solids around a point", i);
-        hold(cells[i] == (at == solids.first[i] ? no_shape : solids.shape[at - 1]), "cell", i);
+        hold(cells[i] == (at == solids.first[i] ? no_shape : solids.shape_id[at - 1]), "cell", i);
         double length = 0.0;
         if (lengths.first[i] != lengths.first[i + 1]) length = lengths.length[lengths.first[i]];
         const double t = length_inside(rows, i, 0.0), unit = core::length(along);
