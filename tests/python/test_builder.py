@@ -7,7 +7,7 @@ import operator
 import numpy as np
 import pytest
 import raylane
-from raylane import AutoCamera, Group, InvalidValue, Material, SceneBuilder, Sellmeier, Solid, Transform
+from raylane import NO_SHAPE, AutoCamera, Group, InvalidValue, Material, SceneBuilder, Sellmeier, Solid, Tracer, Transform
 
 BASE = {
     "image": {"width": 24, "height": 18},
@@ -134,6 +134,26 @@ def test_groups_and_instances():
     cut = pair.solid().transformed(Transform().translated((-1, 1, 0))) & Solid.half_space((0, 1, 0), (0, 1, 0))
     builder.add_solid(cut, material=0)
     check_same(builder, keys)
+
+
+@pytest.mark.parametrize("keep_from", [1, 2**22])
+def test_copies_are_kept_from_a_number_of_shapes_on(keep_from):
+    builder = SceneBuilder(keep_from=keep_from)
+    pair = Group()
+    pair.add_spheres([(-1, 0, 0), (1, 0, 0)], 0.5)
+    assert builder.add_copies(pair, [(0, 0, 0), (0, 3, 0)]) == range(0, 4)
+    builder.keep_from = 2**22  # of later calls
+    assert builder.add_copies(pair, (0, -3, 0)) == range(4, 6)
+    tracer = Tracer(builder.build())
+    assert tracer.intersect([[1, 3, 5], [-1, -3, 5], [9, 9, 9]], [0, 0, -1]).shape_id.tolist() == [3, 4, NO_SHAPE]
+    if keep_from == 1:
+        with pytest.raises(InvalidValue, match="scene: must not keep copies of groups for closest points"):
+            tracer.closest([0, 0, 0])
+    else:
+        assert tracer.closest([0, 0, 0]).shape_id == 0
+    for wrong in (-1, 2**64, 1.5):
+        with pytest.raises(InvalidValue, match="keep_from"):
+            SceneBuilder(keep_from=wrong).add_copies(pair, (0, 0, 0))
 
 
 def test_generators():

@@ -41,6 +41,20 @@ ORDERS = {
 }
 
 
+def test_crossings_tell_how_comparisons_were_decided():
+    builder = raylane.SceneBuilder(merge_duplicates=False)
+    builder.add_spheres([[0, 0, 0], [0, 0, 0], [0, 0, 3]], 1)
+    tracer = Tracer(builder.build())
+    n = 40_000  # more than a part
+    with pytest.warns(RuntimeWarning, match="1 ray is refused"):
+        rows = tracer.crossings([[0, 0, 9]] * n, np.vstack([np.tile([0.1, 0, -1], (n - 1, 1)), [[0, 0, 0]]]))
+    counts = rows.statistics
+    assert counts.refused == 1
+    assert counts.by_bounds >= n - 1
+    assert counts.by_digits + counts.exactly >= n - 1  # of the two equal spheres
+    assert tracer.crossings([0, 0, 9], [0, 9, 0]).statistics == raylane.CrossingStatistics(0, 0, 0, 0, 0)
+
+
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("order", ORDERS)
 @pytest.mark.parametrize("threads", [1, 3])

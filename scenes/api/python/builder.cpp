@@ -341,8 +341,8 @@ py::tuple add_group(Shared<To>& shared, SharedGroup& group, const py::object& ma
 }
 
 py::tuple add_copies(SharedBuilder& builder, SharedGroup& group, const py::object& translate,
-                     const py::object& rotate, const py::object& scale,
-                     const py::object& material) {
+                     const py::object& rotate, const py::object& scale, const py::object& material,
+                     const py::object& keep_from) {
     const std::size_t count =
         count_of({{translate, 1, "translate"}, {rotate, 1, "rotate"}, {scale, 0, "scale"}});
     const Rows<double> by(translate, {3}, "translate", count), angles(rotate, {3}, "rotate", count);
@@ -357,7 +357,11 @@ py::tuple add_copies(SharedBuilder& builder, SharedGroup& group, const py::objec
         placements[i] = {{x[i], y[i], z[i]}, {about_x[i], about_y[i], about_z[i]}, factors[i]};
     const MaterialIndex of = material_or_none(material);
     const Group members = group.change([](const Group& all) { return all; });
-    return builder.numbers([&](SceneBuilder& to) { to.add(members, placements, of); });
+    const std::size_t keep = count_from(keep_from, "keep_from");
+    return builder.numbers([&](SceneBuilder& to) {
+        to.keep_from = keep;
+        to.add(members, placements, of);
+    });
 }
 
 py::tuple add_sphereflake(SharedBuilder& builder, const py::object& center,

@@ -426,17 +426,22 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
     const std::size_t most = count_from(at_most, "most");
     const bool normals = bool_from(with_normals, "normals");
     const bool normals_double = bool_from(with_normals_double, "normals_double");
+    constexpr std::uint64_t CrossingStatistics::*counted[] = {
+        &CrossingStatistics::by_bounds, &CrossingStatistics::by_digits,
+        &CrossingStatistics::exactly, &CrossingStatistics::beyond_double,
+        &CrossingStatistics::refused};
     CrossingRows all;
-    CrossingStatistics statistics;
-    std::uint64_t refused = 0;
+    CrossingStatistics counts;
     all.first = {0};
     with_rays(origins, directions, rest, [&](const auto& rays) {
         rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
             CrossingRows rows;
+            CrossingStatistics statistics;
             asked.crossings(part, rows,
                             {.most = most, .normals = normals, .normals_double = normals_double},
                             &statistics);
-            refused += statistics.refused;
+            for (const auto count : counted)
+                counts.*count += statistics.*count;
             append_rows(all.first, rows.first);
             for_each_shared_column([](auto& to, auto& more) { append(to, more); }, all, rows);
             append(all.tied, rows.tied);
@@ -451,7 +456,9 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
     result["face"] = array_from(std::move(all.face));
     result["tied"] = bools_from(std::move(all.tied));
     result["touching"] = bools_from(std::move(all.touching));
-    result["refused"] = refused;
+    result["refused"] = counts.refused;
+    result["statistics"] = py::make_tuple(counts.by_bounds, counts.by_digits, counts.exactly,
+                                          counts.beyond_double, counts.refused);
     if (normals) result["normal"] = vectors_from(all.normal_x, all.normal_y, all.normal_z);
     if (normals_double)
         result["normal_double"] =

@@ -18,7 +18,19 @@ from ._raylane import version as __version__
 from ._scene import Scene, SceneBuilder, load, parse
 from ._shapes import Shapes
 from ._solids import Solid, Transform
-from ._tracer import NO_SHAPE, Cells, Closest, Crossings, Hits, Leaving, Lengths, SolidLengths, Solids, Tracer
+from ._tracer import (
+    NO_SHAPE,
+    Cells,
+    Closest,
+    Crossings,
+    CrossingStatistics,
+    Hits,
+    Leaving,
+    Lengths,
+    SolidLengths,
+    Solids,
+    Tracer,
+)
 from ._values import AutoCamera, Camera, Fog, Light, Material, Outline, Pattern, Sellmeier, Settings
 
 __all__ = [
@@ -29,6 +41,7 @@ __all__ = [
     "Cancelled",
     "Cells",
     "Closest",
+    "CrossingStatistics",
     "Crossings",
     "Fog",
     "Group",

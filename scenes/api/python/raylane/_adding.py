@@ -107,7 +107,9 @@ class Adding(Fields):
         return range(*self._to.add_quadrics(centers, coefficients, lower, upper, material))
 
     def add_aligned_boxes(self, lower: ArrayLike, upper: ArrayLike, *, material: Optional[ArrayLike] = None) -> range:
-        """Adds boxes with faces across the axes. ``lower`` and ``upper``: opposite corners, (n, 3), lower < upper."""
+        """Adds boxes with faces across the axes. ``lower`` and ``upper``: opposite corners, (n, 3), lower < upper. The
+        edges are upper - lower, rounded to float64.
+        """
         corners, edges = aligned(lower, upper)
         return self.add_boxes(corners, edges, material=material)
 

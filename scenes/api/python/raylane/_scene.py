@@ -280,8 +280,12 @@ class SceneBuilder(Adding):
     the ids of the others. This does not apply to triangles of polygons and to parts of solids. False: each of them
     counts, for example in tallies of crossings. Thousands of equal shapes then slow down rays that meet them."""
 
-    def __init__(self, merge_duplicates: bool = True) -> None:
+    keep_from: int
+    """Number of shapes in one call of :meth:`add_copies` from which copies are kept. Fewer are faster as shapes."""
+
+    def __init__(self, merge_duplicates: bool = True, keep_from: int = 2**22) -> None:
         self.merge_duplicates = merge_duplicates
+        self.keep_from = keep_from
         self._renew()
 
     def _renew(self) -> None:
@@ -349,12 +353,14 @@ class SceneBuilder(Adding):
         ``translate`` and ``rotate`` (degrees): (n, 3) or (3,). ``scale``: (n,) or a number, > 0. ``material``: for
         members without one. The ids are those of the copies' shapes, one copy after the other.
 
-        From 4194304 shapes on, spheres and cylinders without transmission take less than 100 bytes a copy, if the scene
+        From :attr:`keep_from` shapes on, spheres and cylinders without transmission take less than 100 bytes a copy, if the scene
         has no constructed solids. Shapes that rays have hit take memory from then on. Such a scene has the answers and
         images of one with shapes; equal shapes of different copies count each. ``Tracer.contains``, ``Tracer.cells``,
         ``Tracer.closest``, ``Scene.with_positions`` and files that end in .rl refuse it.
         """
-        return range(*self._builder.add_copies(inner_group(group), translate, rotate, scale, material))
+        return range(
+            *self._builder.add_copies(inner_group(group), translate, rotate, scale, material, self.keep_from)
+        )
 
     def add_lattice(
         self,

@@ -98,7 +98,10 @@ class Solid:
 
     @staticmethod
     def aligned_box(lower: ArrayLike, upper: ArrayLike, material: Optional[int] = None) -> Solid:
-        """Returns the box with faces across the axes and these opposite corners, lower < upper."""
+        """Returns the box with faces across the axes and these opposite corners, lower < upper.
+
+        The edges are upper - lower, rounded to float64.
+        """
         return Solid.box(*aligned(lower, upper), material)
 
     @staticmethod

@@ -216,6 +216,25 @@ class _Rows:
         return f"<raylane.{type(self).__name__}: {int(self.first[-1])} of {len(self)}>"
 
 
+@dataclass(frozen=True)
+class CrossingStatistics:
+    """Counts of a query for all crossings. The first three are of comparisons of crossings.
+
+    With ``most=1`` and the precision ``"exact"``, only ``refused`` is counted.
+    """
+
+    by_bounds: int
+    """Decided by error bounds in double."""
+    by_digits: int
+    """Decided with twice the digits of double."""
+    exactly: int
+    """Decided in integers of any size."""
+    beyond_double: int
+    """Pairs of ray and shape that needed more than double."""
+    refused: int
+    """Refused rays."""
+
+
 @renamed("shape", "shape_id")
 @dataclass(repr=False, eq=False)
 class Crossings(_Rows):
@@ -238,6 +257,8 @@ class Crossings(_Rows):
     """(m, 3): normals as in :class:`Hits`, or None if not wanted."""
     normal_double: Optional[Doubles] = None
     """(m, 3): normals in float64, as in :class:`Hits`, or None if not wanted."""
+    statistics: Optional[CrossingStatistics] = None
+    """How comparisons of crossings were decided."""
 
 
 @renamed("shape", "shape_id")
@@ -447,7 +468,9 @@ class Tracer:
         found.
         """
         rest = self._rest(t_min, t_max, leaving)
-        return _rows(Crossings, self._tracer.crossings(origins, directions, rest, most, normals, normals_double))
+        columns = self._tracer.crossings(origins, directions, rest, most, normals, normals_double)
+        columns["statistics"] = CrossingStatistics(*columns["statistics"])
+        return _rows(Crossings, columns)
 
     def count_crossings(
         self,
