@@ -1,6 +1,5 @@
 #include "simd/stream/row_worker.hpp"
 
-#include "core/optics/media.hpp"
 #include "core/shapes/solve.hpp"
 
 #include <algorithm>
@@ -42,7 +41,7 @@ void push_back(const core::Vec3<Real>& vector, std::array<std::vector<Real>, 3>&
 } // namespace
 
 RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes)
-    : scene_(scene), tracing_{tracing.kernels, core::Precision::exact}, points_(scene.scene()),
+    : scene_(scene), tracing_{tracing.kernels, core::Precision::exact},
       solid_surfaces_(scene.scene()), lengths_(scene.scene()),
       searcher_(scene.scene(), core::Search::hierarchy),
       intake_(scene, tracing_, shapes, at_a_time), search_(scene, tracing_) {
@@ -505,58 +504,11 @@ void RowWorker::find_lengths(LoneRay ray, std::size_t lane, core::Bodies bodies)
                  std::ldexp(ray.t_max, -ray.exponent), bodies, lengths_found_);
 }
 
-/// Calls visit(i) for each point, once the solids that contain it are in containing_. Returns the
-/// number of refused points.
-template <class Real, class Visit>
-std::size_t RowWorker::for_each_point(const PointStream<Real>& points, const Visit& visit) {
-    std::size_t refused = 0;
-    for (std::size_t i = 0; i < points.count; ++i) {
-        const core::Vec3<Real> point(points.at[0][i], points.at[1][i], points.at[2][i]);
-        if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
-            ++refused;
-        containing_.clear();
-        points_.add_containing(core::convert<double>(point), containing_);
-        visit(i);
-    }
-    return refused;
-}
-
-template <class Real>
-std::size_t RowWorker::containing(const PointStream<Real>& points, SolidRows& rows) {
-    return for_each_point(points, [&](std::size_t) {
-        for (const core::Containing& solid : containing_) {
-            rows.shape.push_back(solid.shape);
-            rows.inside.push_back(solid.inside ? 1 : 0);
-            rows.on_surface.push_back(solid.on_surface ? 1 : 0);
-        }
-        rows.first.push_back(rows.shape.size());
-    });
-}
-
-template <class Real>
-std::size_t RowWorker::cells(const PointStream<Real>& points, const CellStream& cells) {
-    const core::Scene& scene = scene_.scene();
-    return for_each_point(points, [&](std::size_t i) {
-        while (!containing_.empty() && !containing_.back().inside)
-            containing_.pop_back();
-        const bool any = !containing_.empty();
-        const core::Containing cell =
-            any ? containing_.back() : core::Containing{core::no_shape, false, false};
-        if (cells.shape != nullptr) cells.shape[i] = cell.shape;
-        if (cells.material != nullptr)
-            cells.material[i] = any ? scene.medium_index_of(cell.shape) : core::no_medium;
-        if (cells.on_surface != nullptr) cells.on_surface[i] = cell.on_surface ? 1 : 0;
-    });
-}
-
 #define RAYLANE_INSTANTIATE(Real)                                                                  \
     template std::size_t RowWorker::crossings(const RayStream<Real>&, const CrossingRequest&,      \
                                               CrossingRows&, CrossingCounters&);                   \
     template std::size_t RowWorker::count_crossings(const RayStream<Real>&, std::uint64_t*);       \
-    template std::size_t RowWorker::path_lengths(const RayStream<Real>&, core::Bodies,             \
-                                                 LengthRows&);                                     \
-    template std::size_t RowWorker::containing(const PointStream<Real>&, SolidRows&);              \
-    template std::size_t RowWorker::cells(const PointStream<Real>&, const CellStream&);
+    template std::size_t RowWorker::path_lengths(const RayStream<Real>&, core::Bodies, LengthRows&);
 RAYLANE_INSTANTIATE(float)
 RAYLANE_INSTANTIATE(double)
 #undef RAYLANE_INSTANTIATE

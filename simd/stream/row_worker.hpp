@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/reference/containing.hpp"
 #include "core/reference/path_lengths.hpp"
 #include "core/reference/search.hpp"
 #include "core/reference/solid_surfaces.hpp"
@@ -24,13 +23,13 @@ struct CrossingCounters {
     }
 };
 
-/// Answers rays and points with rows of any length, always exactly. For one thread.
+/// Answers rays with rows of any length, always exactly. For one thread.
 class RowWorker {
   public:
     RowWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes);
 
     /// Each of these appends to the rows. Returns the number of refused rays, as
-    /// StreamIntake::refused, or of points with an infinite or NaN coordinate.
+    /// StreamIntake::refused.
     template <class Real>
     std::size_t crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
                           CrossingRows& rows, CrossingCounters& counters);
@@ -39,11 +38,6 @@ class RowWorker {
     /// Stores the number of crossings of each ray.
     template <class Real>
     std::size_t count_crossings(const RayStream<Real>& rays, std::uint64_t* counts);
-    template <class Real>
-    std::size_t containing(const PointStream<Real>& points, SolidRows& rows);
-    /// Stores the cell of each point.
-    template <class Real>
-    std::size_t cells(const PointStream<Real>& points, const CellStream& cells);
 
   private:
     /// A crossing of one ray, with t in extended precision.
@@ -55,8 +49,6 @@ class RowWorker {
 
     template <class Real, class Visit>
     std::size_t for_each_ray(const RayStream<Real>& rays, bool with_normals, const Visit& visit);
-    template <class Real, class Visit>
-    std::size_t for_each_point(const PointStream<Real>& points, const Visit& visit);
     template <class Real, class Visit>
     std::size_t for_each_row(const RayStream<Real>& rays, bool with_normals, const Visit& visit);
     bool list_pairs(std::size_t begin, std::size_t end);
@@ -91,7 +83,6 @@ class RowWorker {
 
     const SceneData& scene_;
     Tracing tracing_;
-    core::PointSearcher points_;
     core::SolidSurfaces solid_surfaces_;
     core::PathLengths lengths_;
     core::Searcher<double> searcher_;
@@ -118,7 +109,6 @@ class RowWorker {
     std::vector<core::Hit<double>> hits_;
     std::vector<core::SolidCrossing> solid_crossings_;
     std::vector<core::BodyLength> lengths_found_;
-    std::vector<core::Containing> containing_;
     CrossingCounters counters_;
 };
 

@@ -1,7 +1,7 @@
 #include "simd/stream/stream_tracer.hpp"
 
 #include "core/reference/require_shapes.hpp"
-#include "simd/stream/closest_worker.hpp"
+#include "simd/stream/point_worker.hpp"
 #include "simd/stream/row_worker.hpp"
 #include "simd/stream/worker.hpp"
 #include "simd/threads/default_rounding.hpp"
@@ -149,8 +149,8 @@ template <class Real>
 std::size_t StreamTracer::containing(const PointStream<Real>& points, SolidRows& rows) const {
     core::require_shapes(data_->scene(), "solids around points");
     return answer_in_rows(
-        row_workers_, points.count, rows,
-        [&](RowWorker& worker, std::size_t first, std::size_t count, SolidRows& some) {
+        point_workers_, points.count, rows,
+        [&](PointWorker& worker, std::size_t first, std::size_t count, SolidRows& some) {
             return worker.containing(part_of(points, first, count), some);
         });
 }
@@ -158,8 +158,8 @@ std::size_t StreamTracer::containing(const PointStream<Real>& points, SolidRows&
 template <class Real>
 std::size_t StreamTracer::cells(const PointStream<Real>& points, const CellStream& cells) const {
     core::require_shapes(data_->scene(), "cells");
-    return answer(row_workers_, points.count,
-                  [&](RowWorker& worker, std::size_t first, std::size_t count) {
+    return answer(point_workers_, points.count,
+                  [&](PointWorker& worker, std::size_t first, std::size_t count) {
                       return worker.cells(part_of(points, first, count), part_of(cells, first));
                   });
 }
@@ -168,10 +168,10 @@ template <class Real>
 std::size_t StreamTracer::closest(const PointStream<Real>& points, const double* max_distance,
                                   const ClosestStream& closest) const {
     core::require_closest_points(data_->scene());
-    return answer(closest_workers_, points.count,
-                  [&](ClosestWorker& worker, std::size_t first, std::size_t count) {
-                      return worker.find(part_of(points, first, count), from(max_distance, first),
-                                         part_of(closest, first));
+    return answer(point_workers_, points.count,
+                  [&](PointWorker& worker, std::size_t first, std::size_t count) {
+                      return worker.closest(part_of(points, first, count),
+                                            from(max_distance, first), part_of(closest, first));
                   });
 }
 

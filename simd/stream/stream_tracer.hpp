@@ -15,7 +15,7 @@
 
 namespace raylane::simd {
 
-class ClosestWorker;
+class PointWorker;
 class RowWorker;
 class SceneData;
 class StreamWorker;
@@ -100,7 +100,7 @@ class StreamTracer {
 
     mutable Pool<StreamWorker> workers_;
     mutable Pool<RowWorker> row_workers_;
-    mutable Pool<ClosestWorker> closest_workers_;
+    mutable Pool<PointWorker> point_workers_;
 };
 
 } // namespace raylane::simd
