@@ -632,7 +632,7 @@ def packet():
     slack = F(2.0 ** -constant("simd/units/trace_kernels.hpp", r"slack_floor = 0x1p-(\d+)F;"))
     culling = F(1 + 2.0 ** -constant("simd/units/trace_kernels.hpp", r"culling_slack = 1\.0F \+ 0x1p-(\d+)F;"))
     morton = r"even_bits\(code\)\),\s+static_cast<std::uint8_t>\(even_bits\(code >> 1\)\)"
-    source("simd/wavefront/wavefront.cpp", morton)
+    source("simd/wavefront/regions.cpp", morton)
     # 4 x 4 pixels in Morton order, rays along -z. A sphere of radius 5: 3^2 + 4^2 = 5^2 makes two of them tangents.
     across = [(lane & 1) | (lane >> 1 & 2) for lane in range(size)]
     down = [(lane >> 1 & 1) | (lane >> 2 & 2) for lane in range(size)]
