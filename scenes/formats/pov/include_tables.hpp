@@ -63,12 +63,8 @@ inline constexpr NamesNotRead names_not_read[] = {
      "char_RPar char_LSqu char_RSqu"},
     {"colors.inc",
      "CH2RGB CRGB2H CHSL2RGB CRGB2HSL CHSV2RGB CRGB2HSV"},
-    {"consts.inc",
-     ""},
     {"debug.inc",
      "DEBUG_MCR DEBUG Debug_Inc_Stack Set_Debug Debug_Message Debug Warning Error"},
-    {"finish.inc",
-     ""},
     {"functions.inc",
      "f_algbr_cyl1 f_algbr_cyl2 f_algbr_cyl3 f_algbr_cyl4 f_bicorn f_bifolia f_blob f_blob2 "
      "f_boy_surface f_comma f_cross_ellipsoids f_crossed_trough f_cubic_saddle f_cushion "
@@ -86,12 +82,6 @@ inline constexpr NamesNotRead names_not_read[] = {
      "f_checker f_crackle f_cylindrical f_dents f_gradientX f_gradientY f_gradientZ f_granite "
      "f_hexagon f_leopard f_mandel f_marble f_onion f_planar f_radial f_ripples f_spherical "
      "f_spiral1 f_spiral2 f_spotted f_waves f_wood f_wrinkles f_sine_wave f_scallop_wave"},
-    {"glass.inc",
-     ""},
-    {"glass_old.inc",
-     ""},
-    {"golds.inc",
-     ""},
     {"ior.inc",
      "FnPovDispersion Ior Disp"},
     {"logo.inc",
@@ -105,8 +95,6 @@ inline constexpr NamesNotRead names_not_read[] = {
     {"meshmaker.inc",
      "CheckFileName BuildSpline MSM EPS EPSNorm __FU __FV FromU ToU FromV ToV Parametric "
      "Paramcalc Prism Prism1 Lathe Coons TwoVarSurf FindPoint SweepSpline1 SweepSpline2"},
-    {"metals.inc",
-     ""},
     {"rad_def.inc",
      "Rad_Settings"},
     {"rand.inc",
@@ -123,16 +111,12 @@ inline constexpr NamesNotRead names_not_read[] = {
      "Align_Center Text_Space Text_Width Circle_Text Circle_Text_Valigned Supertorus Supercone "
      "Round_Cylinder_Union Round_Cylinder_Merge Round_Cylinder Round_Cone_Union Round_Cone_Merge "
      "Round_Cone HF_Square HF_Sphere HF_Cylinder HF_Torus HFCreate_"},
-    {"shapes2.inc",
-     ""},
     {"shapes3.inc",
      "Segment_of_Object Segment_of_CylinderRing Segment_of_Torus Round_N_Tube_Polygon Pyramid_N "
      "Pyramid_N_AB Column_N Column_N_AB Egg_Shape Egg Facetted_Sphere Facetted_Egg_Shape "
      "Facetted_Egg Ring_Sphere Round_Pyramid_N_in Round_Pyramid_N_out Rounded_Tube "
      "Rounded_Tube_AB Round_Cylinder_Tube Round_Conic_Torus Round_Conic_Prism "
      "Half_Hollowed_Rounded_Cylinder1 Half_Hollowed_Rounded_Cylinder2"},
-    {"shapes_old.inc",
-     ""},
     {"shapesq.inc",
      "Bicorn Crossed_Trough Cubic_Cylinder Cubic_Saddle_1 Devils_Curve Folium Glob_5 Twin_Glob "
      "Helix Helix_1 Hyperbolic_Torus_40_12 Lemniscate Quartic_Loop_1 Monkey_Saddle "
@@ -140,18 +124,6 @@ inline constexpr NamesNotRead names_not_read[] = {
      "Torus_40_12 Witch_Hat Sinsurf"},
     {"skies.inc",
      "O_Cloud1 O_Cloud2"},
-    {"stars.inc",
-     ""},
-    {"stdinc.inc",
-     ""},
-    {"stoneold.inc",
-     ""},
-    {"stones.inc",
-     ""},
-    {"stones1.inc",
-     ""},
-    {"stones2.inc",
-     ""},
     {"strings.inc",
      "CRGBFTStr CRGBStr Parse_String Str VStr2D VStr Vstr2D Vstr Triangle_Str Smooth_Triangle_Str"},
     {"sunpos.inc",
@@ -160,10 +132,6 @@ inline constexpr NamesNotRead names_not_read[] = {
      "Irregular_Bricks_Ptrn Hex_Tiles_Ptrn Tiles_Ptrn Star_Ptrn"},
     {"transforms.inc",
      "Axial_Scale_Trans Center_Trans Align_Trans Spline_Trans vtransform vinv_transform"},
-    {"woodmaps.inc",
-     ""},
-    {"woods.inc",
-     ""},
 };
 
 inline constexpr Table tables[] = {
@@ -267,21 +235,6 @@ inline constexpr Table tables[] = {
     {"golds.inc", "rgb <@>",
      "P_Gold1 1 0.675 0.175; P_Gold2 1 0.725 0.275; P_Gold3 1 0.775 0.375; P_Gold4 1 0.825 0.475; "
      "P_Gold5 1 0.875 0.575"},
-    {"golds.inc", "texture { pigment { rgb <@> } finish { ambient 0.174 diffuse 0.391 brilliance 2 specular 0.2 reflection 0.435 metallic } }",
-     "T_Gold_1A 1 0.675 0.175; T_Gold_2A 1 0.725 0.275; T_Gold_3A 1 0.775 0.375; "
-     "T_Gold_4A 1 0.825 0.475; T_Gold_5A 1 0.875 0.575"},
-    {"golds.inc", "texture { pigment { rgb <@> } finish { ambient 0.1667 diffuse 0.35 brilliance 3 specular 0.3 roughness 0.01667 reflection 0.4833 metallic } }",
-     "T_Gold_1B 1 0.675 0.175; T_Gold_2B 1 0.725 0.275; T_Gold_3B 1 0.775 0.375; "
-     "T_Gold_4B 1 0.825 0.475; T_Gold_5B 1 0.875 0.575"},
-    {"golds.inc", "texture { pigment { rgb <@> } finish { ambient 0.1573 diffuse 0.306 brilliance 4 specular 0.6 roughness 0.0125 reflection 0.5367 metallic } }",
-     "T_Gold_1C 1 0.675 0.175; T_Gold_2C 1 0.725 0.275; T_Gold_3C 1 0.775 0.375; "
-     "T_Gold_4C 1 0.825 0.475; T_Gold_5C 1 0.875 0.575"},
-    {"golds.inc", "texture { pigment { rgb <@> } finish { ambient 0.1383 diffuse 0.2667 brilliance 5 specular 0.7 roughness 0.01 reflection 0.595 metallic } }",
-     "T_Gold_1D 1 0.675 0.175; T_Gold_2D 1 0.725 0.275; T_Gold_3D 1 0.775 0.375; "
-     "T_Gold_4D 1 0.825 0.475; T_Gold_5D 1 0.875 0.575"},
-    {"golds.inc", "texture { pigment { rgb <@> } finish { ambient 0.1163 diffuse 0.2253 brilliance 6 specular 0.8 roughness 0.008333 reflection 0.6583 metallic } }",
-     "T_Gold_1E 1 0.675 0.175; T_Gold_2E 1 0.725 0.275; T_Gold_3E 1 0.775 0.375; "
-     "T_Gold_4E 1 0.825 0.475; T_Gold_5E 1 0.875 0.575"},
     {"metals.inc", "finish { ambient 0.35 diffuse 0.3 brilliance 2 specular 0.8 reflection 0.1 metallic }",
      "F_MetalA"},
     {"metals.inc", "finish { ambient 0.3 diffuse 0.4 brilliance 3 specular 0.7 roughness 0.01667 reflection 0.25 metallic }",
@@ -300,46 +253,6 @@ inline constexpr Table tables[] = {
      "P_Copper3 0.6 0.3 0.15; P_Copper4 0.7 0.25 0.15; P_Copper5 0.65 0.35 0.15; "
      "P_Silver1 0.94 0.93 0.8; P_Silver2 0.94 0.93 0.85; P_Silver3 0.94 0.93 0.9; "
      "P_Silver4 0.95 0.91 0.91; P_Silver5 0.91 0.95 0.91"},
-    {"metals.inc", "texture { pigment { rgb <@> } finish { ambient 0.35 diffuse 0.3 brilliance 2 specular 0.8 reflection 0.1 metallic } }",
-     "T_Brass_1A 0.3 0.2 0.1; T_Brass_2A 0.5 0.35 0.25; T_Brass_3A 0.58 0.42 0.2; "
-     "T_Brass_4A 0.65 0.5 0.25; T_Brass_5A 0.7 0.55 0.4; T_Chrome_1A 0.2 0.2 0.2; "
-     "T_Chrome_2A 0.39 0.41 0.43; T_Chrome_3A 0.5 0.5 0.5; T_Chrome_4A 0.75 0.75 0.75; "
-     "T_Chrome_5A 0.95 0.95 0.95; T_Copper_1A 0.4 0.2 0.15; T_Copper_2A 0.5 0.25 0.15; "
-     "T_Copper_3A 0.6 0.3 0.15; T_Copper_4A 0.7 0.25 0.15; T_Copper_5A 0.65 0.35 0.15; "
-     "T_Silver_1A 0.94 0.93 0.8; T_Silver_2A 0.94 0.93 0.85; T_Silver_3A 0.94 0.93 0.9; "
-     "T_Silver_4A 0.95 0.91 0.91; T_Silver_5A 0.91 0.95 0.91"},
-    {"metals.inc", "texture { pigment { rgb <@> } finish { ambient 0.3 diffuse 0.4 brilliance 3 specular 0.7 roughness 0.01667 reflection 0.25 metallic } }",
-     "T_Brass_1B 0.3 0.2 0.1; T_Brass_2B 0.5 0.35 0.25; T_Brass_3B 0.58 0.42 0.2; "
-     "T_Brass_4B 0.65 0.5 0.25; T_Brass_5B 0.7 0.55 0.4; T_Chrome_1B 0.2 0.2 0.2; "
-     "T_Chrome_2B 0.39 0.41 0.43; T_Chrome_3B 0.5 0.5 0.5; T_Chrome_4B 0.75 0.75 0.75; "
-     "T_Chrome_5B 0.95 0.95 0.95; T_Copper_1B 0.4 0.2 0.15; T_Copper_2B 0.5 0.25 0.15; "
-     "T_Copper_3B 0.6 0.3 0.15; T_Copper_4B 0.7 0.25 0.15; T_Copper_5B 0.65 0.35 0.15; "
-     "T_Silver_1B 0.94 0.93 0.8; T_Silver_2B 0.94 0.93 0.85; T_Silver_3B 0.94 0.93 0.9; "
-     "T_Silver_4B 0.95 0.91 0.91; T_Silver_5B 0.91 0.95 0.91"},
-    {"metals.inc", "texture { pigment { rgb <@> } finish { ambient 0.25 diffuse 0.5 brilliance 4 specular 0.8 roughness 0.0125 reflection 0.5 metallic } }",
-     "T_Brass_1C 0.3 0.2 0.1; T_Brass_2C 0.5 0.35 0.25; T_Brass_3C 0.58 0.42 0.2; "
-     "T_Brass_4C 0.65 0.5 0.25; T_Brass_5C 0.7 0.55 0.4; T_Chrome_1C 0.2 0.2 0.2; "
-     "T_Chrome_2C 0.39 0.41 0.43; T_Chrome_3C 0.5 0.5 0.5; T_Chrome_4C 0.75 0.75 0.75; "
-     "T_Chrome_5C 0.95 0.95 0.95; T_Copper_1C 0.4 0.2 0.15; T_Copper_2C 0.5 0.25 0.15; "
-     "T_Copper_3C 0.6 0.3 0.15; T_Copper_4C 0.7 0.25 0.15; T_Copper_5C 0.65 0.35 0.15; "
-     "T_Silver_1C 0.94 0.93 0.8; T_Silver_2C 0.94 0.93 0.85; T_Silver_3C 0.94 0.93 0.9; "
-     "T_Silver_4C 0.95 0.91 0.91; T_Silver_5C 0.91 0.95 0.91"},
-    {"metals.inc", "texture { pigment { rgb <@> } finish { ambient 0.15 brilliance 5 specular 0.8 roughness 0.01 reflection 0.65 metallic } }",
-     "T_Brass_1D 0.3 0.2 0.1; T_Brass_2D 0.5 0.35 0.25; T_Brass_3D 0.58 0.42 0.2; "
-     "T_Brass_4D 0.65 0.5 0.25; T_Brass_5D 0.7 0.55 0.4; T_Chrome_1D 0.2 0.2 0.2; "
-     "T_Chrome_2D 0.39 0.41 0.43; T_Chrome_3D 0.5 0.5 0.5; T_Chrome_4D 0.75 0.75 0.75; "
-     "T_Chrome_5D 0.95 0.95 0.95; T_Copper_1D 0.4 0.2 0.15; T_Copper_2D 0.5 0.25 0.15; "
-     "T_Copper_3D 0.6 0.3 0.15; T_Copper_4D 0.7 0.25 0.15; T_Copper_5D 0.65 0.35 0.15; "
-     "T_Silver_1D 0.94 0.93 0.8; T_Silver_2D 0.94 0.93 0.85; T_Silver_3D 0.94 0.93 0.9; "
-     "T_Silver_4D 0.95 0.91 0.91; T_Silver_5D 0.91 0.95 0.91"},
-    {"metals.inc", "texture { pigment { rgb <@> } finish { diffuse 0.7 brilliance 6 specular 0.8 roughness 0.008333 reflection 0.8 metallic } }",
-     "T_Brass_1E 0.3 0.2 0.1; T_Brass_2E 0.5 0.35 0.25; T_Brass_3E 0.58 0.42 0.2; "
-     "T_Brass_4E 0.65 0.5 0.25; T_Brass_5E 0.7 0.55 0.4; T_Chrome_1E 0.2 0.2 0.2; "
-     "T_Chrome_2E 0.39 0.41 0.43; T_Chrome_3E 0.5 0.5 0.5; T_Chrome_4E 0.75 0.75 0.75; "
-     "T_Chrome_5E 0.95 0.95 0.95; T_Copper_1E 0.4 0.2 0.15; T_Copper_2E 0.5 0.25 0.15; "
-     "T_Copper_3E 0.6 0.3 0.15; T_Copper_4E 0.7 0.25 0.15; T_Copper_5E 0.65 0.35 0.15; "
-     "T_Silver_1E 0.94 0.93 0.8; T_Silver_2E 0.94 0.93 0.85; T_Silver_3E 0.94 0.93 0.9; "
-     "T_Silver_4E 0.95 0.91 0.91; T_Silver_5E 0.91 0.95 0.91"},
     {"glass_old.inc", "finish { ambient 0 diffuse 0 specular 1 roughness 0.001 reflection 0.1 }",
      "F_Glass1"},
     {"glass_old.inc", "finish { ambient 0 diffuse 0 phong 0.3 phong_size 60 reflection 0.5 }",
@@ -681,44 +594,6 @@ inline constexpr Table tables[] = {
      "T_Stone42 0.3223 0.2029 0.03759"},
     {"stones2.inc", "texture { pigment { granite color_map { [0 rgb <@>] } } finish { brilliance 2.585 } }",
      "T_Stone43 0.6147 0.4184 0.2769"},
-    {"stoneold.inc", "texture { pigment { marble color_map { [0 rgbft <@>] } } }",
-     "Crack1 0.4089 0.195 0.195 0 0.851; Crack3 0.1714 0.2881 0.1714 0 0.851; "
-     "Crack4 0.2148 0.2148 0.2148 0 0.8"},
-    {"stoneold.inc", "texture { pigment { granite color_map { [0 rgbf <@>] } } }",
-     "Crack2 0.98 0.98 0.98 0.98; Grnt22 0.8223 0.8223 0.8223 0.6"},
-    {"stoneold.inc", "texture { pigment { granite color_map { [0 rgb <@>] } } }",
-     "Grnt0 0.7712 0.6515 0.579; Grnt1 0.9337 0.9253 0.8234; Grnt12 0.9314 0.7529 0.6607; "
-     "Grnt13 0.9785 0.7233 0.6666; Grnt14 0.7469 0.6421 0.5886; Grnt15 0.1175 0.09013 0.0806; "
-     "Grnt16 0.85 0.8134 0.7817; Grnt17 0.0979 0.2101 0.08303; Grnt18 0.956 0.7395 0.6126; "
-     "Grnt19 0.43 0.43 0.43; Grnt2 0.9087 0.7975 0.6677; Grnt20 0.85 0.85 0.85; "
-     "Grnt26 0.9243 0.8252 0.7753; Grnt27 0.4038 0.3286 0.2425; Grnt3 0.8798 0.7385 0.67; "
-     "Grnt4 0.8356 0.6658 0.5359; Grnt5 0.8117 0.6341 0.5381; Grnt6 0.6402 0.4983 0.4055; "
-     "Grnt7 0.4988 0.3715 0.2866; Grnt8 0.8734 0.7366 0.6654; Grnt9 0.7369 0.7342 0.7434; "
-     "Stone1 0.5954 0.4709 0.3904; Stone10 0.5007 0.4381 0.4052; Stone11 0.6384 0.501 0.4366; "
-     "Stone19 0.9353 0.8505 0.8078; Stone2 0.7041 0.5828 0.5065; Stone20 0.5768 0.4729 0.4229; "
-     "Stone22 0.5875 0.5182 0.4887; Stone3 0.7973 0.6403 0.5526; Stone5 0.7911 0.6494 0.5899; "
-     "Stone7 0.5868 0.4643 0.434; Stone9 0.688 0.6539 0.6617"},
-    {"stoneold.inc", "texture { pigment { granite color_map { [0 rgbft <@>] } } }",
-     "Grnt0a 0.7712 0.6515 0.579 0 0.6452; Grnt10 0.8562 0.7017 0.6736 0 0.001194; "
-     "Grnt11 0.7995 0.676 0.61 0 0.000614; Grnt1a 0.9337 0.9253 0.8234 0 0.6767; "
-     "Grnt21 0.212 0.3679 0.2599 0 0.635; Grnt2a 0.9257 0.8154 0.6716 0 0.5958"},
-    {"stoneold.inc", "texture { pigment { marble color_map { [0 rgb <@>] } } }",
-     "Grnt23 0.8798 0.7385 0.67; Grnt24 0.7369 0.7342 0.7434; Grnt25 0.4429 0.4833 0.4082; "
-     "Grnt28 0.6926 0.2816 0.3275; Grnt29 0.7983 0.6026 0.5304; Stone21 0.5795 0.4172 0.4354; "
-     "Stone23 0.7663 0.5877 0.4324; Stone24 0.5049 0.5372 0.4771"},
-    {"stoneold.inc", "texture { pigment { marble color_map { [0 rgb <@>] } } finish { ambient 0.2 } }",
-     "Stone12 0.8413 0.7077 0.6377; Stone13 0.6506 0.6607 0.6753"},
-    {"stoneold.inc", "texture { pigment { granite color_map { [0 rgb <@>] } } finish { ambient 0.2 diffuse 0.9 } }",
-     "Stone14 0.5666 0.4744 0.4141; Stone15 0.7355 0.7475 0.7553; Stone16 0.5127 0.5127 0.5127; "
-     "Stone17 0.7489 0.7663 0.7489"},
-    {"stoneold.inc", "texture { pigment { granite color_map { [0 rgb <@>] } } finish { ambient 0.3 } }",
-     "Stone18 0.4303 0.5719 0.5255"},
-    {"stoneold.inc", "texture { pigment { granite color_map { [0 rgb <@>] } } finish { diffuse 0.5 } }",
-     "Stone4 0.7496 0.6093 0.5267"},
-    {"stoneold.inc", "texture { pigment { granite color_map { [0 rgb <@>] } } finish { phong 1 phong_size 90 } }",
-     "Stone6 0.4269 0.395 0.395"},
-    {"stoneold.inc", "texture { pigment { granite color_map { [0 rgb <@>] } } finish { ambient 0.4 diffuse 0.7 } }",
-     "Stone8 0.8828 0.8468 0.8211"},
     {"skies.inc", "pigment { bozo color_map { [0 rgbf <@>] } }",
      "P_Cloud1 0.93 0.93 0.93 0.7"},
     {"skies.inc", "pigment { wrinkles color_map { [0 rgb <@>] } }",

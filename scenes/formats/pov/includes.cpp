@@ -29,7 +29,7 @@ void declare_table(std::string_view rows, std::string_view value, StandardFile& 
         std::replace(list.begin(), list.end(), ' ', ',');
         std::string text(value);
         if (at != std::string_view::npos) text.replace(at, 1, list);
-        file.declarations.insert_or_assign(name,
+        file.declarations.insert_or_assign(std::string(name),
                                            "#declare " + std::string(name) + " = " + text + ";\n");
     }
 }
@@ -50,8 +50,36 @@ void declare_text(std::string_view text, StandardFile& file) {
             return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_';
         });
         name = name.substr(0, static_cast<std::size_t>(last - name.begin()));
-        file.declarations.insert_or_assign(name, "#" + std::string(statement) + ";\n");
+        file.declarations.insert_or_assign(std::string(name), "#" + std::string(statement) + ";\n");
     }
+}
+
+/// Declares T_Brass_1A to T_Silver_5E, for each pigment P_Brass1 in each finish F_MetalA.
+void declare_metals(StandardFile& file) {
+    const auto value_of = [](const std::string& declaration) {
+        const std::size_t begin = declaration.find(" = ") + 3;
+        return declaration.substr(begin, declaration.rfind(";\n") - begin);
+    };
+    const std::string pigments = "P_", finishes = "F_Metal";
+    for (auto pigment = file.declarations.lower_bound(pigments);
+         pigment != file.declarations.end() && pigment->first.starts_with(pigments); ++pigment)
+        for (auto finish = file.declarations.lower_bound(finishes);
+             finish != file.declarations.end() && finish->first.starts_with(finishes); ++finish) {
+            const auto& [of, color] = *pigment;
+            const std::string name = "T_" + of.substr(2, of.size() - 3) + "_" + of.back() +
+                                     finish->first.substr(finishes.size());
+            file.declarations.insert_or_assign(
+                name, "#declare " + name + " = texture { pigment { " + value_of(color) + " } " +
+                          value_of(finish->second) + " };\n");
+        }
+}
+
+/// Declares T_Stone1 as Stone1, and so on.
+void declare_without_prefix(const StandardFile& stones, StandardFile& file) {
+    for (const auto& [name, declaration] : stones.declarations)
+        if (name.starts_with("T_"))
+            file.declarations.insert_or_assign(
+                name.substr(2), std::string(declaration).erase(sizeof("#declare ") - 1, 2));
 }
 
 std::vector<StandardFile> all_files() {
@@ -65,9 +93,12 @@ std::vector<StandardFile> all_files() {
         file(inclusion.file).includes.push_back(inclusion.includes);
     for (const NamesNotRead& names : names_not_read)
         for (std::string_view left = names.names; !left.empty();)
-            file(names.file).declarations.insert_or_assign(taken(left, " "), "");
+            file(names.file).declarations.insert_or_assign(std::string(taken(left, " ")), "");
     for (const Table& table : tables)
         declare_table(table.rows, table.value, file(table.file));
+    declare_metals(file("metals.inc"));
+    declare_metals(file("golds.inc"));
+    declare_without_prefix(StandardFile(file("stones1.inc")), file("stoneold.inc"));
     declare_text(shapes_old_inc, file("shapes_old.inc"));
     declare_text(shapes_inc, file("shapes.inc"));
     declare_text(shapes2_inc, file("shapes2.inc"));

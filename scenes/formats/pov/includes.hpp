@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -12,7 +13,7 @@ struct StandardFile {
     std::string_view name;
     std::vector<std::string_view> includes; ///< other files that it includes
     /// In POV-Ray's language, by the declared name; empty for unsupported names.
-    std::map<std::string_view, std::string> declarations;
+    std::map<std::string, std::string, std::less<>> declarations;
 };
 
 /// Returns null for other names.
