@@ -1,6 +1,9 @@
+#include "broadcast.hpp"
 #include "values.hpp"
 
-#include <initializer_list>
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -57,21 +60,56 @@ MaterialIndex material_or_none(const py::object& material) {
     return material.is_none() ? no_material : one_material(material);
 }
 
-/// An argument of a function that adds shapes. `axes`: number of axes that a single shape's value
-/// has.
-struct Rowed {
+/// An argument of a function that adds shapes. `row`: the axes of a single shape's value.
+struct Argument {
     const py::object& values;
-    py::ssize_t axes;
+    Axes row;
     const char* name;
 };
+using Arguments = std::vector<Argument>;
+
 /// Returns the number of shapes: the rows of the first argument with more axes than a single
 /// shape's value, or 1 if no argument has more.
-std::size_t count_of(std::initializer_list<Rowed> all) {
-    for (const Rowed& each : all)
-        if (const py::array array = any_array(each.values, each.name); array.ndim() > each.axes)
+std::size_t count_of_shapes(const Arguments& all) {
+    for (const Argument& each : all) {
+        const py::array array = any_array(each.values, each.name);
+        if (array.ndim() > static_cast<py::ssize_t>(each.row.size()))
             return static_cast<std::size_t>(array.shape(0));
+    }
     return 1;
 }
+
+/// Shapes with the numbers of arguments, which a struct holds one after the other.
+template <class Shape, class T>
+class ShapeRows {
+  public:
+    ShapeRows(const Arguments& arguments, std::size_t count) {
+        std::size_t next = 0;
+        for (const Argument& each : arguments) {
+            if (each.row.empty()) {
+                values_.emplace_back(each.values, count, each.name);
+                columns_[next++] = values_.back().column();
+                continue;
+            }
+            rows_.emplace_back(each.values, each.row, each.name, count);
+            const std::size_t end = next + static_cast<std::size_t>(count_of(each.row));
+            for (std::size_t number = 0; next < end; ++next, ++number)
+                columns_[next] = rows_.back().column(number);
+        }
+    }
+    Shape operator()(std::size_t i) const {
+        std::array<T, size> numbers;
+        for (std::size_t number = 0; number < size; ++number)
+            numbers[number] = columns_[number][i];
+        return std::bit_cast<Shape>(numbers);
+    }
+
+  private:
+    static constexpr std::size_t size = sizeof(Shape) / sizeof(T);
+    std::vector<Rows<T>> rows_;
+    std::vector<Values<T>> values_;
+    std::array<Column<T>, size> columns_;
+};
 
 /// Adds the shapes make(0), ..., make(count - 1) and returns their range as a tuple. In an
 /// InvalidValue the field begins with the number of the shape.
@@ -106,191 +144,102 @@ MaterialIndex added(SceneBuilder& builder, const Material& material, const std::
     }
 }
 
-/// Calls `call` with the type float if all arrays are of float32, otherwise with double.
-template <class Call, class... Arrays>
-py::tuple by_type(const Call& call, const Arrays&... arrays) {
-    return (is_float(arrays) && ...) ? call(std::type_identity<float>())
-                                     : call(std::type_identity<double>());
+/// Calls `call` with the type float if all arguments are of float32, otherwise with double.
+template <class Call>
+py::tuple by_type(const Arguments& arguments, const Call& call) {
+    const bool floats = std::all_of(arguments.begin(), arguments.end(),
+                                    [](const Argument& each) { return is_float(each.values); });
+    return floats ? call(std::type_identity<float>()) : call(std::type_identity<double>());
+}
+
+/// Adds shapes with the numbers of arguments.
+template <template <class> class Shape, class To>
+py::tuple add_shapes(Shared<To>& to, const py::object& material, const Arguments& arguments) {
+    return by_type(arguments, [&]<class T>(std::type_identity<T>) {
+        const std::size_t count = count_of_shapes(arguments);
+        return add_all(to, count, material, ShapeRows<Shape<T>, T>(arguments, count));
+    });
 }
 
 template <class To>
-py::tuple add_spheres(Shared<To>& builder, const py::object& centers, const py::object& radii,
+py::tuple add_spheres(Shared<To>& to, const py::object& centers, const py::object& radii,
                       const py::object& material) {
-    return by_type(
-        [&]<class T>(std::type_identity<T>) {
-            const std::size_t count = count_of({{centers, 1, "centers"}, {radii, 0, "radii"}});
-            const Rows<T> center(centers, {3}, "centers", count);
-            const Values<T> radius(radii, count, "radii");
-            const std::array columns = {center.column(0), center.column(1), center.column(2)};
-            return add_all(builder, count, material, [&](std::size_t i) {
-                return SphereOf<T>{{columns[0][i], columns[1][i], columns[2][i]}, radius[i]};
-            });
-        },
-        centers, radii);
+    return add_shapes<SphereOf>(to, material, {{centers, {3}, "centers"}, {radii, {}, "radii"}});
 }
 template <class To>
-py::tuple add_ellipsoids(Shared<To>& builder, const py::object& centers, const py::object& axes,
+py::tuple add_ellipsoids(Shared<To>& to, const py::object& centers, const py::object& axes,
                          const py::object& material) {
-    return by_type(
-        [&]<class T>(std::type_identity<T>) {
-            const std::size_t count = count_of({{centers, 1, "centers"}, {axes, 2, "axes"}});
-            const Rows<T> center(centers, {3}, "centers", count);
-            const Rows<T> axis(axes, {3, 3}, "axes", count);
-            return add_all(builder, count, material, [&](std::size_t i) {
-                return EllipsoidOf<T>{center.vector(i), axis.vector(i, 0), axis.vector(i, 3),
-                                      axis.vector(i, 6)};
-            });
-        },
-        centers, axes);
+    return add_shapes<EllipsoidOf>(to, material,
+                                   {{centers, {3}, "centers"}, {axes, {3, 3}, "axes"}});
 }
 template <class To>
-py::tuple add_planes(Shared<To>& builder, const py::object& points, const py::object& normals,
+py::tuple add_planes(Shared<To>& to, const py::object& points, const py::object& normals,
                      const py::object& material) {
-    return by_type(
-        [&]<class T>(std::type_identity<T>) {
-            const std::size_t count = count_of({{points, 1, "points"}, {normals, 1, "normals"}});
-            const Rows<T> point(points, {3}, "points", count);
-            const Rows<T> normal(normals, {3}, "normals", count);
-            return add_all(builder, count, material, [&](std::size_t i) {
-                return PlaneOf<T>{point.vector(i), normal.vector(i)};
-            });
-        },
-        points, normals);
+    return add_shapes<PlaneOf>(to, material, {{points, {3}, "points"}, {normals, {3}, "normals"}});
 }
 template <class To>
-py::tuple add_discs(Shared<To>& builder, const py::object& centers, const py::object& normals,
+py::tuple add_discs(Shared<To>& to, const py::object& centers, const py::object& normals,
                     const py::object& radii, const py::object& material) {
-    return by_type(
-        [&]<class T>(std::type_identity<T>) {
-            const std::size_t count =
-                count_of({{centers, 1, "centers"}, {normals, 1, "normals"}, {radii, 0, "radii"}});
-            const Rows<T> center(centers, {3}, "centers", count);
-            const Rows<T> normal(normals, {3}, "normals", count);
-            const Values<T> radius(radii, count, "radii");
-            return add_all(builder, count, material, [&](std::size_t i) {
-                return DiscOf<T>{center.vector(i), normal.vector(i), radius[i]};
-            });
-        },
-        centers, normals, radii);
+    return add_shapes<DiscOf>(
+        to, material, {{centers, {3}, "centers"}, {normals, {3}, "normals"}, {radii, {}, "radii"}});
 }
 template <class To>
-py::tuple add_triangles(Shared<To>& builder, const py::object& corners, const py::object& normals,
-                        const py::object& material, bool polygon) {
-    return by_type(
-        [&]<class T>(std::type_identity<T>) {
-            const std::size_t count = count_of({{corners, 2, "corners"}});
-            const Rows<T> corner(corners, {3, 3}, "corners", count);
-            const auto flat = [&](std::size_t i) {
-                return TriangleOf<T>{corner.vector(i, 0), corner.vector(i, 3), corner.vector(i, 6)};
-            };
-            const auto add = [&](const auto& make) {
-                if constexpr (std::is_same_v<To, SceneBuilder>)
-                    if (polygon) {
-                        const MaterialIndex of = material_or_none(material);
-                        return builder.numbers([&](SceneBuilder& to) {
-                            std::vector<decltype(make(0))> all;
-                            for (std::size_t i = 0; i < count; ++i)
-                                all.push_back(make(i));
-                            to.add_polygon(all, of);
-                        });
-                    }
-                return add_all(builder, count, material, make);
-            };
-            if (normals.is_none()) return add(flat);
-            const Rows<T> normal(normals, {3, 3}, "normals", count);
-            return add([&](std::size_t i) {
-                const TriangleOf<T> of = flat(i);
-                return SmoothTriangleOf<T>{of.a,
-                                           of.b,
-                                           of.c,
-                                           normal.vector(i, 0),
-                                           normal.vector(i, 3),
-                                           normal.vector(i, 6)};
-            });
-        },
-        corners, normals);
-}
-template <class To>
-py::tuple add_boxes(Shared<To>& builder, const py::object& corners, const py::object& edges,
+py::tuple add_boxes(Shared<To>& to, const py::object& corners, const py::object& edges,
                     const py::object& material) {
-    return by_type(
-        [&]<class T>(std::type_identity<T>) {
-            const std::size_t count = count_of({{corners, 1, "corners"}, {edges, 2, "edges"}});
-            const Rows<T> corner(corners, {3}, "corners", count);
-            const Rows<T> edge(edges, {3, 3}, "edges", count);
-            return add_all(builder, count, material, [&](std::size_t i) {
-                return BoxOf<T>{corner.vector(i), edge.vector(i, 0), edge.vector(i, 3),
-                                edge.vector(i, 6)};
-            });
-        },
-        corners, edges);
+    return add_shapes<BoxOf>(to, material, {{corners, {3}, "corners"}, {edges, {3, 3}, "edges"}});
 }
 template <class To>
-py::tuple add_cylinders(Shared<To>& builder, const py::object& bases, const py::object& axes,
+py::tuple add_cylinders(Shared<To>& to, const py::object& bases, const py::object& axes,
                         const py::object& radii, const py::object& material,
                         const py::object& with_caps) {
-    const bool caps = bool_from(with_caps, "caps");
-    return by_type(
-        [&]<class T>(std::type_identity<T>) {
-            const std::size_t count =
-                count_of({{bases, 1, "bases"}, {axes, 1, "axes"}, {radii, 0, "radii"}});
-            const Rows<T> base(bases, {3}, "bases", count);
-            const Rows<T> axis(axes, {3}, "axes", count);
-            const Values<T> radius(radii, count, "radii");
-            const auto add = [&]<class Shape>(std::type_identity<Shape>) {
-                return add_all(builder, count, material, [&](std::size_t i) {
-                    return Shape{base.vector(i), axis.vector(i), radius[i]};
-                });
-            };
-            return caps ? add(std::type_identity<CappedCylinderOf<T>>())
-                        : add(std::type_identity<OpenCylinderOf<T>>());
-        },
-        bases, axes, radii);
+    const Arguments all = {{bases, {3}, "bases"}, {axes, {3}, "axes"}, {radii, {}, "radii"}};
+    return bool_from(with_caps, "caps") ? add_shapes<CappedCylinderOf>(to, material, all)
+                                        : add_shapes<OpenCylinderOf>(to, material, all);
 }
 template <class To>
-py::tuple add_cones(Shared<To>& builder, const py::object& bases, const py::object& axes,
+py::tuple add_cones(Shared<To>& to, const py::object& bases, const py::object& axes,
                     const py::object& base_radii, const py::object& top_radii,
                     const py::object& material, const py::object& with_caps) {
-    const bool caps = bool_from(with_caps, "caps");
-    return by_type(
-        [&]<class T>(std::type_identity<T>) {
-            const std::size_t count = count_of({{bases, 1, "bases"},
-                                                {axes, 1, "axes"},
-                                                {base_radii, 0, "base_radii"},
-                                                {top_radii, 0, "top_radii"}});
-            const Rows<T> base(bases, {3}, "bases", count);
-            const Rows<T> axis(axes, {3}, "axes", count);
-            const Values<T> lower(base_radii, count, "base_radii");
-            const Values<T> upper(top_radii, count, "top_radii");
-            const auto add = [&]<class Shape>(std::type_identity<Shape>) {
-                return add_all(builder, count, material, [&](std::size_t i) {
-                    return Shape{base.vector(i), axis.vector(i), lower[i], upper[i]};
-                });
-            };
-            return caps ? add(std::type_identity<CappedConeOf<T>>())
-                        : add(std::type_identity<OpenConeOf<T>>());
-        },
-        bases, axes, base_radii, top_radii);
+    const Arguments all = {{bases, {3}, "bases"},
+                           {axes, {3}, "axes"},
+                           {base_radii, {}, "base_radii"},
+                           {top_radii, {}, "top_radii"}};
+    return bool_from(with_caps, "caps") ? add_shapes<CappedConeOf>(to, material, all)
+                                        : add_shapes<OpenConeOf>(to, material, all);
 }
 template <class To>
-py::tuple add_quadrics(Shared<To>& builder, const py::object& centers,
-                       const py::object& coefficients, const py::object& lower,
-                       const py::object& upper, const py::object& material) {
-    return by_type(
-        [&]<class T>(std::type_identity<T>) {
-            const std::size_t count = count_of({{centers, 1, "centers"},
-                                                {coefficients, 1, "coefficients"},
-                                                {lower, 1, "lower"},
-                                                {upper, 1, "upper"}});
-            const Rows<T> center(centers, {3}, "centers", count);
-            const Rows<T> q(coefficients, {10}, "coefficients", count);
-            const Rows<T> least(lower, {3}, "lower", count);
-            const Rows<T> most(upper, {3}, "upper", count);
-            return add_all(builder, count, material, [&](std::size_t i) {
-                return quadric_of(center.vector(i), q, i, least.vector(i), most.vector(i));
-            });
-        },
-        centers, coefficients, lower, upper);
+py::tuple add_triangles(Shared<To>& to, const py::object& corners, const py::object& normals,
+                        const py::object& material, bool polygon) {
+    Arguments all = {{corners, {3, 3}, "corners"}};
+    const std::size_t count = count_of_shapes(all);
+    const auto add = [&](const auto& make) {
+        if constexpr (std::is_same_v<To, SceneBuilder>)
+            if (polygon) {
+                const MaterialIndex of = material_or_none(material);
+                return to.numbers([&](SceneBuilder& builder) {
+                    std::vector<decltype(make(0))> triangles;
+                    for (std::size_t i = 0; i < count; ++i)
+                        triangles.push_back(make(i));
+                    builder.add_polygon(triangles, of);
+                });
+            }
+        return add_all(to, count, material, make);
+    };
+    if (!normals.is_none()) all.push_back({normals, {3, 3}, "normals"});
+    return by_type(all, [&]<class T>(std::type_identity<T>) {
+        return normals.is_none() ? add(ShapeRows<TriangleOf<T>, T>(all, count))
+                                 : add(ShapeRows<SmoothTriangleOf<T>, T>(all, count));
+    });
+}
+template <class To>
+py::tuple add_quadrics(Shared<To>& to, const py::object& centers, const py::object& coefficients,
+                       const py::object& lower, const py::object& upper,
+                       const py::object& material) {
+    return add_shapes<QuadricOf>(to, material,
+                                 {{centers, {3}, "centers"},
+                                  {coefficients, {10}, "coefficients"},
+                                  {lower, {3}, "lower"},
+                                  {upper, {3}, "upper"}});
 }
 
 /// The values that a builder sets rather than adds: camera, background, fog, settings, wavelengths.
@@ -343,18 +292,13 @@ py::tuple add_group(Shared<To>& shared, SharedGroup& group, const py::object& ma
 py::tuple add_copies(SharedBuilder& builder, SharedGroup& group, const py::object& translate,
                      const py::object& rotate, const py::object& scale, const py::object& material,
                      const py::object& keep_from) {
-    const std::size_t count =
-        count_of({{translate, 1, "translate"}, {rotate, 1, "rotate"}, {scale, 0, "scale"}});
-    const Rows<double> by(translate, {3}, "translate", count), angles(rotate, {3}, "rotate", count);
-    const Values<double> factors(scale, count, "scale");
-    const auto vectors = [](const Rows<double>& rows) {
-        return std::array{rows.column(0), rows.column(1), rows.column(2)};
-    };
-    const auto [x, y, z] = vectors(by);
-    const auto [about_x, about_y, about_z] = vectors(angles);
+    const Arguments arguments = {
+        {translate, {3}, "translate"}, {rotate, {3}, "rotate"}, {scale, {}, "scale"}};
+    const std::size_t count = count_of_shapes(arguments);
+    const ShapeRows<Placement, double> rows(arguments, count);
     std::vector<Placement> placements(count);
     for (std::size_t i = 0; i < count; ++i)
-        placements[i] = {{x[i], y[i], z[i]}, {about_x[i], about_y[i], about_z[i]}, factors[i]};
+        placements[i] = rows(i);
     const MaterialIndex of = material_or_none(material);
     const Group members = group.change([](const Group& all) { return all; });
     const std::size_t keep = count_from(keep_from, "keep_from");

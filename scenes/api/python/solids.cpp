@@ -104,7 +104,21 @@ void bind_solids(py::module_& module) {
     module.def("quadric_solid", [](const py::object& center, const py::object& coefficients,
                                    const py::object& material) {
         const Rows<double> q(coefficients, {10}, "coefficients", 1);
-        return with_material(quadric_of(vector_of(center, "center"), q, 0, {}, {}), material);
+        const auto at = [&](std::size_t k) { return q.column(k)[0]; };
+        return with_material(QuadricOf<double>{vector_of(center, "center"),
+                                               at(0),
+                                               at(1),
+                                               at(2),
+                                               at(3),
+                                               at(4),
+                                               at(5),
+                                               at(6),
+                                               at(7),
+                                               at(8),
+                                               at(9),
+                                               {},
+                                               {}},
+                             material);
     });
     module.def("lens_solid",
                [](const py::object& vertex, const py::object& axis, const py::object& radii,

@@ -30,15 +30,6 @@ Precision precision_from(const py::handle& precision);
 Transfer transfer_from(const py::handle& transfer);
 MaterialIndex one_material(const py::object& index, const char* field = "material");
 
-/// Returns the quadric with row i of coefficients.
-template <class Value>
-QuadricOf<Value> quadric_of(const Vec3Of<Value>& center, const Rows<Value>& coefficients,
-                            std::size_t i, const Vec3Of<Value>& lower, const Vec3Of<Value>& upper) {
-    const auto at = [&](std::size_t k) { return coefficients.column(k)[i]; };
-    return {center, at(0), at(1), at(2), at(3), at(4), at(5),
-            at(6),  at(7), at(8), at(9), lower, upper};
-}
-
 /// Returns the error with the names of the fields in Python.
 InvalidValue named_as_in_python(const InvalidValue& error);
 
