@@ -1,7 +1,6 @@
-#include "scenes/export/auto_camera_in_json.hpp"
-
 #include "core/scene/fields.hpp"
 #include "core/scene/validate.hpp"
+#include "scenes/export/json_parts.hpp"
 
 #include <algorithm>
 #include <bit>

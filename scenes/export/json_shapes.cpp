@@ -1,6 +1,4 @@
-#include "scenes/export/json_shapes.hpp"
-
-#include "scenes/export/writers.hpp"
+#include "scenes/export/json_parts.hpp"
 #include "scenes/formats/json/reader.hpp"
 
 #include <algorithm>

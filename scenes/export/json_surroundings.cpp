@@ -1,6 +1,5 @@
-#include "scenes/export/json_surroundings.hpp"
-
 #include "core/scene/fields.hpp"
+#include "scenes/export/json_parts.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,4 @@
-#include "scenes/export/auto_camera_in_json.hpp"
-#include "scenes/export/json_shapes.hpp"
-#include "scenes/export/json_surroundings.hpp"
-#include "scenes/export/writers.hpp"
+#include "scenes/export/json_parts.hpp"
 
 namespace raylane::scenes {
 

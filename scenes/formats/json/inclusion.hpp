@@ -1,10 +1,12 @@
 #pragma once
 
 #include "scenes/files/included_files.hpp"
+#include "scenes/formats/json/items.hpp"
 #include "scenes/formats/json/value.hpp"
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,5 +31,9 @@ class Inclusion {
     std::vector<std::filesystem::path> files_;
     std::vector<std::filesystem::path> read_; // read to their ends
 };
+
+/// Takes only the parameters of a file and of the files that it includes, in the order in which a
+/// scene with these `keys` is read. Leaves all errors to be reported when the scene is read.
+void take_parameters(InputFile& file, std::span<const RootKey> keys, Parameters& parameters);
 
 } // namespace raylane::scenes

@@ -5,7 +5,6 @@
 #include "scenes/formats/json/fields.hpp"
 #include "scenes/formats/json/inclusion.hpp"
 #include "scenes/formats/json/items.hpp"
-#include "scenes/formats/json/late_parameters.hpp"
 #include "scenes/formats/json/material.hpp"
 #include "scenes/formats/json/object.hpp"
 #include "scenes/formats/json/object_places.hpp"
