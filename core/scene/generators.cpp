@@ -1,6 +1,7 @@
 #include "core/scene/generators.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/shapes/checks.hpp"
 
 #include <array>
 #include <charconv>
@@ -14,11 +15,7 @@ namespace {
 
 using Vec3i = Vec3<int>;
 
-void require_count(const char* field, int value, int least, int most) {
-    if (value < least || value > most)
-        throw InvalidValue(field, "must be from " + std::to_string(least) + " to " +
-                                      std::to_string(most) + ", got " + std::to_string(value));
-}
+using checks::require_count;
 
 void require_positive(const char* field, float value) {
     if (value > 0.0F) return;

@@ -20,12 +20,16 @@ Refraction<Real> refract_at(Real sine, Real n1, Real n2) {
     return refract(incident, Vec3<Real>{0, 0, 1}, n1, n2);
 }
 
-template <class Real>
 Material of(Reflection reflection) {
     Material material;
     material.transmission = 1.0F;
     material.reflection = reflection;
     return material;
+}
+
+template <class Real>
+Real reflectance_at(Reflection reflection, Real sine, Real n1, Real n2) {
+    return reflectance(of(reflection), refract_at(sine, n1, n2), n1, n2);
 }
 
 struct Largest {
@@ -110,7 +114,7 @@ TEMPLATE_TEST_CASE("refraction is right from ulps below the critical angle to ul
                 FAIL("not a direction");
             int kind = 0;
             for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric}) {
-                const Real share = reflectance(of<Real>(reflection), at, n, Real(1));
+                const Real share = reflectance(of(reflection), at, n, Real(1));
                 if (!(share >= last[kind] && share <= Real(1))) FAIL("not continuous");
                 // 1 - R is at most `slope` times the transmitted cosine.
                 const Real slope = std::max(Real(5), Real(2) * (n + Real(1) / n) / at.cos_incident);
@@ -135,11 +139,52 @@ TEMPLATE_TEST_CASE("R + T = 1 to the bit for all indices and sides and angles", 
                 for (int i = 0; i <= 500; ++i) {
                     const Real n = Real(1) + Real(step) / Real(20), sine = Real(i) / Real(500);
                     const Real n1 = leaving ? n : Real(1), n2 = leaving ? Real(1) : n;
-                    const Refraction<Real> at = refract_at(sine, n1, n2);
-                    const Real R = reflectance(of<Real>(reflection), at, n1, n2);
+                    const Real R = reflectance_at(reflection, sine, n1, n2);
                     const Real T = Real(1) - R;
                     const bool shares = R >= Real(0) && T >= Real(0) && R + T == Real(1);
                     not_shares += shares ? 0 : 1;
                 }
     CHECK(not_shares == 0);
+}
+
+TEMPLATE_TEST_CASE("reflection is total from just beyond the critical angle", "", float, double) {
+    using Real = TestType;
+    // From index 2 to 1 the critical sine is 1/2, exactly.
+    const Real critical(0.5);
+    const auto at = refract_at<Real>(critical, 2, 1);
+    CHECK_FALSE(at.total);
+    CHECK(at.cos_transmitted == Real(0));
+    CHECK(at.transmitted == Vec3<Real>(1, 0, 0));
+    CHECK(refract_at<Real>(std::nextafter(critical, Real(1)), 2, 1).total);
+    const auto before = refract_at<Real>(std::nextafter(critical, Real(0)), 2, 1);
+    CHECK_FALSE(before.total);
+    CHECK(before.cos_transmitted > Real(0));
+
+    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric}) {
+        CHECK(reflectance_at<Real>(reflection, critical, 2, 1) == Real(1));
+        CHECK(reflectance_at<Real>(reflection, Real(0.75), 2, 1) == Real(1));
+        CHECK(reflectance_at<Real>(reflection, std::nextafter(critical, Real(0)), 2, 1) < Real(1));
+    }
+}
+
+TEST_CASE("reflectance is right at normal incidence and at Brewster's angle") {
+    CHECK(reflectance_at(Reflection::schlick, 0.0, 1.0, 1.5) == Approx(0.04));
+    CHECK(reflectance_at(Reflection::dielectric, 0.0, 1.0, 1.5) == Approx(0.04));
+    CHECK(reflectance_at(Reflection::dielectric, 0.5, 1.5, 1.5) == 0.0);
+    // At tan = n, none of one polarisation is reflected, and ((1 - n^2) / (1 + n^2))^2 of the
+    // other.
+    const double n = 1.5, sine = n / std::sqrt(1.0 + n * n);
+    const double perpendicular = (1.0 - n * n) / (1.0 + n * n);
+    CHECK(reflectance_at(Reflection::dielectric, sine, 1.0, n) ==
+          Approx(perpendicular * perpendicular / 2.0));
+}
+
+TEST_CASE("both sides of a surface reflect alike along one path") {
+    // Schlick's cosine is that of the larger angle, so that this holds for it as well.
+    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
+        for (int i = 0; i < 100; ++i) {
+            const double outside = i / 100.0;
+            CHECK(reflectance_at(reflection, outside / 1.5, 1.5, 1.0) ==
+                  Approx(reflectance_at(reflection, outside, 1.0, 1.5)).epsilon(1e-9));
+        }
 }

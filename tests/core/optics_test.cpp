@@ -10,18 +10,6 @@ namespace {
 
 constexpr double exactly = 1e-13;
 
-template <class Real>
-Refraction<Real> refract_at(Real sine, Real n1, Real n2) {
-    const Vec3<Real> incident{sine, Real(0), -std::sqrt(Real(1) - sine * sine)};
-    return refract(incident, Vec3<Real>{0, 0, 1}, n1, n2);
-}
-
-template <class Real>
-Real reflectance_at(Reflection reflection, Real sine, Real n1, Real n2) {
-    Material material = glass(1.5F, reflection);
-    return reflectance(material, refract_at(sine, n1, n2), n1, n2);
-}
-
 } // namespace
 
 TEST_CASE("a mirror sphere reflects by the textbook's formula") {
@@ -64,26 +52,6 @@ TEST_CASE("a slab shifts a ray by the textbook's amount and keeps its direction"
     }
 }
 
-TEMPLATE_TEST_CASE("reflection is total from just beyond the critical angle", "", float, double) {
-    using Real = TestType;
-    // From index 2 to 1 the critical sine is 1/2, exactly.
-    const Real critical(0.5);
-    const auto at = refract_at<Real>(critical, 2, 1);
-    CHECK_FALSE(at.total);
-    CHECK(at.cos_transmitted == Real(0));
-    CHECK(at.transmitted == Vec3<Real>(1, 0, 0));
-    CHECK(refract_at<Real>(std::nextafter(critical, Real(1)), 2, 1).total);
-    const auto before = refract_at<Real>(std::nextafter(critical, Real(0)), 2, 1);
-    CHECK_FALSE(before.total);
-    CHECK(before.cos_transmitted > Real(0));
-
-    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric}) {
-        CHECK(reflectance_at<Real>(reflection, critical, 2, 1) == Real(1));
-        CHECK(reflectance_at<Real>(reflection, Real(0.75), 2, 1) == Real(1));
-        CHECK(reflectance_at<Real>(reflection, std::nextafter(critical, Real(0)), 2, 1) < Real(1));
-    }
-}
-
 TEST_CASE("total reflection loses no light") {
     // Inside of water, below its surface y = 0, with a luminous floor and a dark sky.
     Builder builder;
@@ -105,21 +73,6 @@ TEST_CASE("glass without other reflection reflects totally beyond the critical a
     CHECK(color_along<double>(scene, {0, -0.5, 0}, {0.1, 1, 0}) == Vec3d(0.0));
 }
 
-TEMPLATE_TEST_CASE("reflectance and transmittance add up to 1 to the bit", "", float, double) {
-    using Real = TestType;
-    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
-        for (const Real n1 : {Real(1), Real(1.33), Real(1.5), Real(2.4)})
-            for (const Real n2 : {Real(1), Real(1.33), Real(1.5), Real(2.4)})
-                for (int i = 0; i <= 1000; ++i) {
-                    const Real r = reflectance_at<Real>(reflection, Real(i) / Real(1000), n1, n2);
-                    const bool is_share = r >= Real(0) && r <= Real(1);
-                    if (!is_share || r + (Real(1) - r) != Real(1)) {
-                        CAPTURE(n1, n2, i, r);
-                        FAIL("not a share");
-                    }
-                }
-}
-
 TEST_CASE("glass in an evenly bright room cannot be seen") {
     for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric}) {
         Builder builder;
@@ -131,28 +84,6 @@ TEST_CASE("glass in an evenly bright room cannot be seen") {
         for (const double x : {0.0, 0.5, 0.9, 0.99, 0.9999})
             CHECK(gray_along(scene, {x, 0, 5}, {0, 0, -1}) == Approx(1.0).epsilon(1e-6));
     }
-}
-
-TEST_CASE("reflectance is right at normal incidence and at Brewster's angle") {
-    CHECK(reflectance_at(Reflection::schlick, 0.0, 1.0, 1.5) == Approx(0.04));
-    CHECK(reflectance_at(Reflection::dielectric, 0.0, 1.0, 1.5) == Approx(0.04));
-    CHECK(reflectance_at(Reflection::dielectric, 0.5, 1.5, 1.5) == 0.0);
-    // At tan = n, none of one polarisation is reflected, and ((1 - n^2) / (1 + n^2))^2 of the
-    // other.
-    const double n = 1.5, sine = n / std::sqrt(1.0 + n * n);
-    const double perpendicular = (1.0 - n * n) / (1.0 + n * n);
-    CHECK(reflectance_at(Reflection::dielectric, sine, 1.0, n) ==
-          Approx(perpendicular * perpendicular / 2.0));
-}
-
-TEST_CASE("both sides of a surface reflect alike along one path") {
-    // Schlick's cosine is that of the larger angle, so that this holds for it as well.
-    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
-        for (int i = 0; i < 100; ++i) {
-            const double outside = i / 100.0;
-            CHECK(reflectance_at(reflection, outside / 1.5, 1.5, 1.0) ==
-                  Approx(reflectance_at(reflection, outside, 1.0, 1.5)).epsilon(1e-9));
-        }
 }
 
 TEST_CASE("absorption follows the length of the path inside") {

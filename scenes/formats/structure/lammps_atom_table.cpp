@@ -129,22 +129,19 @@ class Evidence {
         return true;
     }
 
-    /// Returns the number of axes along which positions differ.
-    int dimensions(const AtomLayout& layout) const {
+    /// Returns the number of axes whose coordinates have a property.
+    template <class Has>
+    int axes_where(const AtomLayout& layout, const Has& has) const {
         const auto columns = coordinates(layout);
         return static_cast<int>(
-            std::count_if(columns.begin(), columns.end(), [](const AtomTable::Column* column) {
-                return column->least < column->most;
-            }));
+            std::count_if(columns.begin(), columns.end(),
+                          [&](const AtomTable::Column* column) { return has(*column); }));
     }
-
-    /// Returns the number of axes along which a coordinate has decimals.
+    int dimensions(const AtomLayout& layout) const {
+        return axes_where(layout, [](const auto& column) { return column.least < column.most; });
+    }
     int decimals(const AtomLayout& layout) const {
-        const auto columns = coordinates(layout);
-        return static_cast<int>(
-            std::count_if(columns.begin(), columns.end(), [](const AtomTable::Column* column) {
-                return column->not_whole.has_value();
-            }));
+        return axes_where(layout, [](const auto& column) { return column.not_whole.has_value(); });
     }
 
     /// Removes layouts without masses if masses are missing, and layouts with other masses. LAMMPS
