@@ -45,6 +45,17 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
 
 } // namespace
 
+void LoadOptions::set_drawing(DrawingOptions given) {
+    if (!given.empty()) option_for_atoms = given.front().first;
+    std::erase_if(given, [&](const auto& option) {
+        const bool is_for_reader = option.first == "atom-style" || option.first == "atom_style" ||
+                                   option.first == "--atom-style";
+        if (is_for_reader) atom_style = option.second;
+        return is_for_reader;
+    });
+    drawing = drawing_with(given);
+}
+
 core::Scene load_scene(const std::filesystem::path& path, const LoadOptions& options) {
     InputFile file(path);
     return read_scene(file, options);

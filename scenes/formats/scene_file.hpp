@@ -2,7 +2,7 @@
 
 #include "core/scene/scene.hpp"
 #include "scenes/files/input_file.hpp"
-#include "scenes/formats/structure/drawing.hpp"
+#include "scenes/formats/structure/drawing_options.hpp"
 #include "scenes/formats/structure/structure_file.hpp"
 #include "scenes/formats/tachyon/shading.hpp"
 
@@ -26,6 +26,9 @@ struct LoadOptions {
     /// Values for "$name" in JSON, which override those of the file. A name that the file does not
     /// use is an error.
     std::map<std::string, double> parameters = {};
+
+    /// Sets the options of a drawing, and the atom style. Throws BadInput.
+    void set_drawing(DrawingOptions given);
 };
 
 /// Reads a scene, or atoms, from which it makes a scene. scenes/formats/format.hpp lists the

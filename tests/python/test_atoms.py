@@ -318,6 +318,7 @@ def test_unknown_options_are_refused(tmp_path):
         (dict(boundary="yes"), 'boundary: must be on or off, got "yes"'),
         (dict(repeat=(2, 2)), "repeat: must be the number of cells along each edge"),
         (dict(probability=100), "probability: must be a number from 1 to 99"),
+        (dict(probability=50), "probability: goes with ellipsoids, ellipses or octants"),
         (dict(axes=True), "--axes: must have a cell whose edges they show"),
     ):
         with pytest.raises(raylane.BadInput) as error:

@@ -6,7 +6,6 @@
 #include "scenes/export/export.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/scene_file.hpp"
-#include "scenes/formats/structure/drawing_options.hpp"
 #include "scenes/images/writer.hpp"
 #include "simd/threads/threads.hpp"
 
@@ -48,14 +47,7 @@ scenes::LoadOptions atom_options(const AtomOptions& options, core::Workers& work
     scenes::LoadOptions result;
     result.workers = &workers;
     result.on_remark = on_remark;
-    scenes::DrawingOptions of_drawing;
-    for (const auto& option : options)
-        if (option.first == "atom-style" || option.first == "atom_style")
-            result.atom_style = option.second;
-        else
-            of_drawing.push_back(option);
-    result.drawing = scenes::drawing_with(of_drawing);
-    if (!options.empty()) result.option_for_atoms = options.front().first;
+    result.set_drawing(options);
     return result;
 }
 

@@ -30,6 +30,9 @@ SetOption setter_of(T Drawing::*member, const Parse& parse) {
         drawing.*member = parse(option, text);
     };
 }
+bool on_or_off_of(const std::string& option, const std::string& text) {
+    return choice_named<bool>(option, text, {{"on", true}, {"off", false}});
+}
 SetOption setter_of_ellipsoids(Ellipsoids look) {
     return [=](Drawing& drawing, const std::string& option, const std::string& text) {
         if (on_or_off_of(option, text)) drawing.ellipsoids = std::max(drawing.ellipsoids, look);
@@ -42,34 +45,65 @@ std::string any_text(const std::string&, const std::string& text) {
 Style style_of(const std::string& option, const std::string& text) {
     return choice_named(option, text, named_styles());
 }
-std::string palette_named(const std::string& option, const std::string& text) {
-    std::vector<std::pair<std::string_view, std::string>> names;
-    for (const std::string_view name : palette_names())
-        names.emplace_back(name, name);
-    return choice_named(option, text, names);
+std::string palette_of(const std::string& option, const std::string& text) {
+    return choice_named(option, text, named_palettes());
+}
+Finish finish_of(const std::string& option, const std::string& text) {
+    return choice_named(option, text, named_finishes());
+}
+std::array<int, 3> repeat_of(const std::string& option, const std::string& text) {
+    std::array<int, 3> result{};
+    const std::vector<std::string_view> parts = parts_of(text, 'x');
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::optional<int> number = parts.size() == 3 ? to_int(parts[axis]) : std::nullopt;
+        if (!number || *number < 1 || *number > 1000)
+            refuse(option, "the number of cells along each edge, from 1 to 1000, such as 2x2x1",
+                   text);
+        result[axis] = *number;
+    }
+    return result;
+}
+float opacity_of(const std::string& option, const std::string& text) {
+    const float value = to_float(text).value_or(0.0F);
+    if (!(value > 0.0F && value <= 1.0F)) refuse(option, "above 0 and at most 1", text);
+    return value;
+}
+float probability_of(const std::string& option, const std::string& text) {
+    const float percent = to_float(text).value_or(0.0F);
+    if (!(percent >= 1.0F && percent <= 99.0F)) refuse(option, "a number from 1 to 99", text);
+    return 0.01F * percent;
+}
+
+/// Adds a representation. Its messages name `option`.
+void show(Drawing& drawing, const std::string& option, const std::string& text) {
+    static_cast<void>(representation_of(option, text));
+    drawing.show.push_back({text, option});
 }
 
 const std::vector<std::pair<std::string_view, SetOption>>& setters() {
     static const std::vector<std::pair<std::string_view, SetOption>> all = {
         {"style", setter_of(&Drawing::style, style_of)},
         {"color", setter_of_text(&Drawing::color, color_words_of)},
-        {"palette", setter_of(&Drawing::palette, palette_named)},
+        {"palette", setter_of(&Drawing::palette, palette_of)},
         {"range", setter_of(&Drawing::range, range_of)},
         {"radius", setter_of_text(&Drawing::radius, size_words_of)},
         {"scale", setter_of_text(&Drawing::scale_radii, size_words_of)},
         {"select", setter_of(&Drawing::select, any_text)},
-        {"show",
-         [](Drawing& drawing, const std::string& option, const std::string& text) {
-             drawing.show.push_back({text, option});
-         }},
+        {"show", show},
         {"representations",
          [](Drawing& drawing, const std::string& option, const std::string& text) {
-             drawing.show.push_back({text, option + "/" + std::to_string(drawing.show.size())});
+             show(drawing, option + "/" + std::to_string(drawing.show.size()), text);
          }},
         {"hide", [](Drawing& drawing, const std::string&,
                     const std::string& text) { drawing.hide.push_back(text); }},
         {"opacity", setter_of(&Drawing::opacity, opacity_of)},
         {"repeat", setter_of(&Drawing::repeat, repeat_of)},
+        {"look", setter_of(&Drawing::finish, finish_of)},
+        {"cut",
+         [](Drawing& drawing, const std::string& option, const std::string& text) {
+             drawing.cuts.push_back(cut_plane_of(option, text));
+         }},
+        {"slab", setter_of(&Drawing::slab, depths_of)},
         {"cell-edges", setter_of(&Drawing::show_cell, on_or_off_of)},
         {"cell", setter_of(&Drawing::show_cell, on_or_off_of)},
         {"axes", setter_of(&Drawing::show_axes, on_or_off_of)},
@@ -84,10 +118,7 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
         {"ellipsoids", setter_of_ellipsoids(Ellipsoids::plain)},
         {"ellipses", setter_of_ellipsoids(Ellipsoids::ellipses)},
         {"octants", setter_of_ellipsoids(Ellipsoids::octants)},
-        {"probability",
-         [](Drawing& drawing, const std::string& option, const std::string& text) {
-             drawing.probability = 0.01F * probability_of(option, text);
-         }},
+        {"probability", setter_of(&Drawing::probability, probability_of)},
         {"view", setter_of(&Drawing::view,
                            [](const std::string& option, const std::string& text) {
                                return view_named(option, text);
@@ -104,55 +135,49 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
 
 } // namespace
 
+void set_option(Drawing& drawing, const std::string& name, const std::string& text) {
+    std::string dashed = name.substr(name.starts_with("--") ? 2 : 0);
+    std::replace(dashed.begin(), dashed.end(), '_', '-');
+    std::vector<std::string_view> names;
+    for (const auto& [known, set] : setters()) {
+        if (known == dashed) return set(drawing, name, text);
+        names.push_back(known);
+    }
+    throw BadInput(printable(name, 40), "",
+                   "must be the name of an option" + suggestion(dashed, names));
+}
+
 Drawing drawing_with(const DrawingOptions& options) {
     Drawing drawing;
-    for (const auto& [name, text] : options) {
-        std::string dashed = name;
-        std::replace(dashed.begin(), dashed.end(), '_', '-');
-        std::vector<std::string_view> names;
-        const SetOption* set = nullptr;
-        for (const auto& [known, of] : setters()) {
-            names.push_back(known);
-            if (known == dashed) set = &of;
-        }
-        if (set == nullptr)
-            throw BadInput(printable(name, 40), "",
-                           "must be the name of an option" + suggestion(dashed, names));
-        (*set)(drawing, name, text);
-    }
+    for (const auto& [name, text] : options)
+        set_option(drawing, name, text);
     // With ellipsoids, atoms without displacements are balls.
-    if (drawing.ellipsoids != Ellipsoids::none && drawing.style == Style::automatic)
-        drawing.style = Style::balls;
+    if (drawing.ellipsoids != Ellipsoids::none) {
+        if (drawing.style == Style::automatic) drawing.style = Style::balls;
+        return drawing;
+    }
+    for (const auto& [name, text] : options)
+        if (name.ends_with("probability")) {
+            const std::string dashes = name.starts_with("--") ? "--" : "";
+            throw BadInput(name, "",
+                           "goes with " + dashes + "ellipsoids, " + dashes + "ellipses or " +
+                               dashes + "octants");
+        }
     return drawing;
 }
 
-std::array<int, 3> repeat_of(const std::string& option, const std::string& text) {
-    std::array<int, 3> result{};
-    const std::vector<std::string_view> parts = parts_of(text, 'x');
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::optional<int> number = parts.size() == 3 ? to_int(parts[axis]) : std::nullopt;
-        if (!number || *number < 1 || *number > 1000)
-            refuse(option, "the number of cells along each edge, from 1 to 1000, such as 2x2x1",
-                   text);
-        result[axis] = *number;
-    }
-    return result;
+std::vector<std::pair<std::string_view, std::string>> named_palettes() {
+    std::vector<std::pair<std::string_view, std::string>> names;
+    for (const std::string_view name : palette_names())
+        names.emplace_back(name, name);
+    return names;
 }
 
-float opacity_of(const std::string& option, const std::string& text) {
-    const float value = to_float(text).value_or(0.0F);
-    if (!(value > 0.0F && value <= 1.0F)) refuse(option, "above 0 and at most 1", text);
-    return value;
-}
-
-float probability_of(const std::string& option, const std::string& text) {
-    const float value = to_float(text).value_or(0.0F);
-    if (!(value >= 1.0F && value <= 99.0F)) refuse(option, "a number from 1 to 99", text);
-    return value;
-}
-
-bool on_or_off_of(const std::string& option, const std::string& text) {
-    return choice_named<bool>(option, text, {{"on", true}, {"off", false}});
+std::vector<std::pair<std::string_view, Finish>> named_finishes() {
+    return {{"matte", Finish::matte},
+            {"glossy", Finish::glossy},
+            {"flat", Finish::flat},
+            {"print", Finish::print}};
 }
 
 std::optional<core::Vec3f> direction_in(const std::string& text) {

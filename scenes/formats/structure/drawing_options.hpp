@@ -2,15 +2,15 @@
 
 #include "scenes/formats/structure/drawing.hpp"
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-/// The options of drawings by name, in the words of the command line. The tool's options without
-/// dashes are the names: "hydrogen-bonds". Underscores may stand for dashes.
+/// The one list of the options of drawings, for the tool and the library, by name and in the words
+/// of the command line: "--hydrogen-bonds", with or without the dashes in front. Underscores may
+/// stand for dashes.
 namespace raylane::scenes {
 
 /// Options with their values. Options of which several values are meant are there several times.
@@ -21,15 +21,13 @@ using DrawingOptions = std::vector<std::pair<std::string, std::string>>;
 /// unknown one, and for a malformed value.
 Drawing drawing_with(const DrawingOptions& options);
 
-/// Parse values; `option` is the name in messages. Throw BadInput.
-/// "2x2x1", from 1 to 1000 along each edge.
-std::array<int, 3> repeat_of(const std::string& option, const std::string& text);
-/// A number above 0 and up to 1.
-float opacity_of(const std::string& option, const std::string& text);
-/// A percentage from 1 to 99.
-float probability_of(const std::string& option, const std::string& text);
-/// "on" or "off".
-bool on_or_off_of(const std::string& option, const std::string& text);
+/// Sets one option of a drawing. Throws BadInput in the same cases.
+void set_option(Drawing& drawing, const std::string& name, const std::string& text);
+
+/// The names of the palettes and of the finishes, each with its value.
+std::vector<std::pair<std::string_view, std::string>> named_palettes();
+std::vector<std::pair<std::string_view, Finish>> named_finishes();
+
 /// A direction such as "1,-1,-0.5"; nothing if it is malformed or 0.
 std::optional<core::Vec3f> direction_in(const std::string& text);
 /// The name of a view, or a direction to look in, such as "1,-1,-0.5". `later`: another name, of a

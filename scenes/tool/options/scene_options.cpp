@@ -190,117 +190,35 @@ Values<core::Vec3f> upward_directions() {
             }};
 }
 
-Values<float> opacities() {
-    return {"A", "above 0 and up to 1", opacity_of};
-}
-
-namespace {
-
-/// Returns a text that `parse` accepts.
-template <class Parse>
-Values<std::string> text_for(const std::string& type, const Parse& parse) {
-    return {type, "", [=](const std::string& option, const std::string& text) {
-                static_cast<void>(parse(option, text));
+Values<std::string> drawing_words(std::string type, std::string range) {
+    return {std::move(type), std::move(range),
+            [](const std::string& option, const std::string& text) {
+                Drawing unused;
+                set_option(unused, option, text);
                 return text;
             }};
 }
 
-} // namespace
-
-Values<std::string> color_texts() {
-    return text_for("BY", color_words_of);
-}
-
-Values<std::string> size_texts() {
-    return text_for("X", size_words_of);
-}
-
-Values<std::string> show_texts() {
-    return text_for("WHICH:LOOK", representation_of);
-}
-
-Values<std::string> polyhedra_texts() {
-    return text_for("WHICH", polyhedra_of);
-}
-
-Values<bool> on_or_off() {
-    return {"on|off", "", on_or_off_of};
-}
-
-Values<std::string> palettes() {
-    std::vector<std::pair<std::string_view, std::string>> names;
-    for (const std::string_view name : palette_names())
-        names.emplace_back(name, name);
-    return choice(names);
-}
-
-Values<ColorRange> color_ranges() {
-    return {"A B", "", range_of};
-}
-
-Values<CutPlane> cuts() {
-    return {"PLANE", "", cut_plane_of};
-}
-
-Values<std::pair<double, double>> slabs() {
-    return {"A B", "", depths_of};
-}
-
-Values<std::array<int, 3>> repetitions() {
-    return {"AxBxC", "", repeat_of};
-}
-
-Drawing DrawingArguments::drawing() const {
-    Drawing drawing;
-    drawing.ellipsoids = octants      ? Ellipsoids::octants
-                         : ellipses   ? Ellipsoids::ellipses
-                         : ellipsoids ? Ellipsoids::plain
-                                      : Ellipsoids::none;
-    if (probability && drawing.ellipsoids == Ellipsoids::none)
-        throw BadInput("--probability", "", "goes with --ellipsoids, --ellipses or --octants");
-    drawing.probability = 0.01F * probability.value_or(50.0F);
-    // With ellipsoids, atoms without displacements are balls.
-    const bool has_ellipsoids = drawing.ellipsoids != Ellipsoids::none;
-    drawing.style = style.value_or(has_ellipsoids ? Style::balls : drawing.style);
-    drawing.color = color.value_or(drawing.color);
-    drawing.select = select.value_or(drawing.select);
-    drawing.opacity = opacity.value_or(drawing.opacity);
-    for (const std::string& text : *show)
-        drawing.show.push_back({text});
-    drawing.hide = *hide;
-    drawing.palette = palette.value_or("");
-    drawing.range = range.value();
-    drawing.radius = radius.value_or("");
-    drawing.scale_radii = scale.value_or("");
-    drawing.repeat = repeat.value_or(drawing.repeat);
-    drawing.show_cell = cell.is_given();
-    drawing.finish = look.value_or(drawing.finish);
-    drawing.cuts = *cut;
-    drawing.show_axes = axes.is_given();
-    drawing.hydrogen_bonds = hydrogen_bonds.is_given();
-    drawing.boundary = boundary.value();
-    drawing.whole = whole_molecules.value();
-    drawing.polyhedra = *polyhedra;
-    return drawing;
+DrawingOptions DrawingArguments::given() const {
+    DrawingOptions given;
+    for (const AnyOption* option : options())
+        for (const std::string& text : option->texts())
+            given.emplace_back(option->name(), option->properties().type.empty() ? "on" : text);
+    return given;
 }
 
 LoadOptions SceneArguments::load_options() const {
     LoadOptions options;
-    options.drawing = drawing.drawing();
+    options.set_drawing(drawing.given());
     if (view.view && view.view->name != core::best_view_name)
         options.drawing.view = view.view.value();
     options.drawing.perspective = view.perspective.is_given();
-    options.atom_style = drawing.atom_style.value_or("");
-    options.option_for_atoms = drawing.first_given();
     if (view.background && view.background->color) {
         options.drawing.background = *view.background->color;
         if (options.option_for_atoms.empty()) options.option_for_atoms = view.background.name();
     }
-    if (drawing.slab) {
-        if (view.camera || (view.view && view.view->name == core::best_view_name))
-            throw BadInput("--slab", "", "goes without --camera and --view best");
-        options.drawing.slab = drawing.slab.value();
-    }
+    if (drawing.slab && (view.camera || (view.view && view.view->name == core::best_view_name)))
+        throw BadInput("--slab", "", "goes without --camera and --view best");
     options.parameters = parameters.values().front();
     return options;
 }

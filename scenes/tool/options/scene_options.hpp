@@ -2,10 +2,8 @@
 
 #include "core/scene/scene.hpp"
 #include "scenes/formats/scene_file.hpp"
-#include "scenes/formats/structure/drawing.hpp"
 #include "scenes/tool/options/option.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -184,24 +182,12 @@ struct ViewArguments : OptionTable {
     }
 };
 
-Values<float> opacities();
-/// Words of colours, sizes and representations, see representation.hpp.
-Values<std::string> color_texts();
-Values<std::string> size_texts();
-Values<std::string> show_texts();
-Values<std::string> palettes();
-Values<ColorRange> color_ranges();
-Values<CutPlane> cuts();
-Values<std::pair<double, double>> slabs();
-/// Numbers of cells along the edges of the unit cell.
-Values<std::array<int, 3>> repetitions();
-
-/// Words of polyhedra, see polyhedra_of().
-Values<std::string> polyhedra_texts();
-Values<bool> on_or_off();
+/// Words that the option of the same name in drawing_options.hpp takes.
+Values<std::string> drawing_words(std::string type, std::string range = "");
 inline constexpr const char* for_crystals = "on for crystals";
 
-/// Options for the look of atoms.
+/// Options for the look of atoms: types, help and defaults. Their meaning is in
+/// drawing_options.hpp.
 struct DrawingArguments : OptionTable {
     explicit DrawingArguments(OptionTable& whole)
         : OptionTable(whole, "Atoms (PDB, PQR, mmCIF, CIF, XYZ, GRO, MOL, SDF, MOL2, LAMMPS)") {}
@@ -217,7 +203,7 @@ struct DrawingArguments : OptionTable {
         "nucleic acids; cylinders is a cartoon with cylinders for helices."};
     Option<std::string> color = {
         *this, "--color",
-        color_texts()
+        drawing_words("BY")
             .otherwise("element; for chains, chain, or secondary if "
                        "there is one chain")
             .recorded(),
@@ -225,16 +211,18 @@ struct DrawingArguments : OptionTable {
         "(along each chain), a number per atom in the file, such as "
         "b_factor, or a colour, such as orange or #ff8000. \"carbons chain\" colours carbon, and "
         "other atoms by element. Fe=gold or 1=red is for an element or type."};
-    Option<std::string> palette = {*this, "--palette", palettes().otherwise("viridis").recorded(),
+    Option<std::string> palette = {*this, "--palette",
+                                   choice(named_palettes()).otherwise("viridis").recorded(),
                                    "Colours for a number per atom."};
-    Option<ColorRange> range = {
-        *this, "--range", color_ranges().of_words(2).otherwise("the range in the image").recorded(),
+    Option<std::string> range = {
+        *this, "--range",
+        drawing_words("A B").of_words(2).otherwise("the range in the image").recorded(),
         "Numbers at the ends of the palette, such as 0 50 or 0:50."};
     Option<std::string> radius = {
-        *this, "--radius", size_texts().otherwise("that of the style").recorded(),
+        *this, "--radius", drawing_words("X").otherwise("that of the style").recorded(),
         "Radius of atoms in angstrom, of sticks, too, in styles without balls. \"0.4 H=0.2\" is "
         "for an element or type."};
-    Option<std::string> scale = {*this, "--scale", size_texts().otherwise("1").recorded(),
+    Option<std::string> scale = {*this, "--scale", drawing_words("X").otherwise("1").recorded(),
                                  "Factor for the radii, in the same form."};
     Option<std::string> select = {
         *this, "--select", word("WHICH").otherwise("all").recorded(),
@@ -244,7 +232,7 @@ struct DrawingArguments : OptionTable {
         "..., or byres ... Combine these by not, and, or and parentheses. PyMOL's and VMD's words "
         "for these are known, too."};
     ListOption<std::string> show = {
-        *this, "--show", show_texts().recorded(),
+        *this, "--show", drawing_words("WHICH:LOOK").recorded(),
         "Show the atoms of a selection, and no others, as \"ligand: sticks orange\" or "
         "\"protein: spheres white opacity 0.3 + sticks\". Words behind the colon: a style, a "
         "colour as in --color, opacity A, radius R, scale X, palette NAME, range A:B. Other "
@@ -252,12 +240,12 @@ struct DrawingArguments : OptionTable {
         "replaces the look of the atoms that it selects."};
     ListOption<std::string> hide = {*this, "--hide", word("WHICH").recorded(),
                                     "Atoms not to show, in the words of --select."};
-    Option<float> opacity = {
-        *this, "--opacity", opacities().otherwise("1").recorded(),
+    Option<std::string> opacity = {
+        *this, "--opacity", drawing_words("A", "above 0 and up to 1").otherwise("1").recorded(),
         "Opacity of atoms and bonds. Inner surfaces of overlapping shapes are hidden."};
-    Option<std::array<int, 3>> repeat = {*this, "--repeat",
-                                         repetitions().otherwise("1x1x1").recorded(),
-                                         "Repeat the unit cell along its edges, such as 2x2x1."};
+    Option<std::string> repeat = {*this, "--repeat",
+                                  drawing_words("AxBxC").otherwise("1x1x1").recorded(),
+                                  "Repeat the unit cell along its edges, such as 2x2x1."};
     Option<std::string> atom_style = {
         *this, "--atom-style",
         word("STYLE")
@@ -265,36 +253,30 @@ struct DrawingArguments : OptionTable {
             .recorded(),
         "Atom style of a LAMMPS data file, such as full or \"hybrid sphere dipole\"."};
     Option<Finish> look = {
-        *this, "--look",
-        choice<Finish>({{"matte", Finish::matte},
-                        {"glossy", Finish::glossy},
-                        {"flat", Finish::flat},
-                        {"print", Finish::print}})
-            .otherwise("a soft highlight")
-            .recorded(),
+        *this, "--look", choice(named_finishes()).otherwise("a soft highlight").recorded(),
         "Look of surfaces: matte has no highlight, glossy a sharp one, flat has plain colours and "
         "outlines; print is matte with thin outlines, without depth cue, at 50 dB."};
-    ListOption<CutPlane> cut = {
-        *this, "--cut", cuts().recorded(),
+    ListOption<std::string> cut = {
+        *this, "--cut", drawing_words("PLANE").recorded(),
         "Show only the part on one side of a plane, with closed faces: z<1.5, x>0, or A,B,C,D for "
         "A x + B y + C z <= D, in angstrom. Several planes leave the part on the sides of all."};
-    Option<std::pair<double, double>> slab = {
-        *this, "--slab", slabs().of_words(2).recorded(),
+    Option<std::string> slab = {
+        *this, "--slab", drawing_words("A B").of_words(2).recorded(),
         "Show only the part between two depths in angstrom, from the middle of the atoms towards "
         "the viewer, such as -2 2. It goes with --view, except best."};
     Flag cell = {*this, "--cell", flag().recorded(), "Show the edges of the unit cell."};
     Flag axes = {*this, "--axes", flag().recorded(),
                  "Show the directions of the cell's edges as arrows: a red, b green, c blue."};
-    Option<bool> boundary = {
-        *this, "--boundary", on_or_off().otherwise(for_crystals).recorded(),
+    Option<std::string> boundary = {
+        *this, "--boundary", drawing_words("on|off").otherwise(for_crystals).recorded(),
         "Show atoms and molecules on faces, edges and corners of the cell on all of them. Crystals "
         "are CIF files, and XYZ of up to 500 atoms in a periodic cell."};
-    Option<bool> whole_molecules = {
-        *this, "--whole", on_or_off().otherwise(for_crystals).recorded(),
+    Option<std::string> whole_molecules = {
+        *this, "--whole", drawing_words("on|off").otherwise(for_crystals).recorded(),
         "Move atoms into the cell, and molecules as a whole. A molecule is a finite set of bonded "
         "atoms."};
     ListOption<std::string> polyhedra = {
-        *this, "--polyhedra", polyhedra_texts().recorded(),
+        *this, "--polyhedra", drawing_words("WHICH").recorded(),
         "Show the polyhedra of neighbours that are bonded to atoms of elements or types, such as "
         "Ti or \"Ti Zr opacity 0.6\", in words of --show. Atoms are balls without sticks, unless "
         "--style is given."};
@@ -315,7 +297,7 @@ struct DrawingArguments : OptionTable {
                     "Show ellipsoids with principal ellipses, and without the octant that faces "
                     "the camera."};
 
-    Drawing drawing() const;
+    DrawingOptions given() const;
 };
 
 struct SceneArguments {

@@ -10,7 +10,7 @@ from ._errors import BadInput, InvalidValue
 
 _T = TypeVar("_T")
 
-_LISTS = ("show", "hide", "polyhedra")  # options of which several values are meant
+_LISTS = ("show", "hide", "polyhedra", "cut")  # options of which several values are meant
 _SEPARATORS = {"repeat": "x", "view": ","}
 
 
