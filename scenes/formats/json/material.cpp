@@ -5,10 +5,7 @@
 #include "scenes/formats/json/fields.hpp"
 #include "scenes/formats/json/transform.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <iterator>
 #include <span>
 
 namespace raylane::scenes {

@@ -36,15 +36,12 @@ class Merger {
             throw BadInput(name, "", "has pixels that differ from its Pixels attribute");
         if (!first_) begin(name, image);
         const ExrImage& first = *first_;
-        for (const char* key : {"Scene", "Comment", "Software"})
+        for (const char* key : {"Scene", "Comment", "Software", "Options"})
             if (text_in(name, image.texts, key) != text_in(first_name_, first.texts, key))
                 throw BadInput(name, "",
                                std::string("belongs to another image than ") + first_name_ + ": " +
                                    key + " differs");
-        if (optional_text("Options", image.texts) != optional_text("Options", first.texts))
-            throw BadInput(name, "",
-                           "belongs to another image than " + first_name_ + ": Options differs");
-        if (optional_text("Film", image.texts) != optional_text("Film", first.texts))
+        if (film_of(image.texts) != film_of(first.texts))
             throw BadInput(name, "", "belongs to another image of a sequence than " + first_name_);
         if (part.count != has_.size() || tile_of(image.texts) != tile_of(first.texts) ||
             image.film.width() != first.film.width() ||
@@ -96,10 +93,9 @@ class Merger {
             throw BadInput(name, "", "has a malformed \"Part\" attribute");
         return *part;
     }
-    /// Returns the text, or an empty one if it is missing. Only parts of a film have Film, and
-    /// parts rendered by older versions have no Options.
-    static std::string optional_text(const char* key, const ImageTexts& texts) {
-        return has_text(texts, key) ? text_in("", texts, key) : "";
+    /// Returns an empty text for parts that are not of a sequence.
+    static std::string film_of(const ImageTexts& texts) {
+        return has_text(texts, "Film") ? text_in("", texts, "Film") : "";
     }
     /// Returns the side of a tile in pixels, or 0 if the text has no valid one.
     static int tile_of(const ImageTexts& texts) {

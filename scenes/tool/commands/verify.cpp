@@ -130,9 +130,7 @@ class Verifier {
         return fingerprint_of(scene_) == text_in(image_.name, image_.texts, "Scene");
     }
 
-    /// Returns nothing for images rendered by older versions, which have no Options.
-    std::optional<bool> options_are_the_same() const {
-        if (!has_text(image_.texts, "Options")) return std::nullopt;
+    bool options_are_the_same() const {
         simd::RenderOptions options = options_;
         options.isa = render_->isa.value_or(options.isa); // this processor may lack it
         return fingerprint_of_options(settings_, options) ==
@@ -328,11 +326,9 @@ int verify(const VerifyArguments& arguments) {
     std::printf("scene      %s\n", is_same_scene ? "same as the image names"
                                                  : "differs from the one that the image names");
     if (!is_same_scene) return 1;
-    const std::optional<bool> are_same_options = verifier.options_are_the_same();
-    if (are_same_options)
-        std::printf("options    %s\n", *are_same_options
-                                           ? "same as the image names"
-                                           : "differ from those that the image names");
+    const bool are_same_options = verifier.options_are_the_same();
+    std::printf("options    %s\n", are_same_options ? "same as the image names"
+                                                    : "differ from those that the image names");
     std::fflush(stdout); // the rest may take as long as the image
     const Verdict verdict = verifier.sample();
     std::printf(
@@ -365,8 +361,7 @@ int verify(const VerifyArguments& arguments) {
         std::printf("all bits   %s\n",
                     has_its_bits ? "same as in the image" : "differ from the image");
     }
-    return are_same_options.value_or(true) && are_only_ties && !verdict.has_many_within_a_step() &&
-                   has_its_bits
+    return are_same_options && are_only_ties && !verdict.has_many_within_a_step() && has_its_bits
                ? 0
                : 1;
 }

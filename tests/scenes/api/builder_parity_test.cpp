@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <bit>
 #include <cstring>
 #include <fstream>
 #include <functional>

@@ -4,7 +4,6 @@
 #include "tests/shapes/shapes.hpp"
 #include "tests/support/catch.hpp"
 
-#include <cmath>
 #include <limits>
 
 using namespace raylane;
