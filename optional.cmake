@@ -145,7 +145,7 @@ if(RAYLANE_TOOL)
                            OpenEXR/ImfIO.h OpenEXR/ImfInputFile.h OpenEXR/ImfOutputFile.h
                            OpenEXR/ImfStandardAttributes.h OpenEXR/ImfStringAttribute.h OpenEXR/ImfVersion.h
                    LIBRARIES OpenEXR::OpenEXR)
-  find_package(TIFF QUIET)
+  find_package(TIFF 4.5 QUIET)
   raylane_optional(TIFF "${TIFF_FOUND}" "${TIFF_VERSION_STRING}" libtiff-dev
                    HEADERS tiffio.h LIBRARIES TIFF::TIFF)
   # Debian's libpango1.0-dev comes with pkg-config.

@@ -99,7 +99,7 @@ std::string pfm_word(ByteSource& source) {
 } // namespace
 
 MalformedImage damaged(const std::string& format) {
-    return MalformedImage("must be a PNG, EXR, HDR or PFM image, got a damaged " + format);
+    return MalformedImage("must be a PNG, TIFF, EXR, HDR or PFM image, got a damaged " + format);
 }
 
 void check_size(std::int64_t width, std::int64_t height) {

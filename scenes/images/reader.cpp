@@ -4,6 +4,7 @@
 #include "scenes/images/exr.hpp"
 #include "scenes/images/float_images.hpp"
 #include "scenes/images/png.hpp"
+#include "scenes/images/tiff.hpp"
 
 #include <cerrno>
 #include <new>
@@ -28,8 +29,11 @@ Image decoded(InputFile& file) {
     } else if (head.starts_with("\x76\x2F\x31\x01")) {
         image.linear_float = true;
         read_exr(source, image);
+    } else if (looks_like_tiff(head)) {
+        read_tiff(file.read_all(), image);
     } else {
-        throw BadInput(file.name(), "", "must be a PNG, EXR, HDR or PFM image, got another format");
+        throw BadInput(file.name(), "",
+                       "must be a PNG, TIFF, EXR, HDR or PFM image, got another format");
     }
     return image;
 }

@@ -64,17 +64,17 @@ struct Image {
     int width = 0;
     int height = 0;
     /// True if the components are linear floats (EXR, HDR, PFM); false if they are codes divided by
-    /// the largest code (PNG).
+    /// the largest code (PNG, TIFF).
     bool linear_float = false;
     Components rgb;   ///< width * height * 3, rows from the top down
     Components alpha; ///< width * height; empty: 1 everywhere
     std::string name; ///< of the file, for messages
-    /// Texts of a PNG or EXR beside the pixels, same as ImageOptions::texts.
+    /// Texts of a PNG, TIFF or EXR beside the pixels, same as ImageOptions::texts.
     std::vector<std::pair<std::string, std::string>> texts{};
-    int bits = 0; ///< per component in the file: 8 or 16 (PNG), 16 or 32 (EXR), 0 (others)
+    int bits = 0; ///< per component in the file: 8 or 16 (PNG, TIFF), 16 or 32 (EXR), 0 (others)
 };
 
-/// Reads a PNG, EXR, HDR or PFM image; the content decides which. Grey becomes RGB. Throws
+/// Reads a PNG, TIFF, EXR, HDR or PFM image; the content decides which. Grey becomes RGB. Throws
 /// BadInput for other formats and for malformed or excessively large images, and SystemRefused.
 Image read_image(const std::filesystem::path& path);
 Image read_image(InputFile& file);

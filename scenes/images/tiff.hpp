@@ -3,8 +3,10 @@
 #include "core/scene/film.hpp"
 #include "core/scene/layers.hpp"
 #include "scenes/images/image_options.hpp"
+#include "scenes/images/reader.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace raylane::scenes {
 
@@ -17,5 +19,18 @@ bool has_tiff();
 /// ImageDescription. There are no layers. Throws std::bad_alloc, and BadInput without libtiff.
 std::string tiff_of(const core::Film& film, const core::Layers* layers,
                     const ImageOptions& options);
+
+/// Returns true for the first bytes of a TIFF file.
+bool looks_like_tiff(std::string_view head);
+
+/// Reads a TIFF of 8 or 16 bits: RGB, or RGB and an alpha that is not multiplied, in strips; the
+/// first image of the file. The texts are those that tiff_of() writes. Throws MalformedImage, also
+/// for other forms of TIFF, and without libtiff; and std::bad_alloc.
+void read_tiff(const std::string& bytes, Image& image);
+
+/// Returns the number of the first tag that raylane never writes, such as "tag 34675", or an empty
+/// text. Such a tag, another orientation or a second image may change how a viewer shows the codes.
+/// `bytes`: a TIFF that read_tiff() accepts.
+std::string foreign_tag(std::string_view bytes);
 
 } // namespace raylane::scenes

@@ -20,10 +20,11 @@ const std::string& text_in(const std::string& image, const ImageTexts& texts,
                            const std::string& name) {
     for (const auto& [key, text] : texts)
         if (key == name) return text;
-    throw BadInput(image, "",
-                   "must be a PNG or EXR rendered by raylane, which names its scene and options, "
-                   "got one without " +
-                       name);
+    throw BadInput(
+        image, "",
+        "must be a PNG, TIFF or EXR rendered by raylane, which names its scene and options, "
+        "got one without " +
+            name);
 }
 
 std::string options_line(core::Settings settings, const simd::RenderOptions& options) {

@@ -19,7 +19,8 @@ namespace raylane::scenes {
 namespace {
 
 struct CompareArguments : OptionTable {
-    Option<std::string> a = {*this, "A", file_argument(), "First image, PNG, EXR, HDR or PFM."};
+    Option<std::string> a = {*this, "A", file_argument(),
+                             "First image, PNG, TIFF, EXR, HDR or PFM."};
     Option<std::string> b = {*this, "B", file_argument(), "Second image, of the same size."};
     Option<float> tolerance = {*this, "--tolerance",
                                number(0.0F, std::numeric_limits<float>::max(), "T").initially(0.0F),

@@ -3,6 +3,7 @@
 #include "scenes/images/exr.hpp"
 #include "scenes/images/png.hpp"
 #include "scenes/images/reader.hpp"
+#include "scenes/images/tiff.hpp"
 #include "scenes/tool/annotator.hpp"
 #include "scenes/tool/checkpoint/fingerprint.hpp"
 #include "scenes/tool/commands/command.hpp"
@@ -28,7 +29,7 @@ namespace {
 
 struct VerifyArguments : OptionTable {
     Option<std::string> image = {*this, "IMAGE", file_argument(),
-                                 "PNG or EXR rendered by raylane. It names its options."};
+                                 "PNG, TIFF or EXR rendered by raylane. It names its options."};
     Option<std::string> scene = {*this, "SCENE", file_argument(),
                                  "Scene that the image was rendered from."};
     Option<int> pixels = {*this, "--pixels", scenes::whole(1, 100'000'000).initially(1000),
@@ -85,12 +86,15 @@ Image whole_image(const std::string& name, const std::string& bytes) {
     if (image.linear_float) {
         InputFile again(name, bytes);
         static_cast<void>(read_own_exr(again));
-    } else if (const std::string chunk = foreign_chunk(bytes); !chunk.empty()) {
-        throw BadInput(image.name, "",
-                       "must have only chunks that raylane writes, because others may change its "
-                       "appearance, got " +
-                           printable(chunk));
+        return image;
     }
+    const bool is_tiff = looks_like_tiff(bytes);
+    const std::string foreign = is_tiff ? foreign_tag(bytes) : foreign_chunk(bytes);
+    if (!foreign.empty())
+        throw BadInput(image.name, "",
+                       std::string("must have only ") + (is_tiff ? "tags" : "chunks") +
+                           " that raylane writes, because others may change its appearance, got " +
+                           printable(foreign));
     return image;
 }
 

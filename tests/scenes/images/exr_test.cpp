@@ -214,7 +214,8 @@ TEST_CASE("a damaged EXR is bad input") {
         return tests::message_in<scenes::BadInput>(directory.path(),
                                                    [&] { scenes::read_image(path); });
     };
-    const std::string damaged = "a.exr: must be a PNG, EXR, HDR or PFM image, got a damaged EXR";
+    const std::string damaged =
+        "a.exr: must be a PNG, TIFF, EXR, HDR or PFM image, got a damaged EXR";
     CHECK(read(whole) == "no error");
     for (std::size_t size = 4; size + 1 < whole.size(); size += 7)
         CHECK(read(whole.substr(0, size)) == damaged);

@@ -261,9 +261,10 @@ TEST_CASE("a file that is not an image is bad input") {
     const auto error_of = [&](const std::string& content) {
         return error_of_reading(directory.write("a.png", content));
     };
-    const std::string damaged = "a.png: must be a PNG, EXR, HDR or PFM image, got a damaged ";
-    CHECK(error_of("") == "a.png: must be a PNG, EXR, HDR or PFM image, got another format");
-    CHECK(error_of("GIF89a") == "a.png: must be a PNG, EXR, HDR or PFM image, got another format");
+    const std::string damaged = "a.png: must be a PNG, TIFF, EXR, HDR or PFM image, got a damaged ";
+    CHECK(error_of("") == "a.png: must be a PNG, TIFF, EXR, HDR or PFM image, got another format");
+    CHECK(error_of("GIF89a") ==
+          "a.png: must be a PNG, TIFF, EXR, HDR or PFM image, got another format");
     CHECK(error_of("\x89PNG\r\n\x1A\n") == damaged + "PNG");
     CHECK(error_of("PFM\n1 1\n-1\nabcdabcdabcd") == damaged + "PFM");
     CHECK(error_of("PF\n1 one\n-1\nabcdabcdabcd") == damaged + "PFM");
@@ -292,7 +293,8 @@ TEST_CASE("a PNG with bytes behind its image or too few rows is damaged") {
     const auto error_of = [&](const std::string& content) {
         return error_of_reading(directory.write("a.png", content));
     };
-    const std::string damaged = "a.png: must be a PNG, EXR, HDR or PFM image, got a damaged PNG";
+    const std::string damaged =
+        "a.png: must be a PNG, TIFF, EXR, HDR or PFM image, got a damaged PNG";
     const std::string pixel = bytes("\x00\x10\x20\x30"); // a filter and three codes
     CHECK(error_of(png_of(1, 1, 8, pixel)) == "no error");
     CHECK(error_of(png_of(1, 1, 8, pixel) + "x") == damaged);

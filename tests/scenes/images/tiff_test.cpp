@@ -1,5 +1,8 @@
 #include "scenes/files/errors.hpp"
 #include "scenes/images/exr.hpp"
+#include "scenes/images/reader.hpp"
+#include "scenes/images/tiff.hpp"
+#include "tests/scenes/files/message_of.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/support/catch.hpp"
 
@@ -82,7 +85,66 @@ TEST_CASE("a TIFF has the codes of a PNG and the resolution") {
             }
             CHECK(wrong == 0);
             TIFFClose(tiff);
+            const scenes::Image again = scenes::read_image(directory.path() / "a.tiff");
+            CHECK(again.rgb.is_same(png.rgb));
+            CHECK(again.alpha.is_same(png.alpha));
+            CHECK(again.bits == bits);
+            CHECK(again.texts == options.texts);
         }
+}
+
+namespace {
+
+/// Writes a TIFF of 4 x 3 pixels, and returns its bytes.
+std::string tiff_with(const TemporaryDirectory& directory, std::uint32_t tag, int value,
+                      const char* mode = "w") {
+    const std::string name = (directory.path() / "other.tif").string();
+    TIFF* const tiff = TIFFOpen(name.c_str(), mode);
+    REQUIRE(tiff != nullptr);
+    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 4);
+    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 3);
+    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
+    TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
+    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+    TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+    TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 3);
+    if (tag != 0) TIFFSetField(tiff, tag, value);
+    std::vector<std::uint8_t> row(64, 100);
+    for (std::uint32_t y = 0; y < 3; ++y)
+        REQUIRE(TIFFWriteScanline(tiff, row.data(), y, 0) == 1);
+    TIFFClose(tiff);
+    return tests::content_of(name);
+}
+
+std::string error_of(const std::string& bytes) {
+    return tests::message_of<scenes::BadInput>([&] {
+        scenes::InputFile file("a.tif", bytes);
+        static_cast<void>(scenes::read_image(file));
+    });
+}
+
+} // namespace
+
+TEST_CASE("damaged and other TIFF images are refused") {
+    const TemporaryDirectory directory;
+    const std::string plain = tiff_with(directory, 0, 0);
+    scenes::InputFile file("a.tif", plain);
+    CHECK(scenes::read_image(file).rgb[5] == 100.0F / 255.0F);
+    const std::string damaged =
+        "a.tif: must be a PNG, TIFF, EXR, HDR or PFM image, got a damaged TIFF";
+    for (std::size_t size = 4; size < plain.size(); ++size)
+        CHECK(error_of(plain.substr(0, size)) == damaged);
+    CHECK(error_of(tiff_with(directory, TIFFTAG_BITSPERSAMPLE, 32)) ==
+          "a.tif: must be a TIFF of RGB, or of RGB and a separate alpha, with 8 or 16 bits, in "
+          "strips");
+    CHECK(scenes::looks_like_tiff(plain));
+    CHECK(scenes::foreign_tag(plain).empty());
+    CHECK(scenes::foreign_tag(tiff_with(directory, TIFFTAG_ORIENTATION, ORIENTATION_BOTRIGHT)) ==
+          "tag 274");
+    CHECK(scenes::foreign_tag(tiff_with(directory, TIFFTAG_MINSAMPLEVALUE, 5)) == "tag 280");
+    tiff_with(directory, 0, 0);
+    CHECK(scenes::foreign_tag(tiff_with(directory, 0, 0, "a")) == "a second image");
+    CHECK(scenes::foreign_tag(tiff_with(directory, 0, 0, "wb")) == "byte order MM");
 }
 
 #endif

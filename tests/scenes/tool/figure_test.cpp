@@ -90,6 +90,24 @@ TEST_CASE("looks, backgrounds and views are recorded") {
                        "scene\n");
 }
 
+TEST_CASE("a TIFF is verified and compared like a PNG") {
+    const Figures fixture;
+    const Outcome made = fixture.figure("a.tif", {"--size", "20x15", "--bits", "16"});
+    if (made.code != 0) {
+        CHECK(has(made.err, "libtiff-dev"));
+        return;
+    }
+    CHECK(fixture.verifies("a.tif"));
+    CHECK(fixture.figure("a.png", {"--size", "20x15", "--bits", "16"}).code == 0);
+    CHECK(fixture.run({"compare", "a.tif", "a.png"}).code == 0);
+    std::string bytes = content_of(fixture.path() / "a.tif");
+    const std::size_t options = bytes.find("--size 20x15");
+    REQUIRE(options != std::string::npos);
+    bytes.replace(options, 12, "--size 20x16");
+    fixture.write("b.tif", bytes);
+    CHECK(!fixture.verifies("b.tif"));
+}
+
 TEST_CASE("cuts and slabs are recorded") {
     const Figures fixture;
     const scenes::Image cut =

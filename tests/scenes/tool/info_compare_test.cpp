@@ -133,9 +133,9 @@ TEST_CASE("images that cannot be compared give an error of one line") {
         {"c.pfm", "must have integer codes as a.png has, got linear floats"},
         {"none.png", "no such file"},
         {"out", "must be a file, got a directory"},
-        {"cut.png", "must be a PNG, EXR, HDR or PFM image, got a damaged PNG"},
-        {"empty.png", "must be a PNG, EXR, HDR or PFM image, got another format"},
-        {"scene.json", "must be a PNG, EXR, HDR or PFM image, got another format"},
+        {"cut.png", "must be a PNG, TIFF, EXR, HDR or PFM image, got a damaged PNG"},
+        {"empty.png", "must be a PNG, TIFF, EXR, HDR or PFM image, got another format"},
+        {"scene.json", "must be a PNG, TIFF, EXR, HDR or PFM image, got another format"},
     };
     for (const auto& [file, message] : rows) {
         const Outcome outcome =

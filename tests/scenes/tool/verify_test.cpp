@@ -527,8 +527,9 @@ TEST_CASE("images without valid texts give an error of one line") {
         CHECK(outcome.err.find(with) != std::string::npos);
     };
     REQUIRE(fixture.render("a.pfm").code == 0);
-    refused("a.pfm", "a.pfm: must be a PNG or EXR rendered by raylane, which names its scene and "
-                     "options, got one without Comment");
+    refused("a.pfm",
+            "a.pfm: must be a PNG, TIFF or EXR rendered by raylane, which names its scene and "
+            "options, got one without Comment");
     refused("none.png", "none.png: no such file");
     const auto with_comment = [&](const std::string& comment) {
         scenes::OutputFile(fixture.path() / "b.png")
