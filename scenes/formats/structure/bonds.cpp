@@ -25,21 +25,21 @@ bool is_between_metals(const Structure& structure, const Bond& bond) {
 }
 
 /// Returns 1 for each element whose atoms form a metal, by the bonds of the first atoms.
+/// `near_others`: by element, the number of atoms that are no metals within reach of a metal.
 std::vector<char> metallic_elements(const Structure& structure, const std::vector<Bond>& bonds,
-                                    std::size_t count) {
-    std::vector<std::size_t> atoms(element_count), to_metals(element_count),
-        to_others(element_count);
+                                    std::size_t count,
+                                    const std::vector<std::size_t>& near_others) {
+    std::vector<std::size_t> atoms(element_count), to_metals(element_count);
     for (AtomIndex atom = 0; atom < count; ++atom)
         ++atoms[structure.element(atom)];
     for (const Bond& bond : bonds)
         for (const AtomIndex atom : {bond.a, bond.b})
-            if (atom < count)
-                ++(is_between_metals(structure, bond) ? to_metals
-                                                      : to_others)[structure.element(atom)];
+            if (atom < count && is_between_metals(structure, bond))
+                ++to_metals[structure.element(atom)];
     std::vector<char> is_metallic(element_count);
     for (Element z = 1; z < element_count; ++z)
         if (is_metal(z) && to_metals[z] > 0 && to_metals[z] >= atoms[z] &&
-            to_others[z] < 2 * atoms[z])
+            near_others[z] < 2 * atoms[z])
             is_metallic[z] = 1;
     return is_metallic;
 }
@@ -72,11 +72,13 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
             if (data_of(structure.element(atom)).covalent_radius > 0.0F) atoms.push_back(atom);
     // Atoms that would have too many bonds, and among them those of metals with each other.
     std::vector<char> is_crowded(structure.size()), is_dense_metal(structure.size());
+    std::vector<std::size_t> near_others(element_count);
     const AtomGrid grid(structure.positions, atoms, longest_bond(structure));
     grid.for_each([&](AtomIndex a, const AtomGrid::Near& others) {
         if (a >= count) return; // an image
         const Element of_a = structure.element(a);
         const std::size_t before = bonds.size();
+        const float reach_of_metal = is_metal(of_a) ? reach_of(of_a, of_a) : 0.0F;
         std::size_t looked_at = 0, neighbours = 0, metals = 0;
         const bool has_room = others.each([&](AtomIndex b) {
             if (b == a) return true;
@@ -84,6 +86,7 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
             const core::Vec3f apart = structure.positions[a] - structure.positions[b];
             const float squared = core::dot(apart, apart);
             const Element of_b = structure.element(b);
+            if (!is_metal(of_b) && squared <= reach_of_metal * reach_of_metal) ++near_others[of_a];
             const float most = reach_of(of_a, of_b);
             if (squared > most * most) return true;
             const bool is_too_near = squared < min_distance * min_distance;
@@ -109,7 +112,7 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
                (is_between_metals(structure, bond) &&
                 (is_dense_metal[a] != 0 || is_dense_metal[b] != 0));
     });
-    const std::vector<char> metallic = metallic_elements(structure, bonds, count);
+    const std::vector<char> metallic = metallic_elements(structure, bonds, count, near_others);
     remove_found([&](const Bond& bond) {
         return is_between_metals(structure, bond) && (metallic[structure.element(bond.a)] == 0 ||
                                                       metallic[structure.element(bond.b)] == 0);

@@ -277,6 +277,20 @@ TEST_CASE("a hull contains its points, and each of its edges belongs to two face
     }
 }
 
+TEST_CASE("ions of a salt are not bonded, even if their bonds to the others are not found") {
+    // Cs has Cl at 3.93 angstrom, above 2.44 + 1.02 + 0.4, and Cs at 5.56.
+    const std::string chloride =
+        cubic("5.56", "Cs 0 0 0\nSn 2.78 2.78 2.78\nCl 2.78 2.78 0\nCl 2.78 0 2.78\nCl 0 2.78 "
+                      "2.78\n");
+    const Drawn salt_of_cesium = drawn(chloride, [](Drawing& d) { d.style = Style::balls; });
+    CHECK(salt_of_cesium.balls() == "Cl6 Cs8 Sn1 ");
+    CHECK(salt_of_cesium.all<raylane::core::CappedCylinder>("bond of atom 1,").empty());
+    CHECK(salt_of_cesium.all<raylane::core::CappedCylinder>("bond of atom 2,").size() == 2 * 6);
+    const Drawn cesium = drawn(cubic("6.14", "Cs 0 0 0\nCs 3.07 3.07 3.07\n"),
+                               [](Drawing& d) { d.style = Style::balls; });
+    CHECK(cesium.all<raylane::core::CappedCylinder>("bond").size() == 8); // half diagonals
+}
+
 TEST_CASE("polyhedra are complete, also those of atoms on faces of the cell") {
     const auto show = [](const char* text) {
         return [=](Drawing& d) {
