@@ -1,6 +1,7 @@
 #include "scenes/formats/structure/hydrogen_bond_layer.hpp"
 
 #include "scenes/formats/structure/atom_grid.hpp"
+#include "scenes/formats/structure/bonds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,8 @@ class Search {
             neighbours_[bond.a].push_back(bond.b);
             neighbours_[bond.b].push_back(bond.a);
         }
+        for (AtomIndex atom = 0; atom < structure.size(); ++atom)
+            donors_.push_back(find_donor(atom));
     }
 
     std::vector<std::pair<AtomIndex, AtomIndex>> find() {
@@ -62,12 +65,16 @@ class Search {
     }
 
   private:
+    /// Returns true for atoms that may donate or accept. A file may bond an atom to any number of
+    /// others; those with more than max_bonds are left out, so that are_near() is quick.
     bool is_polar(AtomIndex atom) const {
         const Element z = structure_.element(atom);
-        return z == nitrogen || z == oxygen || z == fluorine;
+        return (z == nitrogen || z == oxygen || z == fluorine) &&
+               neighbours_[atom].size() <= max_bonds;
     }
     /// Returns the polar atom that a hydrogen atom is bonded to; otherwise the atom itself.
-    AtomIndex donor_of(AtomIndex atom) const {
+    AtomIndex donor_of(AtomIndex atom) const { return donors_[atom]; }
+    AtomIndex find_donor(AtomIndex atom) const {
         if (structure_.element(atom) != hydrogen) return atom;
         for (const AtomIndex other : neighbours_[atom])
             if (is_polar(other)) return other;
@@ -117,6 +124,7 @@ class Search {
 
     const Structure& structure_;
     std::vector<std::vector<AtomIndex>> neighbours_;
+    std::vector<AtomIndex> donors_;
 };
 
 } // namespace
@@ -141,8 +149,9 @@ std::vector<std::pair<Vec3d, Vec3d>> dashes_of(const Vec3d& from, const Vec3d& t
 void add_hydrogen_bonds(const DrawnAtoms& atoms, core::SceneBuilder& builder,
                         std::vector<AtomPair>* atoms_of_shape) {
     constexpr float radius = 0.045F;
-    const core::MaterialIndex material =
-        Palette(builder).of(0x4A90C8, [] { return std::string("hydrogen bond"); });
+    const core::MaterialIndex material = Palette(builder).of(0x4A90C8, [] {
+        return std::string("hydrogen bond");
+    });
     const Structure& all = atoms.all();
     for (const auto& [a, b] : find_hydrogen_bonds(all, atoms.bonds)) {
         const AtomPair pair = {atoms.original(a), atoms.original(b)};

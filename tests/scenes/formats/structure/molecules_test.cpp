@@ -259,6 +259,20 @@ TEST_CASE("hydrogen bonds need a distance and an angle") {
     CHECK(found({{"O", {0, 0, 0}}, {"O", {2.8F, 0, 0}}}) == Pairs{{0, 1}}); // water, once
 }
 
+TEST_CASE("atoms with more bonds than any sample has form no hydrogen bonds") {
+    // The search takes steps by the bonds of both atoms.
+    std::vector<std::pair<const char*, Vec3f>> atoms = {
+        {"O", {0, 0, 0}}, {"H", {0.96F, 0, 0}}, {"O", {2.9F, 0, 0}}};
+    for (int i = 0; i < 25; ++i)
+        atoms.push_back({"C", {50.0F + 5.0F * static_cast<float>(i), 0, 0}});
+    Structure structure = of_atoms(atoms);
+    CHECK(find_hydrogen_bonds(structure, {{0, 1, 1}}).size() == 1);
+    std::vector<Bond> bonds = {{0, 1, 1}};
+    for (AtomIndex i = 0; i < 25; ++i)
+        bonds.push_back({2, 3 + i, 1});
+    CHECK(find_hydrogen_bonds(structure, bonds).empty());
+}
+
 TEST_CASE("hydrogen bonds are dashed lines of visible atoms") {
     const std::string text = "4\n\nO 0 0 0\nH 0.96 0 0\nH -0.3 0.9 0\nO 2.9 0 0\n";
     const auto count = [&](const Drawing& drawing) {
