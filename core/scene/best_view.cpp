@@ -67,16 +67,20 @@ Vec3d positive(const Vec3d& direction) {
 } // namespace
 
 NamedView best_view(const Scene& scene) {
+    return best_view([&](const auto& visit) { for_each_center(scene, visit); });
+}
+
+NamedView best_view(const VisitPoints& for_each_point) {
     Vec3d mean(0.0);
     double count = 0.0;
-    for_each_center(scene, [&](const Vec3d& center) {
+    for_each_point([&](const Vec3d& center) {
         mean = mean + center;
         count += 1.0;
     });
     if (count == 0.0) return named_views().front();
     mean = (1.0 / count) * mean;
     Matrix moments{};
-    for_each_center(scene, [&](const Vec3d& center) {
+    for_each_point([&](const Vec3d& center) {
         const Vec3d from = center - mean;
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j)
@@ -88,7 +92,7 @@ NamedView best_view(const Scene& scene) {
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return moments[a][a] > moments[b][b]; });
     const Vec3d right = positive(axes[order[0]]), up = positive(axes[order[1]]);
-    return {"best", convert<float>(cross(up, right)), convert<float>(up)};
+    return {best_view_name, convert<float>(cross(up, right)), convert<float>(up)};
 }
 
 } // namespace raylane::core

@@ -1,5 +1,6 @@
 #include "scenes/formats/scene_file.hpp"
 
+#include "core/scene/best_view.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/built/built_file.hpp"
 #include "scenes/formats/format.hpp"
@@ -12,6 +13,28 @@
 namespace raylane::scenes {
 
 namespace {
+
+/// Returns a scene whose camera will have the best view once it is placed.
+core::Scene seen_best(core::Scene scene) {
+    core::AutoCamera auto_camera = scene.auto_camera();
+    const core::NamedView best = core::best_view(scene);
+    if (!auto_camera.fit_camera) auto_camera.fit_camera = core::fit_camera_of(scene.camera());
+    auto_camera.fit_camera->direction = best.direction;
+    auto_camera.fit_camera->up = best.up;
+    const auto own = static_cast<std::ptrdiff_t>(scene.own_light_count());
+    const core::View view = {
+        scene.camera(), scene.fog(), {scene.lights().begin() + own, scene.lights().end()}};
+    return std::move(scene).seen(auto_camera, view);
+}
+
+core::Scene read_other(InputFile& file, Format format, const LoadOptions& options) {
+    if (format == Format::built) return read_built(file, options.workers);
+    if (format == Format::pov) return read_pov(file, options.workers, options.on_remark);
+    if (format == Format::tachyon)
+        return read_tachyon(file, options.workers, options.on_remark, options.tachyon);
+    return format == Format::json ? read_json(file, options.workers, options.parameters)
+                                  : read_nff(file, options.workers, options.on_remark);
+}
 
 core::Scene read_format(InputFile& file, const LoadOptions& options) {
     file.on_read = options.on_read;
@@ -27,12 +50,10 @@ core::Scene read_format(InputFile& file, const LoadOptions& options) {
         throw BadInput(options.option_for_atoms, "",
                        "goes with a file of atoms, but " + printable(file.name(), 4096) +
                            " is a scene");
-    if (format == Format::built) return read_built(file, options.workers);
-    if (format == Format::pov) return read_pov(file, options.workers, options.on_remark);
-    if (format == Format::tachyon)
-        return read_tachyon(file, options.workers, options.on_remark, options.tachyon);
-    return format == Format::json ? read_json(file, options.workers, options.parameters)
-                                  : read_nff(file, options.workers, options.on_remark);
+    const std::optional<core::NamedView>& view = options.drawing.view;
+    core::Scene scene = read_other(file, format, options);
+    return view && view->name == core::best_view_name ? seen_best(std::move(scene))
+                                                      : std::move(scene);
 }
 
 core::Scene read_scene(InputFile& file, const LoadOptions& options) {

@@ -64,6 +64,27 @@ core::NamedView view_of_cell(const Cell& cell) {
     return {"", core::convert<float>(-to_camera), core::convert<float>(c)};
 }
 
+core::NamedView view_along_edge(const Cell& cell, std::string_view name) {
+    const auto edge = static_cast<std::size_t>(
+        std::find(edge_names.begin(), edge_names.end(), name) - edge_names.begin());
+    const auto direction = core::convert<float>(Vec3d(0.0) - unit(cell.edges[edge]));
+    const Vec3d& up = cell.edges[edge == 2 ? 1 : 2];
+    const double length = core::length(up);
+    const bool is_flat = !(core::length(core::cross(cell.edges[edge], up)) >
+                           1e-5 * length * core::length(cell.edges[edge]));
+    return {name, direction,
+            is_flat ? core::upright(direction) : core::convert<float>(1.0 / length * up)};
+}
+
+core::NamedView best_view_of_cell(const Cell& cell, const std::array<int, 3>& repeat) {
+    constexpr double equal = 1.001;
+    std::size_t shortest = 2;
+    const auto size = [&](std::size_t k) { return repeat[k] * core::length(cell.edges[k]); };
+    for (const std::size_t k : {1U, 0U})
+        if (size(k) * equal < size(shortest)) shortest = k;
+    return view_along_edge(cell, edge_names[shortest]);
+}
+
 void add_cell_edges(const DrawnAtoms& atoms, core::SceneBuilder& builder,
                     std::vector<AtomPair>* atoms_of_shape) {
     constexpr double thickness = 0.002; // radius, of the extent

@@ -1,6 +1,7 @@
 #include "scenes/formats/structure/drawing.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/scene/best_view.hpp"
 #include "core/shapes/checks.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/structure/atom_layer.hpp"
@@ -260,17 +261,40 @@ class SceneFromAtoms {
         if (is_unset(look.radius) && is_unset(look.scale)) look.scale.of_all = small_ball;
     }
 
-    /// Crystals have parallel projection, and a view that shows the edges of the cell.
+    /// Returns the view that the drawing names, or that of a crystal, in which the edges of the
+    /// cell are visible.
+    std::optional<core::NamedView> find_view(bool is_crystal) const {
+        const std::optional<core::NamedView>& view = drawing_.view;
+        if (!view) return is_crystal ? std::optional(view_of_cell(structure_.cell)) : std::nullopt;
+        if (view->direction != Vec3f(0.0F)) return view;
+        if (view->name != core::best_view_name) {
+            require_cell("--view", "along whose edge it looks");
+            const auto edge = static_cast<std::size_t>(view->name.front() - 'a');
+            if (structure_.cell.edges[edge] == Vec3d(0.0))
+                throw BadInput("--view", "",
+                               "must not be " + std::string(view->name) +
+                                   ": the cell has no length along it");
+            return view_along_edge(structure_.cell, view->name);
+        }
+        if (is_crystal) return best_view_of_cell(structure_.cell, drawing_.repeat);
+        return core::best_view([&](const auto& visit) {
+            atoms_.for_each([&](AtomIndex atom, const Vec3f& at) {
+                if (atoms_.representations[atom] != DrawnAtoms::hidden)
+                    visit(core::convert<double>(at));
+            });
+        });
+    }
+
+    /// Crystals have parallel projection.
     void find_camera() {
         camera_ = drawing_.fit_camera;
         const bool is_crystal = structure_.is_crystal && reciprocal_edges(structure_.cell);
-        std::optional<core::NamedView> view = drawing_.view;
-        if (is_crystal && !view) view = view_of_cell(structure_.cell);
+        scale_.view = drawing_.scale ? drawing_.scale->view : find_view(is_crystal);
         if (is_crystal && !drawing_.perspective)
             camera_.projection = core::Projection::orthographic;
-        if (view) {
-            camera_.direction = view->direction;
-            camera_.up = view->up;
+        if (scale_.view) {
+            camera_.direction = scale_.view->direction;
+            camera_.up = scale_.view->up;
         }
         atoms_.to_camera = -core::convert<double>(camera_.direction);
         atoms_.ellipsoids = drawing_.ellipsoids;

@@ -37,6 +37,7 @@ struct DrawingScale {
     void include(const DrawingScale& other);
 };
 
+    std::optional<core::NamedView> view = {}; ///< of the frame, if the drawing names one
 /// A representation, in the words of representation_of().
 struct ShowWords {
     std::string text;
@@ -68,13 +69,14 @@ struct Drawing {
     bool hydrogen_bonds = false; ///< dashed lines, see find_hydrogen_bonds()
     float probability = 0.5F;    ///< share of a displacement within its ellipsoid
     core::FitCamera fit_camera{};
-    std::optional<core::NamedView> view{}; ///< from where the camera will look; unset: as in
-                                           ///< `fit_camera`, and obliquely at crystals
-    bool perspective = false;              ///< of crystals, too
-    int width = 1200, height = 900;        ///< pixels of the image
-    float opacity = 1.0F;                  ///< of atoms and bonds, in (0, 1]
-    float depth_cue = 0.3F; ///< share of the background in the farthest atoms, in [0, 1);
-                            ///< unused if colours stand for a property
+    /// From where the camera will look; unset: as in `fit_camera`, and obliquely at crystals. A
+    /// view without a direction has the name of one that depends on the atoms: see later_views.
+    std::optional<core::NamedView> view{};
+    bool perspective = false;       ///< of crystals, too
+    int width = 1200, height = 900; ///< pixels of the image
+    float opacity = 1.0F;           ///< of atoms and bonds, in (0, 1]
+    float depth_cue = 0.3F;         ///< share of the background in the farthest atoms, in [0, 1);
+                                    ///< unused if colours stand for a property
     std::optional<DrawingScale> scale{}; ///< of another frame
     /// If there are any, only the atoms that they select are shown. Each replaces the ones before
     /// it for the atoms that it selects. Their unset words follow from the options above.

@@ -1,5 +1,6 @@
 #include "scenes/formats/structure/drawing_options.hpp"
 
+#include "core/scene/transfer.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/files/words.hpp"
@@ -119,10 +120,8 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
         {"ellipses", setter_of_ellipsoids(Ellipsoids::ellipses)},
         {"octants", setter_of_ellipsoids(Ellipsoids::octants)},
         {"probability", setter_of(&Drawing::probability, probability_of)},
-        {"view", setter_of(&Drawing::view,
-                           [](const std::string& option, const std::string& text) {
-                               return view_named(option, text);
-                           })},
+        {"view", setter_of(&Drawing::view, view_named)},
+        {"background", setter_of(&Drawing::background, background_of)},
         {"perspective", setter_of(&Drawing::perspective, on_or_off_of)},
         {"orthographic",
          [](Drawing& drawing, const std::string& option, const std::string& text) {
@@ -180,6 +179,15 @@ std::vector<std::pair<std::string_view, Finish>> named_finishes() {
             {"print", Finish::print}};
 }
 
+core::Color background_of(const std::string& option, const std::string& text) {
+    const std::optional<std::uint32_t> code = color_named(text);
+    if (!code)
+        throw BadInput(option, "",
+                       "must be a colour such as black or #204060, got \"" + printable(text) + '"' +
+                           suggestion(text, color_names()));
+    return core::color_from_srgb(*code);
+}
+
 std::optional<core::Vec3f> direction_in(const std::string& text) {
     const std::vector<std::string_view> parts = parts_of(text, ',');
     if (parts.size() != 3) return std::nullopt;
@@ -193,13 +201,10 @@ std::optional<core::Vec3f> direction_in(const std::string& text) {
     return direction;
 }
 
-core::NamedView view_named(const std::string& option, const std::string& text,
-                           std::string_view later) {
-    std::vector<std::string_view> names;
-    if (!later.empty()) {
-        names.push_back(later);
+core::NamedView view_named(const std::string& option, const std::string& text) {
+    std::vector<std::string_view> names(std::begin(later_views), std::end(later_views));
+    for (const std::string_view later : later_views)
         if (text == later) return {later, core::Vec3f(0.0F), core::Vec3f(0.0F)};
-    }
     for (const core::NamedView& view : core::named_views()) {
         names.push_back(view.name);
         if (text == view.name) return view;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/scene/best_view.hpp"
 #include "scenes/formats/structure/drawing.hpp"
 
 #include <optional>
@@ -30,9 +31,12 @@ std::vector<std::pair<std::string_view, Finish>> named_finishes();
 
 /// A direction such as "1,-1,-0.5"; nothing if it is malformed or 0.
 std::optional<core::Vec3f> direction_in(const std::string& text);
-/// The name of a view, or a direction to look in, such as "1,-1,-0.5". `later`: another name, of a
-/// view that depends on the scene, which is returned without directions; "" for none.
-core::NamedView view_named(const std::string& option, const std::string& text,
-                           std::string_view later = {});
+/// Names of views that depend on the contents: the best one, and those along the edges of a cell.
+inline constexpr std::string_view later_views[] = {core::best_view_name, "a", "b", "c"};
+/// The name of a view, or a direction to look in, such as "1,-1,-0.5". later_views are returned
+/// without directions.
+core::NamedView view_named(const std::string& option, const std::string& text);
+/// A colour such as "black" or "#204060".
+core::Color background_of(const std::string& option, const std::string& text);
 
 } // namespace raylane::scenes

@@ -1,8 +1,6 @@
 #include "scenes/tool/options/scene_options.hpp"
 
-#include "core/scene/best_view.hpp"
 #include "core/scene/field_of_view.hpp"
-#include "core/scene/transfer.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/formats/json/parameters.hpp"
 #include "scenes/formats/structure/colors.hpp"
@@ -95,12 +93,10 @@ core::AutoCamera ViewChange::auto_camera(const core::Scene& scene, core::Camera&
         camera = *fixed_camera;
         auto_camera.fit_camera.reset();
     }
-    if (way) {
-        const core::NamedView named =
-            way->name == core::best_view_name ? core::best_view(scene) : *way;
+    if (way && way->direction != core::Vec3f(0.0F)) { // others are found with the scene
         if (!auto_camera.fit_camera) auto_camera.fit_camera = core::fit_camera_of(camera);
-        auto_camera.fit_camera->direction = named.direction;
-        auto_camera.fit_camera->up = named.up;
+        auto_camera.fit_camera->direction = way->direction;
+        auto_camera.fit_camera->up = way->up;
     }
     if (up) {
         core::Vec3f& of_camera = auto_camera.fit_camera ? auto_camera.fit_camera->up : camera.up;
@@ -149,7 +145,7 @@ core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settin
 
 Values<core::NamedView> views() {
     return {"WAY", "", [](const std::string& option, const std::string& text) {
-                return view_named(option, text, core::best_view_name);
+                return view_named(option, text);
             }};
 }
 
@@ -167,12 +163,7 @@ Values<core::Camera> cameras() {
 Values<Background> backgrounds() {
     return {"COLOR", "", [](const std::string& option, const std::string& text) -> Background {
                 if (text == "none") return {};
-                const std::optional<std::uint32_t> code = color_named(text);
-                if (!code)
-                    throw BadInput(option, "",
-                                   "must be none or a colour such as black or #204060, got \"" +
-                                       printable(text) + '"' + suggestion(text, color_names()));
-                return {core::color_from_srgb(*code)};
+                return {background_of(option, text)};
             }};
 }
 
@@ -210,15 +201,16 @@ DrawingOptions DrawingArguments::given() const {
 LoadOptions SceneArguments::load_options() const {
     LoadOptions options;
     options.set_drawing(drawing.given());
-    if (view.view && view.view->name != core::best_view_name)
-        options.drawing.view = view.view.value();
+    options.drawing.view = view.view.value();
     options.drawing.perspective = view.perspective.is_given();
     if (view.background && view.background->color) {
         options.drawing.background = *view.background->color;
         if (options.option_for_atoms.empty()) options.option_for_atoms = view.background.name();
     }
-    if (drawing.slab && (view.camera || (view.view && view.view->name == core::best_view_name)))
-        throw BadInput("--slab", "", "goes without --camera and --view best");
+    if (options.option_for_atoms.empty() && view.view && view.view->name.size() == 1 &&
+        view.view->direction == core::Vec3f(0.0F)) // an edge of a cell
+        options.option_for_atoms = view.view.name();
+    if (drawing.slab && view.camera) throw BadInput("--slab", "", "goes without --camera");
     options.parameters = parameters.values().front();
     return options;
 }

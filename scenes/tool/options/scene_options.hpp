@@ -149,8 +149,10 @@ struct ViewArguments : OptionTable {
     Option<core::NamedView> view = {
         *this, "--view", views().otherwise(as_in_file, "front; crystals obliquely").recorded(),
         "Frame all bounded shapes from front, back, left, right, top, bottom, x, y, z or "
-        "corner, or looking in a direction such as 1,-1,-0.5. best has the largest extent across "
-        "and the least in depth."};
+        "corner, or looking in a direction such as 1,-1,-0.5. With a cell: a, b or c has this edge "
+        "towards the viewer, and c upward, or b for c. best has the largest extent across and the "
+        "least in depth; of a crystal, it is that of a, b and c with the shortest edge in depth, c "
+        "if all are equal."};
     Option<core::Camera> camera = {*this, "--camera",
                                    cameras().recorded().without({"--view", "--up"}),
                                    "Camera in JSON, as the key c of view prints it."};
@@ -263,7 +265,7 @@ struct DrawingArguments : OptionTable {
     Option<std::string> slab = {
         *this, "--slab", drawing_words("A B").of_words(2).recorded(),
         "Show only the part between two depths in angstrom, from the middle of the atoms towards "
-        "the viewer, such as -2 2. It goes with --view, except best."};
+        "the viewer, such as -2 2. It goes without --camera."};
     Flag cell = {*this, "--cell", flag().recorded(), "Show the edges of the unit cell."};
     Flag axes = {*this, "--axes", flag().recorded(),
                  "Show the directions of the cell's edges as arrows: a red, b green, c blue."};

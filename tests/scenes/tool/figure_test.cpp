@@ -108,13 +108,23 @@ TEST_CASE("a TIFF is verified and compared like a PNG") {
     CHECK(!fixture.verifies("b.tif"));
 }
 
+TEST_CASE("a view along an edge of a cell needs atoms and a cell") {
+    const Figures fixture;
+    CHECK(has(fixture.error({"--view", "a"}), "--view: must have a cell"));
+    CHECK(fixture.render("e.png", {"--view", "c"}).err ==
+          "raylane: --view: goes with a file of atoms, but scene.json is a scene\n");
+    CHECK(fixture.render("f.png", {"--view", "best", "--size", "4x3"}).code == 0);
+    CHECK(has(fixture.error({"--view", "bset"}), "did you mean \"best\"?"));
+}
+
 TEST_CASE("cuts and slabs are recorded") {
     const Figures fixture;
     const scenes::Image cut =
         fixture.drawn("a.png", {"--size", "40x30", "--cut", "z<0.2", "--slab", "-1", "0.1"});
     CHECK(fixture.verifies("a.png"));
     CHECK(!cut.rgb.is_same(fixture.drawn("b.png", {"--size", "40x30"}).rgb));
-    CHECK(has(fixture.error({"--slab", "-1:1", "--view", "best"}), "goes without"));
+    CHECK(fixture.figure("c.png", {"--size", "4x3", "--slab", "-1:1", "--view", "best"}).code == 0);
+    CHECK(fixture.verifies("c.png"));
 }
 
 TEST_CASE("annotations in a file leave the image as it is") {

@@ -4,6 +4,7 @@
 #include "scenes/formats/structure/cell_layer.hpp"
 #include "scenes/formats/structure/crystal.hpp"
 #include "scenes/formats/structure/displacement.hpp"
+#include "scenes/formats/structure/drawing_options.hpp"
 #include "scenes/formats/structure/ortep.hpp"
 #include "scenes/formats/structure/polyhedra_layer.hpp"
 #include "tests/scenes/files/message_of.hpp"
@@ -289,6 +290,44 @@ TEST_CASE("ions of a salt are not bonded, even if their bonds to the others are 
     const Drawn cesium = drawn(cubic("6.14", "Cs 0 0 0\nCs 3.07 3.07 3.07\n"),
                                [](Drawing& d) { d.style = Style::balls; });
     CHECK(cesium.all<raylane::core::CappedCylinder>("bond").size() == 8); // half diagonals
+}
+
+TEST_CASE("views along the edges of a cell have them towards the viewer") {
+    const std::string skew = "1\nLattice=\"5 0 0 -2 6 0 1 1 7\"\nNa 0 0 0\n";
+    const Vec3d edges[] = {Vec3d(5, 0, 0), Vec3d(-2, 6, 0), Vec3d(1, 1, 7)};
+    const auto view_of = [](const std::string& text, const std::string& name) {
+        return *drawn(text, [&](Drawing& d) { d.view = view_named("--view", name); })
+                    .scene.auto_camera()
+                    .fit_camera;
+    };
+    const auto is_along = [](const Vec3f& a, const Vec3d& b) {
+        const auto wide = raylane::core::convert<double>(a);
+        return raylane::core::length(raylane::core::cross(wide, b)) < 1e-5 &&
+               raylane::core::dot(wide, b) > 0.0;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto camera = view_of(skew, std::string(1, static_cast<char>('a' + k)));
+        CHECK(is_along(camera.direction, -edges[k]));
+        CHECK(is_along(camera.up, edges[k == 2 ? 1 : 2]));
+    }
+    // The best view is along the shortest edge, and along c if all are equal.
+    CHECK(is_along(view_of(skew, "best").direction, -edges[0]));
+    CHECK(is_along(view_of(salt, "best").direction, Vec3d(0, 0, -1)));
+    CHECK(is_along(view_of(salt, "best").up, Vec3d(0, 1, 0)));
+    CHECK(message_of<BadInput>([&] { view_of("1\n\nNa 0 0 0\n", "b"); }) ==
+          "--view: must have a cell along whose edge it looks, but a.xyz has none");
+    CHECK(message_of<BadInput>([&] {
+              view_of("1\nLattice=\"5 0 0 0 5 0 0 0 0\"\nNa 0 0 0\n", "c");
+          }) == "--view: must not be c: the cell has no length along it");
+}
+
+TEST_CASE("the best view of atoms has their largest extent across") {
+    const auto camera = drawn("4\n\nHe 0 0 0\nHe 0 0 9\nHe 0 4 0\nHe 0 4 9\n",
+                              [](Drawing& d) { d.view = view_named("--view", "best"); })
+                            .scene.auto_camera()
+                            .fit_camera;
+    CHECK(std::abs(std::abs(camera->direction.x) - 1.0F) < 1e-6F);
+    CHECK(std::abs(camera->up.y - 1.0F) < 1e-6F);
 }
 
 TEST_CASE("polyhedra are complete, also those of atoms on faces of the cell") {
