@@ -41,6 +41,7 @@ struct DrawnAtoms {
     const Structure& structure;
     std::vector<std::uint16_t> representations = {}; ///< of each atom: index, or `hidden`
     std::vector<char> shows_bonds = {};              ///< by representation
+    Finish finish = Finish::usual;
     Ellipsoids ellipsoids = Ellipsoids::none;
     double deviations = 0.0;              ///< length of ellipsoids' semi-axes.
     core::Vec3d to_camera{0.0};           ///< from the atoms

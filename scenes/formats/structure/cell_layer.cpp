@@ -90,7 +90,7 @@ void add_cell_edges(const DrawnAtoms& atoms, core::SceneBuilder& builder,
     constexpr double thickness = 0.002; // radius, of the extent
     CellShapes shapes(builder, atoms_of_shape);
     const core::MaterialIndex dark =
-        Palette(builder).of(0x505050, [] { return std::string("cell"); });
+        Palette(builder, 1.0F, atoms.finish).of(0x505050, [] { return std::string("cell"); });
     const Cell& cell = atoms.structure.cell;
     std::array<Vec3f, 3> edges;
     int flat = 0; // bits of edges without a length, as of a slab or a chain
@@ -143,7 +143,7 @@ void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, core::Scen
                      (upward.least - upward_axes.least) * up +
                      0.5 * (depth.least + depth.most) * forward;
     CellShapes shapes(builder, atoms_of_shape);
-    Palette palette(builder);
+    Palette palette(builder, 1.0F, atoms.finish);
     constexpr std::uint32_t colors[] = {0xC83C32, 0x3C9646, 0x325AC8};
     const auto thin = static_cast<float>(0.04 * length), wide = static_cast<float>(0.1 * length);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -321,6 +321,7 @@ class SceneFromAtoms {
         atoms_.originals = std::move(all.originals);
         atoms_.bonds = std::move(all.bonds);
         return true;
+        atoms_.finish = drawing_.finish;
     }
 
     /// Returns 1 for the atoms in the middle of polyhedra.
@@ -515,9 +516,10 @@ class SceneFromAtoms {
         });
         builder_.settings.quality = is_filled ? 40.0F : 46.0F;
         builder_.background = drawing_.background;
-        const bool is_print = drawing_.finish == Finish::print;
+        const bool is_print = drawing_.finish == Finish::print,
+                   is_flat = drawing_.finish == Finish::flat;
         if (is_print) builder_.settings.quality = 50.0F;
-        if (is_print || drawing_.finish == Finish::flat)
+        if (is_print || is_flat)
             builder_.settings.outline = {.width = is_print ? 1.5F : 2.0F,
                                          .color = core::Color(is_print ? 0.02F : 0.0F),
                                          .creases = is_print ? 180.0F : 60.0F};
@@ -525,9 +527,10 @@ class SceneFromAtoms {
         const bool shows_values =
             std::any_of(layers_.begin(), layers_.end(),
                         [](const auto& layer) { return layer.colors.property() != nullptr; });
-        builder_.auto_camera = {.fit_camera = camera_,
-                                .lights = true,
-                                .depth_cue = shows_values || is_print ? 0.0F : drawing_.depth_cue};
+        builder_.auto_camera = {
+            .fit_camera = camera_,
+            .lights = true,
+            .depth_cue = shows_values || is_print || is_flat ? 0.0F : drawing_.depth_cue};
     }
 
     const Structure& structure_;

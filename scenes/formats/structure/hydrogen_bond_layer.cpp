@@ -149,7 +149,7 @@ std::vector<std::pair<Vec3d, Vec3d>> dashes_of(const Vec3d& from, const Vec3d& t
 void add_hydrogen_bonds(const DrawnAtoms& atoms, core::SceneBuilder& builder,
                         std::vector<AtomPair>* atoms_of_shape) {
     constexpr float radius = 0.045F;
-    const core::MaterialIndex material = Palette(builder).of(0x4A90C8, [] {
+    const core::MaterialIndex material = Palette(builder, 1.0F, atoms.finish).of(0x4A90C8, [] {
         return std::string("hydrogen bond");
     });
     const Structure& all = atoms.all();

@@ -88,7 +88,7 @@ std::vector<std::vector<std::size_t>> hull_of(std::span<const Vec3d> points) {
 std::size_t add_polyhedra_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
                                 core::SceneBuilder& builder,
                                 std::vector<AtomPair>* atoms_of_shape) {
-    Palette faces(builder, *layer.look.opacity), edges(builder);
+    Palette faces(builder, *layer.look.opacity, atoms.finish), edges(builder, 1.0F, atoms.finish);
     const Structure& all = atoms.all();
     std::vector<std::vector<Vec3d>> neighbours(atoms.complete);
     for (const Bond& bond : atoms.bonds)

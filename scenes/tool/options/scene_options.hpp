@@ -257,7 +257,8 @@ struct DrawingArguments : OptionTable {
     Option<Finish> look = {
         *this, "--look", choice(named_finishes()).otherwise("a soft highlight").recorded(),
         "Look of surfaces: matte has no highlight, glossy a sharp one, flat has plain colours and "
-        "outlines; print is matte with thin outlines, without depth cue, at 50 dB."};
+        "outlines, without depth cue; print is matte with thin outlines, without depth cue, at 50 "
+        "dB."};
     ListOption<std::string> cut = {
         *this, "--cut", drawing_words("PLANE").recorded(),
         "Show only the part on one side of a plane, with closed faces: z<1.5, x>0, or A,B,C,D for "

@@ -330,6 +330,17 @@ TEST_CASE("the best view of atoms has their largest extent across") {
     CHECK(std::abs(camera->up.y - 1.0F) < 1e-6F);
 }
 
+TEST_CASE("flat looks have no shading, of polyhedra, cells and arrows either") {
+    const Drawn flat = drawn(perovskite, [](Drawing& d) {
+        d.finish = Finish::flat;
+        d.polyhedra = {"Ti"};
+        d.show_cell = d.show_axes = true;
+    });
+    for (const auto& material : flat.scene.materials())
+        CHECK(material.diffuse == 0.0F);
+    CHECK(flat.scene.auto_camera().depth_cue == 0.0F);
+}
+
 TEST_CASE("polyhedra are complete, also those of atoms on faces of the cell") {
     const auto show = [](const char* text) {
         return [=](Drawing& d) {
