@@ -113,8 +113,8 @@ void add_cell_edges(const DrawnAtoms& atoms, core::SceneBuilder& builder,
     }
 }
 
-void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, core::SceneBuilder& builder,
-              std::vector<AtomPair>* atoms_of_shape) {
+void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, double radius,
+              core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape) {
     constexpr double share = 0.13; // length, of the extent
     const Vec3d forward = unit(core::convert<double>(camera.direction));
     const Vec3d right = unit(core::cross(forward, core::convert<double>(camera.up)));
@@ -139,7 +139,7 @@ void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, core::Scen
         across_axes.include(core::dot(axes[k], right));
         upward_axes.include(core::dot(axes[k], up));
     }
-    const Vec3d at = (across.least - 0.35 * length - across_axes.most) * right +
+    const Vec3d at = (across.least - radius - 0.35 * length - across_axes.most) * right +
                      (upward.least - upward_axes.least) * up +
                      0.5 * (depth.least + depth.most) * forward;
     CellShapes shapes(builder, atoms_of_shape);

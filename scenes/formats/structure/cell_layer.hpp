@@ -28,9 +28,9 @@ void add_cell_edges(const DrawnAtoms& atoms, core::SceneBuilder& builder,
                     std::vector<AtomPair>* atoms_of_shape);
 
 /// Adds arrows along the edges a (red), b (green) and c (blue) of the cell, at the lower left of
-/// all atoms as the camera sees them. Their materials have the names "axis a", "axis b" and "axis
-/// c".
-void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, core::SceneBuilder& builder,
-              std::vector<AtomPair>* atoms_of_shape);
+/// all atoms as the camera sees them; `radius`: that of the largest atom. Their materials have the
+/// names "axis a", "axis b" and "axis c".
+void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, double radius,
+              core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape);
 
 } // namespace raylane::scenes

@@ -103,7 +103,7 @@ class SceneFromAtoms {
         }
         if (drawing_.show_axes) {
             require_cell("--axes", "whose edges they show");
-            add_axes(atoms_, camera_, builder_, atoms_of_shape_);
+            add_axes(atoms_, camera_, largest_radius(), builder_, atoms_of_shape_);
         }
         set_up_view();
         return scale_;
@@ -131,6 +131,14 @@ class SceneFromAtoms {
         return std::any_of(layers_.begin(), layers_.end(), [&](const AtomLayer& layer) {
             return layer.representation == representation && !shows_chains(*layer.look.style);
         });
+    double largest_radius() const {
+        float largest = 0.0F;
+        for (const AtomLayer& layer : layers_)
+            for (AtomIndex i = 0; i < structure_.size(); ++i)
+                if (layer.has(atoms_, i)) largest = std::max(largest, layer.radii.of(i));
+        return static_cast<double>(largest);
+    }
+
     }
 
     /// Reports a remark on the file, once for all frames.

@@ -398,7 +398,8 @@ TEST_CASE("axes are arrows along the edges, left of the atoms") {
               Approx(raylane::core::length(arrow.axis)));
         for (const auto& ball : crystal.all<raylane::core::Sphere>("atom"))
             CHECK(raylane::core::dot(right, arrow.base + arrow.axis) <
-                  raylane::core::dot(right, ball.center));
+                  raylane::core::dot(right, ball.center) -
+                      ball.radius * raylane::core::length(right));
     }
     CHECK(directions == 7);
     CHECK(message_of<BadInput>([] {
