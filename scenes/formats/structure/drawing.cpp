@@ -97,6 +97,9 @@ class SceneFromAtoms {
         report_unmatched();
         builder_.reserve(count_ * atoms_.images.size());
         add_layers();
+        if (!atoms_.cuts.empty() && builder_.shape_count() == 0)
+            throw BadInput(drawing_.cuts.empty() ? "--slab" : "--cut", "",
+                           "must leave a part of the atoms, got none");
         if (drawing_.show_cell) {
             require_cell("--cell", "to show");
             add_cell_edges(atoms_, builder_, atoms_of_shape_);

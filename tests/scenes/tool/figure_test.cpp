@@ -125,6 +125,7 @@ TEST_CASE("cuts and slabs are recorded") {
     CHECK(!cut.rgb.is_same(fixture.drawn("b.png", {"--size", "40x30"}).rgb));
     CHECK(fixture.figure("c.png", {"--size", "4x3", "--slab", "-1:1", "--view", "best"}).code == 0);
     CHECK(fixture.verifies("c.png"));
+    CHECK(has(fixture.error({"--cut", "z<-9"}), "--cut: must leave a part of the atoms"));
 }
 
 TEST_CASE("annotations in a file leave the image as it is") {

@@ -1,6 +1,7 @@
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/scene_file.hpp"
 #include "simd/stream/stream_tracer.hpp"
+#include "tests/scenes/files/message_of.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace raylane;
@@ -70,6 +71,16 @@ TEST_CASE("a slab is across the view from the middle of the atoms") {
     const core::Scene scene = parse_scene("a.xyz", atoms, options);
     CHECK(height_at(scene, 0.0, 0.0) == 2.0); // touches the slab from below
     CHECK(height_at(scene, 0.0, 6.0) == 2.5);
+}
+
+TEST_CASE("cuts that leave nothing are refused by their names") {
+    CHECK(tests::message_of<BadInput>([] { cut({"z<-3"}); }) ==
+          "--cut: must leave a part of the atoms, got none");
+    LoadOptions options;
+    options.drawing.slab = {{50.0, 60.0}};
+    options.drawing.show_cell = false;
+    CHECK(tests::message_of<BadInput>([&] { parse_scene("a.xyz", atoms, options); }) ==
+          "--slab: must leave a part of the atoms, got none");
 }
 
 TEST_CASE("a malformed cut is refused") {
