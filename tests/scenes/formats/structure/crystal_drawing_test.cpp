@@ -1,3 +1,4 @@
+#include "core/reference/search.hpp"
 #include "core/scene/transfer.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/scene_file.hpp"
@@ -7,7 +8,9 @@
 #include "scenes/formats/structure/drawing_options.hpp"
 #include "scenes/formats/structure/ortep.hpp"
 #include "scenes/formats/structure/polyhedra_layer.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/files/message_of.hpp"
+#include "tests/scenes/formats/structure/frames.hpp"
 #include "tests/scenes/formats/structure/structures.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random.hpp"
@@ -339,6 +342,41 @@ TEST_CASE("flat looks have no shading, of polyhedra, cells and arrows either") {
     for (const auto& material : flat.scene.materials())
         CHECK(material.diffuse == 0.0F);
     CHECK(flat.scene.auto_camera().depth_cue == 0.0F);
+}
+
+TEST_CASE("the edges of the cell are visible in the examples of the pages") {
+    if (!has_gemmi()) return;
+    const auto share_of_edges = [](const std::string& name, const auto& change) {
+        Legend legend;
+        LoadOptions options;
+        options.legend = &legend;
+        options.drawing.show_cell = true;
+        change(options.drawing);
+        const auto scene = load_scene(RAYLANE_SOURCE_DIR "/scenes/" + name, options);
+        const raylane::core::FitCamera camera = *scene.auto_camera().fit_camera;
+        const Vec3d back =
+            -raylane::core::normalized(raylane::core::convert<double>(camera.direction));
+        raylane::core::Searcher<double> searcher(scene, raylane::core::Search::hierarchy);
+        int all = 0, visible = 0;
+        const Cell& cell = legend.structure.cell;
+        for (std::size_t k = 0; k < 3; ++k)
+            for (int corner = 0; corner < 4; ++corner)
+                for (double share = 0.025; share < 1.0; share += 0.05) {
+                    Vec3d at = share * cell.edges[k];
+                    if ((corner & 1) != 0) at = at + cell.edges[(k + 1) % 3];
+                    if ((corner & 2) != 0) at = at + cell.edges[(k + 2) % 3];
+                    const auto hit = searcher.nearest({at + 100.0 * back, -back}, {},
+                                                      [](const auto&) { return true; });
+                    ++all;
+                    visible += legend.atoms_of_shape[hit.hit.shape] == no_atoms ? 1 : 0;
+                }
+        return static_cast<double>(visible) / all;
+    };
+    CHECK(share_of_edges("perovskite.cif", [](Drawing& d) { d.polyhedra = {"Ti"}; }) > 0.5);
+    CHECK(share_of_edges("salt.cif", [](Drawing& d) {
+              d.style = Style::spheres;
+              d.scale_radii = "0.4";
+          }) > 0.25);
 }
 
 TEST_CASE("polyhedra are complete, also those of atoms on faces of the cell") {
