@@ -2,6 +2,7 @@
 
 #include "core/scene/field_of_view.hpp"
 #include "core/scene/transfer.hpp"
+#include "scenes/annotation/atom_visibility.hpp"
 #include "scenes/annotation/projector.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/structure/colors.hpp"
@@ -12,7 +13,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -91,13 +94,28 @@ std::string text_of_atom(std::string text, const Structure& structure, AtomIndex
     return text;
 }
 
+bool has_field(const std::string& text, std::initializer_list<const char*> fields) {
+    return std::any_of(fields.begin(), fields.end(),
+                       [&](const char* field) { return text.find(field) != std::string::npos; });
+}
+
+/// Returns a name as an id of XML, without blanks.
+std::string id_of(const std::string& name) {
+    std::string id = name;
+    for (char& c : id) {
+        const bool is_ascii = static_cast<unsigned char>(c) < 0x80;
+        if (is_ascii && !is_letter(c) && !(c >= '0' && c <= '9') && c != '_') c = '-';
+    }
+    return id;
+}
+
 /// Composes the sheet of an image.
 class Composer {
   public:
     Composer(const Annotations& annotations, const Legend& legend, const AnnotatedView& view,
              const OnRemark& on_remark)
         : annotations_(annotations), legend_(legend), view_(view), on_remark_(on_remark),
-          projector_(view.camera, view.width, view.height),
+          projector_(view.camera, view.width, view.height), visibility_(legend, view),
           size_(annotations.font_size > 0.0 ? annotations.font_size : view.height / 32.0) {
         const core::Color& color = view.background;
         const bool is_dark = 0.2126F * color.x + 0.7152F * color.y + 0.0722F * color.z < 0.18F;
@@ -109,6 +127,7 @@ class Composer {
     }
 
     Sheet compose() {
+        check_size();
         for (std::size_t i = 0; i < annotations_.distances.size(); ++i)
             add_distance(i);
         for (std::size_t i = 0; i < annotations_.labels.size(); ++i)
@@ -116,13 +135,37 @@ class Composer {
         if (annotations_.legend) add_legend();
         if (annotations_.axes) add_axes();
         if (annotations_.scale_bar) add_scale_bar();
-        for (auto message = unmatched_.begin(); message != unmatched_.end(); ++message)
-            if (on_remark_ && std::find(unmatched_.begin(), message, *message) == message)
+        for (auto message = remarks_.begin(); message != remarks_.end(); ++message)
+            if (on_remark_ && std::find(remarks_.begin(), message, *message) == message)
                 on_remark_(*message);
         return std::move(sheet_);
     }
 
   private:
+    /// Reports texts that are too small to read, or too large for the image.
+    void check_size() {
+        constexpr double least = 5.0; // pixels
+        const bool is_small = size_ < least;
+        if (!is_small && size_ <= 0.2 * view_.height) return;
+        char height[32];
+        std::snprintf(height, sizeof height, "%.3g", size_);
+        remarks_.push_back("--font-size: texts are " + std::string(height) +
+                           " pixels high in an image of " + std::to_string(view_.width) + " x " +
+                           std::to_string(view_.height) + ": " +
+                           (is_small ? "too small to read" : "too large for it"));
+    }
+
+    /// Adds a group with an id that no other group has.
+    void add_group(MarkGroup group) {
+        const std::string name = id_of(group.name);
+        group.name = name;
+        for (int number = 2; std::any_of(sheet_.groups.begin(), sheet_.groups.end(),
+                                         [&](const auto& of) { return of.name == group.name; });
+             ++number)
+            group.name = name + "-" + std::to_string(number);
+        sheet_.groups.push_back(std::move(group));
+    }
+
     SheetText text(const Point& at, const std::string& words, Anchor anchor) const {
         return {at, size_, printable(words, 4096), anchor, ink_, paper_};
     }
@@ -130,7 +173,9 @@ class Composer {
 
     std::vector<AtomIndex> selected(const std::string& option, const std::string& select) {
         const Structure& structure = legend_.structure;
-        const std::vector<char> chosen = select_atoms(structure, select, unmatched_, option);
+        if (structure.size() == 0)
+            throw BadInput(option, "", "goes with a file of atoms, not with a scene");
+        const std::vector<char> chosen = select_atoms(structure, select, remarks_, option);
         std::vector<AtomIndex> atoms;
         for (AtomIndex atom = 0; atom < chosen.size(); ++atom)
             if (chosen[atom] != 0) atoms.push_back(atom);
@@ -140,9 +185,8 @@ class Composer {
                                std::to_string(structure.size()) + " atoms");
         return atoms;
     }
-    Vec3d place_of(AtomIndex atom) const {
-        return core::convert<double>(legend_.structure.positions[atom]);
-    }
+    /// Returns the place of an atom's first copy.
+    Vec3d place_of(AtomIndex atom) const { return visibility_.places_of(atom).front(); }
     Vec3d middle_of(const std::vector<AtomIndex>& atoms) const {
         Vec3d sum(0.0);
         for (const AtomIndex atom : atoms)
@@ -150,30 +194,97 @@ class Composer {
         return 1.0 / static_cast<double>(atoms.size()) * sum;
     }
 
-    void add_label(MarkGroup& group, const Vec3d& place, std::string words) const {
-        if (const auto at = projector_.point_of(place))
-            group.marks.emplace_back(
-                text({at->x, at->y + rise * size_}, std::move(words), Anchor::middle));
+    bool is_in_image(const Point& point) const {
+        return point.x >= 0.0 && point.x <= view_.width && point.y >= 0.0 &&
+               point.y <= view_.height;
+    }
+
+    /// Adds a label, or counts it among those left out.
+    void add_label(MarkGroup& group, const Vec3d& place, std::string words, bool is_visible) {
+        ++labels_;
+        const auto at = projector_.point_of(place);
+        if (!is_visible || !at || !is_in_image(*at)) return;
+        ++labels_shown_;
+        group.marks.emplace_back(
+            text({at->x, at->y + rise * size_}, std::move(words), Anchor::middle));
     }
 
     void add_labels(std::size_t number) {
         const LabelWords& words = annotations_.labels[number];
         const std::vector<AtomIndex> atoms = selected("--label", words.select);
         MarkGroup group{"label-" + std::to_string(number + 1), {}};
-        if (words.text.find('{') == std::string::npos)
-            add_label(group, middle_of(atoms), words.text);
+        labels_ = labels_shown_ = 0;
+        if (has_field(words.text, {"{element}", "{name}", "{index}"}))
+            add_labels_of_atoms(group, atoms, words.text);
+        else if (words.text.find('{') != std::string::npos)
+            add_labels_of_residues(group, atoms, words.text);
         else
-            for (const AtomIndex atom : atoms)
-                add_label(group, place_of(atom), text_of_atom(words.text, legend_.structure, atom));
-        sheet_.groups.push_back(std::move(group));
+            add_label(group, place_of_all(atoms), words.text, true);
+        if (labels_shown_ < labels_)
+            remarks_.push_back("--label \"" + printable(words.select) +
+                               "\": " + std::to_string(labels_ - labels_shown_) + " of " +
+                               std::to_string(labels_) +
+                               " labels are left out, as other atoms hide their places, or as "
+                               "these are outside of the image");
+        add_group(std::move(group));
+    }
+
+    /// Returns the middle of atoms, or of a single atom the first copy that is not hidden.
+    Vec3d place_of_all(const std::vector<AtomIndex>& atoms) {
+        if (atoms.size() == 1)
+            for (const Vec3d& place : visibility_.places_of(atoms[0]))
+                if (visibility_.is_visible(atoms, place)) return place;
+        return middle_of(atoms);
+    }
+
+    void add_labels_of_atoms(MarkGroup& group, const std::vector<AtomIndex>& atoms,
+                             const std::string& words) {
+        for (const AtomIndex atom : atoms)
+            for (const Vec3d& place : visibility_.places_of(atom))
+                add_label(group, place, text_of_atom(words, legend_.structure, atom),
+                          visibility_.is_visible({atom}, place));
+    }
+
+    /// Adds a label to each residue, or to each chain if the words do not name residues.
+    void add_labels_of_residues(MarkGroup& group, const std::vector<AtomIndex>& atoms,
+                                const std::string& words) {
+        const Structure& structure = legend_.structure;
+        if (structure.residues.empty())
+            throw BadInput("--label", "",
+                           "must have {element}, {name} or {index} here, got \"" +
+                               printable(words) + "\": the atoms have no residues");
+        const bool names_residues = has_field(words, {"{resn}", "{resi}"});
+        std::map<std::uint32_t, std::vector<AtomIndex>> parts;
+        for (const AtomIndex atom : atoms) {
+            const std::uint32_t residue = structure.residues[atom];
+            parts[names_residues ? residue : structure.of_residue[residue].chain].push_back(atom);
+        }
+        for (const auto& part : parts) {
+            const std::vector<AtomIndex>& members = part.second;
+            const auto alpha = std::find_if(members.begin(), members.end(), [&](AtomIndex atom) {
+                return names_residues && !structure.names.empty() &&
+                       structure.names[atom] == "CA" && structure.element(atom) == 6;
+            });
+            const Vec3d place = alpha != members.end() ? place_of(*alpha) : middle_of(members);
+            add_label(group, place, text_of_atom(words, structure, members.front()),
+                      !names_residues || visibility_.is_visible(members, place));
+        }
     }
 
     void add_distance(std::size_t number) {
         const DistanceWords& words = annotations_.distances[number];
         const Vec3d a = middle_of(selected("--distance", words.from));
-        const Vec3d b = middle_of(selected("--distance", words.to));
+        const std::vector<AtomIndex> others = selected("--distance", words.to);
+        Vec3d b = middle_of(others);
+        if (others.size() == 1)
+            for (const Vec3d& place : visibility_.places_of(others[0]))
+                if (core::length(place - a) < core::length(b - a)) b = place;
         const auto from = projector_.point_of(a), to = projector_.point_of(b);
-        if (!from || !to) return;
+        if (!from || !to || !(is_in_image(*from) || is_in_image(*to))) {
+            remarks_.push_back("--distance \"" + printable(words.from + ": " + words.to) +
+                               "\" is left out, as it is outside of the image");
+            return;
+        }
         MarkGroup group{"distance-" + std::to_string(number + 1), {}};
         const double width = 0.11 * size_, dash = 0.35 * size_;
         group.marks.emplace_back(SheetLine{*from, *to, 2.2 * width, 0.0, paper_});
@@ -188,7 +299,7 @@ class Composer {
                                        middle.y + 0.8 * size_ * aside.y + rise * size_},
                                       decimal_text(core::length(b - a), 2) + " \u00c5",
                                       Anchor::middle));
-        sheet_.groups.push_back(std::move(group));
+        add_group(std::move(group));
     }
 
     void add_legend() {
@@ -201,6 +312,8 @@ class Composer {
         if (sheet_.groups.size() == before)
             throw BadInput("--legend", "",
                            "must have colours of elements, chains or numbers to explain");
+        if (!annotations_.legend_title.empty() && ramps_ == 0)
+            remarks_.push_back("--legend-title is ignored, because no colour stands for a number");
     }
 
     /// Adds names with their colours, in the upper left corner.
@@ -219,7 +332,7 @@ class Composer {
                 text({at.x + 0.8 * size_, y + rise * size_}, name, Anchor::start));
             y += 1.3 * size_;
         }
-        sheet_.groups.push_back(std::move(group));
+        add_group(std::move(group));
     }
 
     /// Adds a bar of colours along the right side, with its labels on the left.
@@ -249,7 +362,7 @@ class Composer {
                                           decimal_text(tick, decimals), Anchor::end));
         }
         ++ramps_;
-        sheet_.groups.push_back(std::move(group));
+        add_group(std::move(group));
     }
 
     /// Adds an arrow of a length from a point, and its name.
@@ -278,7 +391,7 @@ class Composer {
         }
     }
 
-    /// Adds the directions of axes in the lower left corner, the nearest one on top.
+    /// Adds the directions of axes in a lower corner, the nearest one on top.
     void add_axes() {
         struct Axis {
             Vec3d direction;
@@ -303,43 +416,65 @@ class Composer {
         const double length = 2.6 * size_;
         // The arrows keep off the margins, wherever they point.
         Point low = {0.0, 0.0};
+        double high = 0.0;
         for (const Axis& axis : axes) {
             low.x = std::min(low.x, core::dot(axis.direction, projector_.right()));
             low.y = std::min(low.y, core::dot(axis.direction, projector_.up()));
+            high = std::max(high, core::dot(axis.direction, projector_.right()));
         }
-        const Point from = {margin() + 0.9 * size_ - length * low.x,
-                            view_.height - margin() - 0.9 * size_ + length * low.y};
+        Point from = {margin() + 0.9 * size_ - length * low.x,
+                      view_.height - margin() - 0.9 * size_ + length * low.y};
+        if (annotations_.axes_on_right) { // above a scale bar
+            from.x = view_.width - margin() - 0.9 * size_ - length * high;
+            if (annotations_.scale_bar) from.y -= 2.2 * size_;
+        }
         MarkGroup group{"axes", {}};
         for (const Axis& axis : axes)
             add_arrow(group, from,
                       {length * core::dot(axis.direction, projector_.right()),
                        -length * core::dot(axis.direction, projector_.up())},
                       axis.color, axis.name);
-        sheet_.groups.push_back(std::move(group));
+        add_group(std::move(group));
+    }
+
+    /// Throws BadInput for a bar that is wider than the image, or too short to be seen. `most`: a
+    /// quarter of the image.
+    void require_scale_bar(double pixels, double length, double most) const {
+        constexpr double least = 3.0; // pixels
+        if (pixels >= least && pixels <= view_.width - margin()) return;
+        char text[128];
+        std::snprintf(text, sizeof text,
+                      "must be auto or in the image, which is %.3g%s wide, got %.6g", 4.0 * most,
+                      legend_.structure.size() != 0 ? " angstrom" : "", length);
+        throw BadInput("--scale-bar", "", text);
     }
 
     /// Adds a bar with its length in the lower right corner.
     void add_scale_bar() {
         const double scale = projector_.pixels_per_length(); // at the point looked at
         const double most = 0.25 * view_.width / scale;
-        const double length =
-            *annotations_.scale_bar > 0.0 ? *annotations_.scale_bar : round_below(most);
+        const bool is_auto = *annotations_.scale_bar == 0.0;
+        const double length = is_auto ? round_below(most) : *annotations_.scale_bar;
         const double pixels = length * scale;
+        if (!is_auto) require_scale_bar(pixels, length, most);
         const double right = view_.width - margin(), y = view_.height - margin();
         MarkGroup group{"scale-bar", {}};
         group.marks.emplace_back(
             SheetLine{{right - pixels, y}, {right, y}, 0.25 * size_, 0.0, ink_});
-        const bool is_long = length >= 100.0; // angstrom
+        const bool has_unit = legend_.structure.size() != 0; // of atoms
+        const bool is_long = has_unit && length >= 100.0;    // angstrom
         const double shown = is_long ? 0.1 * length : length;
         char digits[32];
         std::snprintf(digits, sizeof digits, "%.6g", shown);
         group.marks.emplace_back(text({right - 0.5 * pixels, y - 0.5 * size_},
-                                      std::string(digits) + (is_long ? " nm" : " \u00c5"),
+                                      digits + std::string(is_long    ? " nm"
+                                                           : has_unit ? " \u00c5"
+                                                                      : ""),
                                       Anchor::middle));
-        sheet_.groups.push_back(std::move(group));
-        if (view_.camera.projection == core::Projection::perspective && on_remark_)
-            on_remark_("--scale-bar holds at the depth of the point that the camera looks at; "
-                       "--orthographic makes it hold everywhere");
+        add_group(std::move(group));
+        if (view_.camera.projection == core::Projection::perspective)
+            remarks_.push_back("--scale-bar holds at the depth of the point that the camera looks "
+                               "at; --orthographic makes it hold everywhere");
     }
 
     const Annotations& annotations_;
@@ -347,10 +482,12 @@ class Composer {
     const AnnotatedView& view_;
     const OnRemark& on_remark_;
     Projector projector_;
+    AtomVisibility visibility_;
     double size_; // of the font
     std::uint32_t ink_ = 0x111111, paper_ = 0xFFFFFF;
     int ramps_ = 0;
-    std::vector<std::string> unmatched_;
+    std::size_t labels_ = 0, labels_shown_ = 0; // of one option
+    std::vector<std::string> remarks_;
     Sheet sheet_;
 };
 

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <memory>
 #include <pango/pangocairo.h>
+#include <sstream>
+#include <string>
 
 /// A module of the program that renders sheets by cairo and pango, which shapes texts by HarfBuzz.
 namespace {
@@ -13,6 +15,8 @@ struct Release {
     void operator()(cairo_t* context) const { cairo_destroy(context); }
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
     void operator()(PangoLayout* layout) const { g_object_unref(layout); }
+    void operator()(PangoContext* context) const { g_object_unref(context); }
+    void operator()(PangoFont* font) const { g_object_unref(font); }
     void operator()(PangoFontDescription* font) const { pango_font_description_free(font); }
 };
 template <class T>
@@ -105,6 +109,28 @@ class SheetRenderer {
 };
 
 } // namespace
+
+extern "C" __attribute__((visibility("default"))) const char*
+raylane_replaced_font(const char* name) {
+    static std::string family; // of the last call
+    const Owner<PangoFontDescription> wanted(pango_font_description_from_string(name));
+    const char* const families = pango_font_description_get_family(wanted.get());
+    if (families == nullptr) return nullptr;
+    const Owner<PangoContext> context(
+        pango_font_map_create_context(pango_cairo_font_map_get_default()));
+    const Owner<PangoFont> font(pango_context_load_font(context.get(), wanted.get()));
+    if (font.get() == nullptr) return "no font";
+    const Owner<PangoFontDescription> used(pango_font_describe(font.get()));
+    family = pango_font_description_get_family(used.get());
+    std::istringstream list(families);
+    for (std::string one; std::getline(list, one, ',');) {
+        one.erase(0, one.find_first_not_of(' '));
+        for (const char* const known : {"sans", "sans-serif", "serif", "monospace", "mono",
+                                        "cursive", "fantasy", "system-ui", family.c_str()})
+            if (g_ascii_strcasecmp(one.c_str(), known) == 0) return nullptr;
+    }
+    return family.c_str();
+}
 
 extern "C" __attribute__((visibility("default"))) const char*
 raylane_render_sheet(const raylane::scenes::Sheet* sheet, std::uint32_t* pixels) {

@@ -81,6 +81,11 @@ std::string svg_of(const Sheet& sheet);
 extern "C" using RenderSheet = const char * (*)(const Sheet* sheet, std::uint32_t* pixels);
 inline constexpr const char* render_sheet_name = "raylane_render_sheet";
 
+/// The function of the module that finds fonts. Returns the family that texts have in place of the
+/// named one, or null if that is installed or generic, such as "serif".
+extern "C" using ReplacedFont = const char * (*)(const char* name);
+inline constexpr const char* replaced_font_name = "raylane_replaced_font";
+
 /// Puts such pixels over a film, which shows this part of them. Blends the
 /// codes of an image with this transfer function.
 void blend(const std::vector<std::uint32_t>& pixels, int width, const core::Region& part,

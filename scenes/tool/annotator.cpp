@@ -35,10 +35,17 @@ Annotator::Annotator(const RenderArguments& arguments)
         return;
     }
     if (!file_.empty()) return;
-    render_ = reinterpret_cast<RenderSheet>(
-        function_of({"raylane-annotation.so", render_sheet_name,
-                     "pango at build time (Debian: libpango1.0-dev)"},
-                    first_option_ + ": cannot write on an image; --annotations FILE.svg can"));
+    const auto function = [&](const char* name) {
+        return function_of(
+            {"raylane-annotation.so", name, "pango at build time (Debian: libpango1.0-dev)"},
+            first_option_ + ": cannot write on an image; --annotations FILE.svg can");
+    };
+    render_ = reinterpret_cast<RenderSheet>(function(render_sheet_name));
+    if (!arguments.annotation.font) return;
+    const auto replaced = reinterpret_cast<ReplacedFont>(function(replaced_font_name));
+    if (const char* const used = replaced(annotations_.font.c_str()))
+        remark_ = "--font: \"" + printable(annotations_.font) +
+                  "\" is not installed: texts are in " + printable(used);
 }
 
 void Annotator::require_single() const {
@@ -57,9 +64,11 @@ void Annotator::compose(const core::Scene& scene, const core::Settings& settings
                        "must be at most " + std::to_string(most) +
                            " pixels on each side with annotations, unless --annotations puts them "
                            "into a file");
+    if (!remark_.empty() && on_remark) on_remark(remark_);
     const core::Color background = settings.alpha ? core::Color(1.0F) : scene.background();
-    sheet_ = sheet_of(annotations_, legend_,
-                      {scene.camera(), settings.width, settings.height, background}, on_remark);
+    sheet_ =
+        sheet_of(annotations_, legend_,
+                 {scene.camera(), settings.width, settings.height, background, &scene}, on_remark);
 }
 
 void Annotator::cover(core::Film& film, const core::Region& part, core::Transfer transfer) const {

@@ -41,6 +41,7 @@ class Annotator {
     Annotations annotations_;
     std::string file_; ///< empty: none
     std::string first_option_;
+    std::string remark_; ///< on the font
     bool wants_legend_;
     RenderSheet render_ = nullptr;
     Legend legend_;

@@ -307,7 +307,7 @@ void SharedSolids::add_to(core::SceneBuilder& builder, std::span<const CutPlane>
         if (one.solid.parts.size() == 1) one.solid = core::Solid(one.solid.parts[0]);
         one.solid.material = material;
         one.solid = cut_by(std::move(one.solid), cuts);
-        one.atoms.insert(one.atoms.end(), cuts.size(), one.atoms.front());
+        one.atoms.insert(one.atoms.end(), cuts.size(), no_atoms); // faces of several atoms
         add(one);
     }
     solids_.clear();

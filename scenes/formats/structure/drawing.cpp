@@ -100,6 +100,7 @@ class SceneFromAtoms {
         if (!atoms_.cuts.empty() && builder_.shape_count() == 0)
             throw BadInput(drawing_.cuts.empty() ? "--slab" : "--cut", "",
                            "must leave a part of the atoms, got none");
+        find_places();
         if (drawing_.show_cell) {
             require_cell("--cell", "to show");
             add_cell_edges(atoms_, builder_, atoms_of_shape_);
@@ -130,10 +131,6 @@ class SceneFromAtoms {
         if (drawing_.hydrogen_bonds) add_hydrogen_bonds(atoms_, builder_, atoms_of_shape_);
     }
 
-    bool shows_atoms(std::size_t representation) const {
-        return std::any_of(layers_.begin(), layers_.end(), [&](const AtomLayer& layer) {
-            return layer.representation == representation && !shows_chains(*layer.look.style);
-        });
     double largest_radius() const {
         float largest = 0.0F;
         for (const AtomLayer& layer : layers_)
@@ -142,6 +139,21 @@ class SceneFromAtoms {
         return static_cast<double>(largest);
     }
 
+    bool shows_atoms(std::size_t representation) const {
+        return std::any_of(layers_.begin(), layers_.end(), [&](const AtomLayer& layer) {
+            return layer.representation == representation && !shows_chains(*layer.look.style);
+        });
+    }
+
+    /// Finds the places of the copies, unless the atoms are where the file has them.
+    void find_places() {
+        const bool are_in_file = atoms_.originals.empty() && atoms_.images.size() == 1;
+        if (atoms_of_shape_ == nullptr || are_in_file) return;
+        atoms_.for_each([&](AtomIndex atom, const Vec3f& at) {
+            scale_.places.push_back({atom, at});
+        });
+        std::stable_sort(scale_.places.begin(), scale_.places.end(),
+                         [](const auto& a, const auto& b) { return a.atom < b.atom; });
     }
 
     /// Reports a remark on the file, once for all frames.
@@ -309,6 +321,7 @@ class SceneFromAtoms {
         }
         atoms_.to_camera = -core::convert<double>(camera_.direction);
         atoms_.ellipsoids = drawing_.ellipsoids;
+        atoms_.finish = drawing_.finish;
         atoms_.deviations = deviations_of(static_cast<double>(drawing_.probability));
     }
 
@@ -332,7 +345,6 @@ class SceneFromAtoms {
         atoms_.originals = std::move(all.originals);
         atoms_.bonds = std::move(all.bonds);
         return true;
-        atoms_.finish = drawing_.finish;
     }
 
     /// Returns 1 for the atoms in the middle of polyhedra.

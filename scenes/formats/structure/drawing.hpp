@@ -26,18 +26,27 @@ struct ColorKey {
     std::vector<std::pair<std::string, std::uint32_t>> entries{}; ///< names and sRGB colours
 };
 
+/// The place of a copy of an atom.
+struct AtomPlace {
+    AtomIndex atom;
+    core::Vec3f at;
+};
+
 /// Properties of a structure as a whole. Several frames should share those of one frame.
 struct DrawingScale {
     float usual_radius = 1.5F;                ///< of atoms of unknown elements
     std::vector<Style> styles = {};           ///< of the looks that leave it open
     std::map<std::string, ColorRange> ranges; ///< of the properties that colours stand for
+    std::optional<core::NamedView> view = {}; ///< of the frame, if the drawing names one
     std::vector<ColorKey> keys = {};          ///< of this frame's colours, each once
+    /// All copies of this frame's atoms, by ascending atom, in the first cell first; empty: the
+    /// atoms are where the file has them. Kept if the atoms of shapes are.
+    std::vector<AtomPlace> places = {};
 
     /// Widens the ranges to those of another frame.
     void include(const DrawingScale& other);
 };
 
-    std::optional<core::NamedView> view = {}; ///< of the frame, if the drawing names one
 /// A representation, in the words of representation_of().
 struct ShowWords {
     std::string text;

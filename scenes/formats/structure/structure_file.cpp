@@ -1,5 +1,6 @@
 #include "scenes/formats/structure/structure_file.hpp"
 
+#include "core/scene/transfer.hpp"
 #include "scenes/files/errors.hpp"
 
 namespace raylane::scenes {
@@ -90,6 +91,29 @@ core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
     });
 }
 
+namespace {
+
+/// Removes names whose colours no shape has: planes may have cut all atoms of an element away, and
+/// a cartoon shows no ligands.
+void keep_shown(std::vector<ColorKey>& keys, const core::Scene& scene) {
+    std::vector<char> is_used(scene.materials().size());
+    for (core::ShapeId id = 0; id < scene.shape_count(); ++id)
+        is_used[scene.material_index_of(id)] = 1;
+    const auto is_shown = [&](const core::Color& color) {
+        for (std::size_t i = 0; i < is_used.size(); ++i)
+            if (is_used[i] != 0 && scene.materials()[i].pattern.colors[0] == color) return true;
+        return false;
+    };
+    for (ColorKey& key : keys)
+        std::erase_if(key.entries, [&](const auto& entry) {
+            return !is_shown(core::color_from_srgb(entry.second));
+        });
+    std::erase_if(keys,
+                  [](const ColorKey& key) { return key.property.empty() && key.entries.empty(); });
+}
+
+} // namespace
+
 core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& options,
                            const Drawing& drawing, core::Workers* workers, Legend* legend) {
     core::SceneBuilder builder;
@@ -109,11 +133,14 @@ core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& 
                                       keeps_atoms ? &atoms : nullptr, options.on_remark);
             if (legend != nullptr) legend->colors = std::move(drawn.keys);
             if (keeps_atoms) {
+                legend->places = std::move(drawn.places);
                 legend->structure = std::move(structure);
                 legend->atoms_of_shape = std::move(atoms);
             }
         } // frees the structure before the hierarchy takes memory
-        return std::move(builder).build();
+        core::Scene scene = std::move(builder).build();
+        if (legend != nullptr) keep_shown(legend->colors, scene);
+        return scene;
     });
 }
 

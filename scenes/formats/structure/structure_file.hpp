@@ -14,8 +14,9 @@ namespace raylane::scenes {
 struct Legend {
     Structure structure;
     std::vector<AtomPair> atoms_of_shape; ///< by shape id; empty: not from a file of atoms
-    std::vector<ColorKey> colors{};
-    bool wants_atoms = true; ///< false: only the colours are kept
+    std::vector<ColorKey> colors{};       ///< of shapes in the scene
+    std::vector<AtomPlace> places{};      ///< as in DrawingScale
+    bool wants_atoms = true;              ///< false: only the colours are kept
 
     /// Returns "atom 12, CA of ALA 25 in chain A (C)" and the like; empty if the shape is not an
     /// atom's.

@@ -181,6 +181,7 @@ Annotations RenderArguments::annotations() const {
     result.legend_title = annotation.legend_title.value_or("");
     result.scale_bar = annotation.scale_bar.value();
     result.axes = annotation.axes.value();
+    result.axes_on_right = scene_arguments.drawing.axes.is_given();
     result.labels = *annotation.label;
     result.distances = *annotation.distance;
     result.font = annotation.font.value_or(result.font);

@@ -110,25 +110,32 @@ struct AnnotationArguments : OptionTable {
     Option<std::string> legend_title = {*this, "--legend-title",
                                         word("TEXT").recorded().otherwise("the name of the number"),
                                         "Text above the bar of colours."};
-    Option<double> scale_bar = {*this, "--scale-bar", bar_lengths().recorded(),
-                                "Bar of this length in angstrom; auto: of a round length."};
+    Option<double> scale_bar = {
+        *this, "--scale-bar", bar_lengths().recorded(),
+        "Bar of this length in angstrom, within the image; auto: of a round "
+        "length. Scenes that are not of atoms have no unit."};
     Option<Axes> axes = {*this, "--triad",
                          choice<Axes>({{"xyz", Axes::of_space}, {"abc", Axes::of_cell}}).recorded(),
-                         "Arrows along the axes of space or of the cell."};
+                         "Arrows along the axes of space or of the cell: on the left, or on the "
+                         "right beside the arrows of --axes."};
     ListOption<LabelWords> label = {
         *this, "--label", label_texts().recorded(),
-        "Label at the middle of atoms, as \"SELECTION: TEXT\". With {element}, {name}, {resn}, "
-        "{resi}, {chain} or {index} in the text, each atom has a label."};
+        "Label at the middle of atoms, as \"SELECTION: TEXT\". With {element}, {name} or {index} "
+        "in "
+        "the text, each copy of each atom has a label; with {resn} or {resi}, each residue; with "
+        "{chain}, each chain. Labels with fields are left out where other atoms hide them."};
     ListOption<DistanceWords> distance = {
         *this, "--distance", distance_texts().recorded(),
         "Dashed line with the distance between the middles of two selections, as \"SELECTION: "
         "SELECTION\"."};
     Option<std::string> font = {*this, "--font", word("NAME").recorded().otherwise("sans-serif"),
-                                "Font of texts."};
+                                "Font of texts. A remark names another one if this is not "
+                                "installed."};
     Option<float> font_size = {
         *this, "--font-size",
         number(1.0F, 1000.0F, "POINTS").recorded().otherwise("1/32 of the image's height"),
-        "Size of texts in points, at the resolution of --dpi, or of 300 pixels per inch."};
+        "Size of texts in points, at the resolution of --dpi, or of 300 pixels per inch. A "
+        "remark tells if they are too small or too large for the image."};
     Option<std::string> annotations = {
         *this, "--annotations", file_name(),
         "Write the annotations as an SVG of the image's size, and the image without them."};

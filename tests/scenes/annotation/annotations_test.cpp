@@ -4,8 +4,10 @@
 #include "scenes/annotation/projector.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/scene_file.hpp"
+#include "tests/scenes/files/message_of.hpp"
 #include "tests/support/catch.hpp"
 
+#include <functional>
 #include <random>
 
 using namespace raylane;
@@ -21,17 +23,47 @@ struct Drawn {
     Legend legend;
 };
 
-Drawn drawn(const std::string& color) {
+Drawn drawn_of(const std::string& name, const std::string& text,
+               const std::function<void(Drawing&)>& change = {}) {
     Legend legend;
     LoadOptions options;
     options.legend = &legend;
-    options.drawing.color = color;
-    core::Scene scene = parse_scene("a.xyz", atoms, options);
-    return {std::move(scene), std::move(legend)};
+    if (change) change(options.drawing);
+    core::Scene scene = parse_scene(name, text, options);
+    const core::AutoCamera camera = scene.auto_camera();
+    const core::View view = core::staged(scene, camera, scene.settings());
+    return {std::move(scene).seen(camera, view), std::move(legend)};
+}
+
+Drawn drawn(const std::string& color) {
+    return drawn_of("a.xyz", atoms, [&](Drawing& d) { d.color = color; });
 }
 
 AnnotatedView view_of(const Drawn& of) {
     return {of.scene.camera(), 800, 600, of.scene.background()};
+}
+
+/// Returns the texts of the labels, one behind the other, and sets the remarks.
+std::string labels_of(const Drawn& of, const std::string& label,
+                      std::vector<std::string>& remarks) {
+    AnnotatedView view = view_of(of);
+    view.scene = &of.scene;
+    Annotations annotations;
+    annotations.labels = {label_words_of("--label", label)};
+    remarks.clear();
+    const Sheet sheet = sheet_of(annotations, of.legend, view,
+                                 [&](const std::string& remark) { remarks.push_back(remark); });
+    std::string texts;
+    for (const Mark& mark : sheet.groups.at(0).marks)
+        texts += std::get<SheetText>(mark).text + " ";
+    return texts;
+}
+
+std::vector<std::string> remarks_of(const Annotations& annotations, const Drawn& of) {
+    std::vector<std::string> remarks;
+    sheet_of(annotations, of.legend, view_of(of),
+             [&](const std::string& remark) { remarks.push_back(remark); });
+    return remarks;
 }
 
 std::string svg(const Annotations& annotations, const Drawn& of) {
@@ -88,6 +120,150 @@ TEST_CASE("a legend of elements has those that are shown") {
     CHECK(text.find(">C</text>") < text.find(">H</text>"));
     CHECK(text.find(">H</text>") < text.find(">O</text>"));
     CHECK_THROWS_AS(svg({.legend = true}, drawn("orange")), BadInput);
+}
+
+TEST_CASE("a legend has no element of which planes left nothing") {
+    const Drawn of = drawn_of("a.xyz", atoms, [](Drawing& d) {
+        d.style = Style::spheres;
+        d.cuts = {cut_plane_of("--cut", "x<1.4")}; // O is at 3, with a radius of 1.52
+    });
+    const std::string text = svg({.legend = true}, of);
+    CHECK(has(text, ">C</text>"));
+    CHECK(!has(text, ">O</text>"));
+}
+
+TEST_CASE("no two groups of an SVG have the same id") {
+    std::string renamed = atoms;
+    renamed.replace(renamed.find("charge"), 6, "colors");
+    const Drawn of = drawn_of("a.xyz", renamed, [](Drawing& d) {
+        d.show = {{"element C: balls element"}, {"not element C: balls colors"}};
+    });
+    const std::string text = svg({.legend = true}, of);
+    CHECK(has(text, "id=\"legend-colors\""));
+    CHECK(has(text, "id=\"legend-colors-2\""));
+    CHECK(text.find("id=\"legend-colors\"") == text.rfind("id=\"legend-colors\""));
+}
+
+TEST_CASE("each copy of an atom has a label, unless other atoms hide it") {
+    const std::string salt = "2\nLattice=\"4 0 0 0 4 0 0 0 4\"\nCs 0 0 0\nCl 2 2 2\n";
+    const Drawn of = drawn_of("a.xyz", salt, [](Drawing& d) {
+        d.style = Style::spheres;
+        d.radius = "0.5";
+        d.view = core::NamedView{"", {-1.0F, -0.3F, -0.2F}, {0.0F, 0.0F, 1.0F}};
+    });
+    std::vector<std::string> remarks;
+    CHECK(labels_of(of, "element Cs: {element}", remarks) == "Cs Cs Cs Cs Cs Cs Cs Cs ");
+    CHECK(remarks.empty());
+    // From the front, four are behind the others.
+    const Drawn front = drawn_of("a.xyz", salt, [](Drawing& d) {
+        d.style = Style::spheres;
+        d.radius = "0.5";
+        d.view = core::NamedView{"", {0.0F, 0.0F, -1.0F}, {0.0F, 1.0F, 0.0F}};
+    });
+    CHECK(labels_of(front, "element Cs: {element}{index}", remarks) == "Cs1 Cs1 Cs1 Cs1 ");
+    REQUIRE(remarks.size() == 1);
+    CHECK(remarks[0] == "--label \"element Cs\": 4 of 8 labels are left out, as other atoms hide "
+                        "their places, or as these are outside of the image");
+    CHECK(labels_of(front, "element Cs: salt", remarks) == "salt "); // no field: one label
+    CHECK(remarks.empty());
+    // Behind the polyhedron of another atom, and in its own.
+    const Drawn inside = drawn_of(
+        "a.xyz", "7\n\nTi 0 0 0\nO 2 0 0\nO -2 0 0\nO 0 2 0\nO 0 -2 0\nO 0 0 2\nO 0.1 0.1 -2\n",
+        [](Drawing& d) {
+            d.style = Style::spheres;
+            d.radius = "0.1";
+            d.polyhedra = {"Ti"};
+            d.view = core::NamedView{"", {0.3F, 0.2F, -1.0F}, {0.0F, 1.0F, 0.0F}};
+        });
+    CHECK(labels_of(inside, "all: {element}{index}", remarks) == "Ti1 O2 O3 O4 O5 O6 ");
+}
+
+TEST_CASE("each residue and each chain has one label") {
+    const std::string peptide = "two residues\n 4\n"
+                                "    1ALA      N    1   0.000   0.000   0.000\n"
+                                "    1ALA     CA    2   0.146   0.000   0.000\n"
+                                "    2HOH     OW    3   0.600   0.000   0.000\n"
+                                "    2HOH    HW1    4   0.600   0.200   0.000\n"
+                                "   1.0 1.0 1.0\n";
+    const Drawn of = drawn_of("a.gro", peptide);
+    std::vector<std::string> remarks;
+    CHECK(labels_of(of, "all: {resn} {resi}", remarks) == "ALA 1 HOH 2 ");
+    Annotations annotations;
+    annotations.labels = {label_words_of("--label", "all: {resn}")};
+    const Sheet sheet = sheet_of(annotations, of.legend, view_of(of), {});
+    const Projector projector(of.scene.camera(), 800, 600);
+    const auto alpha = projector.point_of(core::Vec3d(1.46, 0.0, 0.0));
+    const auto middle = projector.point_of(core::Vec3d(6.0, 1.0, 0.0));
+    CHECK(std::abs(std::get<SheetText>(sheet.groups[0].marks.at(0)).at.x - alpha->x) < 1e-3);
+    CHECK(std::abs(std::get<SheetText>(sheet.groups[0].marks.at(1)).at.x - middle->x) < 1e-3);
+    CHECK(labels_of(of, "all: chain{chain}", remarks) == "chain ");
+    CHECK(tests::message_of<BadInput>([&] {
+              labels_of(drawn("element"), "all: {resn}", remarks);
+          }) == "--label: must have {element}, {name} or {index} here, got \"{resn}\": the atoms "
+                "have no residues");
+    CHECK(labels_of(of, "all: {name} {resn}", remarks) == "N ALA CA ALA OW HOH HW1 HOH ");
+}
+
+TEST_CASE("a distance in a crystal goes to the nearest copy") {
+    const Drawn of =
+        drawn_of("a.xyz", "2\nLattice=\"6 0 0 0 6 0 0 0 6\" pbc=\"T T T\"\nCs 0 0 0\nCl 5 0 0\n");
+    Annotations annotations;
+    annotations.distances = {distance_words_of("--distance", "index 2: index 1")};
+    CHECK(has(svg(annotations, of), ">1.00 \u00c5</text>"));
+}
+
+TEST_CASE("annotations that have no effect or no room are reported or refused") {
+    const Drawn of = drawn("element");
+    const auto remark = [&](const Annotations& annotations) {
+        const std::vector<std::string> remarks = remarks_of(annotations, of);
+        return remarks.empty() ? "" : remarks[0];
+    };
+    CHECK(remark({.legend = true}).empty());
+    CHECK(remark({.legend = true, .legend_title = "Charge"}) ==
+          "--legend-title is ignored, because no colour stands for a number");
+    CHECK(remark({.legend = true, .font_size = 400.0}) ==
+          "--font-size: texts are 400 pixels high in an image of 800 x 600: too large for it");
+    CHECK(remark({.legend = true, .font_size = 2.5}) ==
+          "--font-size: texts are 2.5 pixels high in an image of 800 x 600: too small to read");
+    for (const double length : {1e-3, 1e3})
+        CHECK(has(tests::message_of<BadInput>([&] { svg({.scale_bar = length}, of); }),
+                  "--scale-bar: must be auto or in the image, which is"));
+    CHECK(remark({.labels = {{"index 1", "a"}}}).empty());
+    Annotations aside;
+    aside.labels = {{"index 1", "a"}};
+    core::Camera camera = of.scene.camera();
+    camera.at = camera.from + core::Vec3f(1.0F, 0.0F, 0.0F);
+    std::vector<std::string> remarks;
+    sheet_of(aside, of.legend, {camera, 800, 600, core::Color(1.0F)},
+             [&](const std::string& text) { remarks.push_back(text); });
+    REQUIRE(remarks.size() == 1);
+    CHECK(has(remarks[0], "1 of 1 labels are left out"));
+}
+
+TEST_CASE("a scene that is not of atoms has lengths without a unit, and no labels") {
+    const Drawn of =
+        drawn_of("a.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "lights": [],)"
+                           R"("materials": {"a": {}}, "objects": [{"type": "sphere",)"
+                           R"("center": [0, 0, 0], "radius": 1, "material": "a"}]})");
+    Annotations bar{.scale_bar = 0.5};
+    CHECK(has(svg(bar, of), ">0.5</text>"));
+    CHECK(!has(svg(bar, of), "\u00c5"));
+    CHECK(tests::message_of<BadInput>([&] {
+              svg({.labels = {{"all", "a"}}}, of);
+          }) == "--label: goes with a file of atoms, not with a scene");
+}
+
+TEST_CASE("axes are on the right if arrows of the cell are on the left") {
+    const Drawn of = drawn("element");
+    for (const bool on_right : {false, true}) {
+        const Sheet sheet = sheet_of({.axes = Axes::of_space, .axes_on_right = on_right}, of.legend,
+                                     view_of(of), {});
+        for (const Mark& mark : sheet.groups.at(0).marks)
+            if (const auto* const text = std::get_if<SheetText>(&mark)) {
+                CHECK((text->at.x > 400.0) == on_right);
+                CHECK(text->at.x < 800.0);
+            }
+    }
 }
 
 TEST_CASE("labels and distances are at the middles of their atoms") {

@@ -160,6 +160,9 @@ TEST_CASE("annotations in a file leave the image as it is") {
         CHECK(has(over.err, "libpango1.0-dev"));
         return;
     }
+    CHECK(over.err.find("--font:") == std::string::npos);
+    const Outcome other = fixture.figure("font.png", joined(annotated, {"--font", "No Such Font"}));
+    CHECK(has(other.err, "--font: \"No Such Font\" is not installed: texts are in "));
     CHECK(!scenes::read_image(fixture.path() / "over.png").rgb.is_same(plain.rgb));
     CHECK(fixture.verifies("over.png"));
 }
