@@ -1,6 +1,7 @@
 """Atoms of other packages are rendered like the same atoms in files."""
 
 import importlib
+import json
 import sys
 
 import numpy as np
@@ -310,6 +311,19 @@ def test_options_have_the_words_of_the_command_line(tmp_path):
         raylane.from_atoms(*PEROVSKITE, polyhedra="Ti opacity 0.5", view="corner", color="gray")
     )
     assert raylane.load(path, style="spheres", boundary=False).shape_count == 5
+
+
+def test_looks_cuts_backgrounds_and_views_have_the_words_of_the_command_line(tmp_path):
+    atoms = lambda **options: raylane.from_atoms(*PEROVSKITE, cell_edges=False, style="spheres", **options)
+    assert atoms(cut=["z<1", "x < 1"]).shape_count < atoms(cut="z<1").shape_count
+    assert atoms(view="c", slab=(-1, 1)).shape_count == atoms(view="best", slab="-1:1").shape_count
+    atoms(view="c", look="flat", background="#204060").save(tmp_path / "a.json")
+    scene = json.loads((tmp_path / "a.json").read_text())
+    assert scene["camera"]["view"] == [0, 0, -1]
+    assert scene["background"] == pytest.approx([0.0144, 0.0513, 0.117], abs=1e-3)
+    assert all(material["diffuse"] == 0 for material in scene["materials"].values())
+    with pytest.raises(raylane.BadInput, match="--cut: must leave a part of the atoms, got none"):
+        atoms(cut="z<-9")
 
 
 def test_unknown_options_are_refused(tmp_path):

@@ -131,6 +131,9 @@ TEST_CASE("options of atoms have the names and words of the command line") {
     CHECK(count({{"style", "spheres"}, {"boundary", "off"}}) == 2);
     CHECK(count({{"style", "spheres"}, {"repeat", "2x1x1"}, {"cell", "on"}}) == 14 + 2 * 20);
     CHECK(count({{"show", "element Na: spheres"}, {"show", "element Cl: spheres"}}) == 9);
+    // The plane cuts four copies of Na, and removes the others.
+    CHECK(count({{"style", "spheres"}, {"look", "flat"}, {"view", "best"}, {"cut", "z<0"}}) ==
+          4 + 1);
     CHECK(refusal_of([&] {
               count({{"polyhedron", "Na"}});
           }) == "polyhedron: must be the name of an option, did you mean \"polyhedra\"?");

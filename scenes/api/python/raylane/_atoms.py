@@ -120,7 +120,8 @@ def from_atoms(
     Other options have the names of the options of ``raylane render``, with ``_`` for ``-``, and their words as a text, a
     number, True, or a list: ``color``, ``palette``, ``range``, ``radius``, ``scale``, ``select``, ``hide``, ``opacity``,
     ``repeat`` (``(2, 2, 1)``), ``axes``, ``boundary``, ``whole``, ``polyhedra`` (``"Ti opacity 0.6"``),
-    ``hydrogen_bonds``, ``view``, ``perspective``, ``orthographic``, and for files with displacements ``ellipsoids``,
+    ``hydrogen_bonds``, ``view`` (also ``"best"``, ``"a"``, ``"b"``, ``"c"``), ``perspective``, ``orthographic``, ``look``,
+    ``background``, ``cut`` (a text or a list), ``slab`` (``(-2, 2)``), and for files with displacements ``ellipsoids``,
     ``ellipses``, ``octants`` and ``probability``.
 
     Calls ``on_remark`` for names that select nothing; default: a warning. Raises :class:`InvalidValue`, fields
