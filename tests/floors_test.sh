@@ -16,9 +16,9 @@ simd/kernel/*: core/numbers/sample_sequence.hpp
 simd/units: simd/kernel/* simd/isa core core/numbers core/optics
 simd/threads: core/*
 simd/query: core/* simd/threads simd/units
-simd/stream simd/layers simd/wavefront: core/* simd/isa simd/query simd/threads simd/units
-simd/layers: simd/wavefront
-simd/wavefront: simd/layers
+simd/stream simd/first_hits simd/wavefront: core/* simd/isa simd/query simd/threads simd/units
+simd/first_hits: simd/wavefront
+simd/wavefront: simd/first_hits
 
 scenes/files scenes/images: core/* scenes/files scenes/images
 scenes/formats: core/* scenes/files scenes/formats/*

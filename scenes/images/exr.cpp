@@ -21,7 +21,7 @@ bool has_exr() {
     return false;
 }
 
-std::string exr_of(const core::Film&, const core::Layers*, const ImageOptions&) {
+std::string exr_of(const core::Film&, const core::Aovs*, const ImageOptions&) {
     throw BadInput("OpenEXR", "", "is not supported: raylane was built without libopenexr-dev");
 }
 
@@ -165,14 +165,14 @@ void add_halves(const core::Film& film, Halves& halves, Channels& channels) {
     channels.add("A", Imf::HALF, halves.alpha.data());
 }
 
-void add_layers(const core::Layers& layers, Channels& channels) {
-    channels.add("Z", Imf::FLOAT, layers.depth.data());
+void add_aovs(const core::Aovs& aovs, Channels& channels) {
+    channels.add("Z", Imf::FLOAT, aovs.depth.data());
     const char* const axes[] = {"N.X", "N.Y", "N.Z"};
     for (int axis = 0; axis < 3; ++axis)
-        channels.add(axes[axis], Imf::FLOAT, &layers.normal.front()[axis], sizeof(core::Vec3f));
-    channels.add("id.shape", Imf::UINT, layers.shape.data());
-    channels.add("id.material", Imf::UINT, layers.material.data());
-    channels.add("samples", Imf::UINT, layers.samples.data());
+        channels.add(axes[axis], Imf::FLOAT, &aovs.normal.front()[axis], sizeof(core::Vec3f));
+    channels.add("id.shape", Imf::UINT, aovs.shape.data());
+    channels.add("id.material", Imf::UINT, aovs.material.data());
+    channels.add("samples", Imf::UINT, aovs.samples.data());
 }
 
 void add_attributes(const ImageOptions& options, Imf::Header& header) {
@@ -334,14 +334,14 @@ ExrImage read_own(Imf::InputFile& file) {
     if (image.film.has_alpha())
         reader.add("A", Imf::FLOAT, &image.film.alpha_at(0, 0), sizeof(float));
     if (reader.has("id.shape")) {
-        core::Layers& layers = image.layers.emplace(width, height);
-        reader.add("Z", Imf::FLOAT, layers.depth.data(), sizeof(float));
+        core::Aovs& aovs = image.aovs.emplace(width, height);
+        reader.add("Z", Imf::FLOAT, aovs.depth.data(), sizeof(float));
         const char* const axes[] = {"N.X", "N.Y", "N.Z"};
         for (int axis = 0; axis < 3; ++axis)
-            reader.add(axes[axis], Imf::FLOAT, &layers.normal.front()[axis], sizeof(core::Vec3f));
-        reader.add("id.shape", Imf::UINT, layers.shape.data(), sizeof(core::ShapeId));
-        reader.add("id.material", Imf::UINT, layers.material.data(), sizeof(core::MaterialIndex));
-        reader.add("samples", Imf::UINT, layers.samples.data(), sizeof(std::uint32_t));
+            reader.add(axes[axis], Imf::FLOAT, &aovs.normal.front()[axis], sizeof(core::Vec3f));
+        reader.add("id.shape", Imf::UINT, aovs.shape.data(), sizeof(core::ShapeId));
+        reader.add("id.material", Imf::UINT, aovs.material.data(), sizeof(core::MaterialIndex));
+        reader.add("samples", Imf::UINT, aovs.samples.data(), sizeof(std::uint32_t));
     }
     reader.read(height);
     image.texts = texts_of(file.header());
@@ -373,8 +373,7 @@ ExrImage read_own_exr(InputFile& input) {
     }
 }
 
-std::string exr_of(const core::Film& film, const core::Layers* layers,
-                   const ImageOptions& options) {
+std::string exr_of(const core::Film& film, const core::Aovs* aovs, const ImageOptions& options) {
     Imf::Header header(film.width(), film.height());
     header.compression() = Imf::ZIP_COMPRESSION;
     add_attributes(options, header);
@@ -384,7 +383,7 @@ std::string exr_of(const core::Film& film, const core::Layers* layers,
         add_floats(film, channels);
     else
         add_halves(film, halves, channels);
-    if (layers != nullptr) add_layers(*layers, channels);
+    if (aovs != nullptr) add_aovs(*aovs, channels);
 
     MemoryOut out;
     {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/scene/aovs.hpp"
 #include "core/scene/film.hpp"
-#include "core/scene/layers.hpp"
 #include "scenes/images/float_images.hpp"
 #include "scenes/images/image_options.hpp"
 #include "scenes/images/reader.hpp"
@@ -20,10 +20,10 @@ namespace raylane::scenes {
 bool has_exr();
 
 /// Returns the bytes of an EXR file. It has linear R, G, B, and A if the film has an alpha, as
-/// halves, or as floats if `options` requests 32 bits. If `layers` is not null, it also has Z, N.X,
+/// halves, or as floats if `options` requests 32 bits. If `aovs` is not null, it also has Z, N.X,
 /// N.Y and N.Z as floats, and id.shape, id.material and samples as integers. In pixels without a
 /// hit, Z is infinite, N is 0 and ids are 4294967295. Throws std::bad_alloc.
-std::string exr_of(const core::Film& film, const core::Layers* layers, const ImageOptions& options);
+std::string exr_of(const core::Film& film, const core::Aovs* aovs, const ImageOptions& options);
 
 /// The encoders that need optional libraries.
 inline constexpr MoreEncoders more_encoders = {.exr = exr_of, .tiff = tiff_of};
@@ -31,7 +31,7 @@ inline constexpr MoreEncoders more_encoders = {.exr = exr_of, .tiff = tiff_of};
 /// The contents of a file of exr_of(); of the options, only the texts.
 struct ExrImage {
     core::Film film{1, 1};
-    std::optional<core::Layers> layers;
+    std::optional<core::Aovs> aovs;
     std::vector<std::pair<std::string, std::string>> texts;
 };
 

@@ -21,7 +21,7 @@ bool has_tiff() {
     return false;
 }
 
-std::string tiff_of(const core::Film&, const core::Layers*, const ImageOptions&) {
+std::string tiff_of(const core::Film&, const core::Aovs*, const ImageOptions&) {
     throw BadInput("TIFF", "", "is not supported: raylane was built without libtiff-dev");
 }
 
@@ -276,7 +276,7 @@ bool has_tiff() {
     return true;
 }
 
-std::string tiff_of(const core::Film& film, const core::Layers*, const ImageOptions& options) {
+std::string tiff_of(const core::Film& film, const core::Aovs*, const ImageOptions& options) {
     MemoryTiff file;
     // Little-endian on all machines, so that the file has the same bytes.
     OwnedTiff tiff = open(file, "wl");

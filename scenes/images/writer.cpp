@@ -107,7 +107,7 @@ void OutputFile::commit(const core::Film& film, core::Transfer transfer) {
 }
 
 void OutputFile::commit(const core::Film& film, const ImageOptions& options,
-                        const core::Layers* layers) {
+                        const core::Aovs* aovs) {
     if (std::exchange(has_failed_, true) && !file_.restart())
         throw SystemRefused(file_.name(), "write", ESPIPE);
     switch (format_) {
@@ -126,10 +126,10 @@ void OutputFile::commit(const core::Film& film, const ImageOptions& options,
         write_pfm(film);
         break;
     case ImageFormat::exr:
-        write_by(more_.exr, film, layers, options);
+        write_by(more_.exr, film, aovs, options);
         break;
     case ImageFormat::tiff:
-        write_by(more_.tiff, film, layers, options);
+        write_by(more_.tiff, film, aovs, options);
         break;
     }
     file_.commit();
@@ -157,10 +157,10 @@ void OutputFile::write_codes(const core::Film& film, core::Transfer transfer) {
                     : stbi_write_bmp_to_func(&Sink::write, &sink, width, height, 3, codes.data()));
 }
 
-void OutputFile::write_by(EncodeImage encode, const core::Film& film, const core::Layers* layers,
+void OutputFile::write_by(EncodeImage encode, const core::Film& film, const core::Aovs* aovs,
                           const ImageOptions& options) {
     try {
-        file_.write(encode(film, layers, options));
+        file_.write(encode(film, aovs, options));
     } catch (const std::bad_alloc&) {
         throw SystemRefused(file_.name(), "write", ENOMEM);
     }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/scene/aovs.hpp"
 #include "core/scene/film.hpp"
-#include "core/scene/layers.hpp"
 #include "scenes/files/atomic_file.hpp"
 #include "scenes/images/image_options.hpp"
 
@@ -15,8 +15,8 @@ namespace raylane::scenes {
 /// - PFM: linear floats, unchanged
 enum class ImageFormat : std::uint8_t { png, tiff, exr, hdr, pfm, tga, bmp, ppm };
 
-/// Returns the bytes of a file (scenes/images/exr.hpp, tiff.hpp). `layers` may be null.
-using EncodeImage = std::string (*)(const core::Film& film, const core::Layers* layers,
+/// Returns the bytes of a file (scenes/images/exr.hpp, tiff.hpp). `aovs` may be null.
+using EncodeImage = std::string (*)(const core::Film& film, const core::Aovs* aovs,
                                     const ImageOptions& options);
 
 /// The functions for formats whose libraries the library is built without. Null: the format is not
@@ -49,14 +49,14 @@ class OutputFile {
     /// loss of power. This takes milliseconds.
     void be_durable() { file_.be_durable(); }
 
-    /// Writes the image, and in EXR also the layers, unless null. Call it once. Throws
+    /// Writes the image, and in EXR also the AOVs, unless null. Call it once. Throws
     /// SystemRefused; then there is no new file, and the call may be repeated.
     void commit(const core::Film& film, const ImageOptions& options,
-                const core::Layers* layers = nullptr);
+                const core::Aovs* aovs = nullptr);
     void commit(const core::Film& film, core::Transfer transfer);
 
   private:
-    void write_by(EncodeImage encode, const core::Film& film, const core::Layers* layers,
+    void write_by(EncodeImage encode, const core::Film& film, const core::Aovs* aovs,
                   const ImageOptions& options);
     void write_codes(const core::Film& film, core::Transfer transfer);
     void write_hdr(const core::Film& film);

@@ -3,8 +3,8 @@
 #include "core/optics/spectrum.hpp"
 #include "core/reference/tracer.hpp"
 #include "core/scene/validate.hpp"
-#include "simd/layers/first_hits.hpp"
-#include "simd/layers/outlines.hpp"
+#include "simd/first_hits/first_hits.hpp"
+#include "simd/first_hits/outlines.hpp"
 #include "simd/threads/default_rounding.hpp"
 #include "simd/threads/per_thread.hpp"
 #include "simd/threads/threads.hpp"
@@ -26,7 +26,7 @@ core::Region whole_of(const core::Settings& settings) {
     return {0, 0, settings.width, settings.height};
 }
 
-/// Computes everything that needs first hits, tile by tile: layers beside the colours, and outlines
+/// Computes everything that needs first hits, tile by tile: AOVs beside the colours, and outlines
 /// over them. To be used by one thread.
 class FirstHitPasses {
   public:
@@ -35,14 +35,14 @@ class FirstHitPasses {
           outlines_(*tracer_, settings.outline), draws_(settings.outline.any()) {}
 
     static bool are_wanted(const core::Settings& settings, const RenderOptions& options) {
-        return options.layers || settings.outline.any();
+        return options.aovs || settings.outline.any();
     }
 
     void run(const core::Region& tile, const core::Region& crop, Rendering& rendering) {
         if (draws_) outlines_.draw(tile, rendering.film);
         const core::Region part = tile.within(crop);
-        if (rendering.layers.width != 0 && part.x0 < part.x1 && part.y0 < part.y1)
-            fill_layers(*tracer_, part, crop, rendering.layers);
+        if (rendering.aovs.width != 0 && part.x0 < part.x1 && part.y0 < part.y1)
+            fill_aovs(*tracer_, part, crop, rendering.aovs);
     }
 
   private:
@@ -53,11 +53,11 @@ class FirstHitPasses {
 
 template <class Tracer>
 void note_samples(const Tracer& tracer, const core::Region& tile, const core::Region& crop,
-                  core::Layers& layers) {
+                  core::Aovs& aovs) {
     const core::Region part = tile.within(crop);
     for (int y = part.y0; y < part.y1; ++y)
         for (int x = part.x0; x < part.x1; ++x)
-            layers.samples[layers.index(x - crop.x0, y - crop.y0)] = static_cast<std::uint32_t>(
+            aovs.samples[aovs.index(x - crop.x0, y - crop.y0)] = static_cast<std::uint32_t>(
                 tracer.samples_of(static_cast<std::size_t>(y - tile.y0) *
                                       static_cast<unsigned>(tile.x1 - tile.x0) +
                                   static_cast<unsigned>(x - tile.x0)));
@@ -78,7 +78,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
     const TileGrid grid = grid_of(settings, options);
     const core::Region part = grid.part(), crop = options.crop.value_or(part);
     Rendering rendering{core::Film(part, settings.alpha), {}, {}};
-    if (options.layers) rendering.layers = {crop.x1 - crop.x0, crop.y1 - crop.y0};
+    if (options.aovs) rendering.aovs = {crop.x1 - crop.x0, crop.y1 - crop.y0};
     Surveys surveys;
     if (settings.quality != 0.0F)
         for (const core::Scene& of_image : scenes)
@@ -100,7 +100,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
             return;
         }
         EngineCounters of_tile;
-        if (options.recall && options.recall({region, rendering.film, rendering.layers, of_tile})) {
+        if (options.recall && options.recall({region, rendering.film, rendering.aovs, of_tile})) {
             recalled.local() += of_tile;
             if (options.progress != nullptr) {
                 options.progress->recalled += region.pixels();
@@ -117,7 +117,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
             return;
         }
         if (scene != nullptr) passes.local().run(region, crop, rendering);
-        if (options.layers) note_samples(tracer, region, crop, rendering.layers);
+        if (options.aovs) note_samples(tracer, region, crop, rendering.aovs);
         of_tile += tracer.counters();
         of_tile -= before;
         if (options.progress != nullptr) {
@@ -126,9 +126,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
         }
         // While after_tile waits, this thread must not begin another tile.
         if (options.after_tile)
-            isolate([&] {
-                options.after_tile({region, rendering.film, rendering.layers, of_tile});
-            });
+            isolate([&] { options.after_tile({region, rendering.film, rendering.aovs, of_tile}); });
     };
     if (!surveys.empty() && !is_stopped())
         for (const auto pass : core::Survey::passes) {

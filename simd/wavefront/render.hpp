@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/scene/aovs.hpp"
 #include "core/scene/film.hpp"
-#include "core/scene/layers.hpp"
 #include "core/scene/scene.hpp"
 #include "core/shapes/precision.hpp"
 #include "simd/isa/isa.hpp"
@@ -37,19 +37,19 @@ struct Progress {
     std::atomic<bool> abandon = false; ///< once true, tiles in progress are left unfinished, too
 };
 
-/// A part of an image that has been rendered, or is to be filled. `film` and `layers` belong to the
-/// image; nothing outside of the part may be touched. Layers cover the crop, and are empty if they
+/// A part of an image that has been rendered, or is to be filled. `film` and `aovs` belong to the
+/// image; nothing outside of the part may be touched. AOVs cover the crop, and are empty if they
 /// were not requested.
 struct FinishedTile {
     const core::Region& region;
     const core::Film& film;
-    const core::Layers& layers;
+    const core::Aovs& aovs;
     const EngineCounters& counters; ///< of the tile
 };
 struct TileToFill {
     const core::Region& region;
     core::Film& film;
-    core::Layers& layers;
+    core::Aovs& aovs;
     EngineCounters& counters; ///< of the tile; initially 0
 };
 
@@ -64,7 +64,7 @@ struct RenderOptions {
     /// The part of the image to render, not empty. Its pixels have the same bits as in the whole
     /// image.
     std::optional<core::Region> crop{};
-    bool layers = false; ///< true: render layers (AOVs), too
+    bool aovs = false; ///< true: render AOVs, too
     Progress* progress = nullptr;
     /// Called before each tile by the thread that is to render it, so by several threads at a time.
     /// If it returns true, it has filled the tile, and nothing is rendered.
@@ -79,7 +79,7 @@ struct RenderOptions {
 struct Rendering {
     core::Film film;         ///< of the crop, which begins at (0, 0)
     EngineCounters counters; ///< of its tiles, without the survey that a quality needs
-    core::Layers layers;     ///< of the crop; empty if they were not asked for
+    core::Aovs aovs;         ///< of the crop; empty if they were not asked for
     bool complete = true;    ///< false if it was stopped: tiles may be black
 };
 
@@ -93,7 +93,7 @@ int tile_of(const core::Settings& settings, const RenderOptions& options);
 TileGrid grid_of(const core::Settings& settings, const RenderOptions& options);
 
 /// Renders an image of settings.width * settings.height pixels, or a part of it, with its outlines.
-/// Layers and outlines show the camera's first hits. They are exact with every precision and
+/// AOVs and outlines show the camera's first hits. They are exact with every precision and
 /// engine, and do not count in the counters.
 ///
 /// With core::Precision::exact, the image depends on scene, settings and engine alone. So it does

@@ -31,12 +31,12 @@ def test_options(birthday):
     settings.width, settings.height = 64, 48
     whole = raylane.render(birthday, settings)
     assert np.array_equal(whole.rgb, birthday.render(width=64, height=48, threads=1).rgb)
-    part = raylane.render(birthday, settings, crop=(10, 5, 20, 15), layers=True)
+    part = raylane.render(birthday, settings, crop=(10, 5, 20, 15), aovs=True)
     assert np.array_equal(part.rgb, whole.rgb[5:20, 10:30])
-    layers = part.layers
-    assert layers.depth.shape == layers.shape_id.shape == layers.material.shape == layers.samples.shape == (15, 20)
-    assert layers.normal.shape == (15, 20, 3)
-    assert whole.layers is None and whole.alpha is None
+    aovs = part.aovs
+    assert aovs.depth.shape == aovs.shape_id.shape == aovs.material.shape == aovs.samples.shape == (15, 20)
+    assert aovs.normal.shape == (15, 20, 3)
+    assert whole.aovs is None and whole.alpha is None
     clear = raylane.render(birthday, settings, alpha=True)
     assert clear.alpha.shape == (48, 64) and clear.to_bytes().shape == (48, 64, 4)
     assert np.asarray(whole) is whole.rgb
@@ -113,7 +113,7 @@ def test_what_cannot_be_drawn_says_where(ball, tmp_path):
         ({"precision": None}, 'precision: must be one of "fast", "robust", "exact", "double", got None'),
         ({"threads": "2"}, "threads: must be a whole number, got '2'"),
         ({"threads": 2**40}, "threads: must be a whole number from 0 to 4096, got 1099511627776"),
-        ({"layers": "no"}, "layers: must be True or False, got 'no'"),
+        ({"aovs": "no"}, "aovs: must be True or False, got 'no'"),
         ({"crop": (0, 0, 2**40, 1)}, "crop: must be four whole numbers"),
     ):
         with pytest.raises(raylane.InvalidValue) as error:

@@ -258,7 +258,7 @@ def test_old_names_warn(ball):
         (lambda: Leaving(shape=ids, face=0).shape_id, ids),
         (lambda: Leaving(ids, 0).shape, ids),
         (lambda: tracer.occluded(o[::2] - [[0, 0, 4], [0, 0, 0.25]], [0, 0, 1], leaving=Leaving(hits[::2].shape, 0, 0)), [False, True]),
-        (lambda: ball.render(width=4, height=3, layers=True).layers.shape.shape, (3, 4)),
+        (lambda: ball.render(width=4, height=3, aovs=True).aovs.shape.shape, (3, 4)),
     ):
         with pytest.warns(DeprecationWarning, match="shape_id") as warned:
             assert np.array_equal(use(), expected)

@@ -192,7 +192,7 @@ def test_camera_rays_are_those_of_images(scenes, projection):
     camera = dataclasses.replace(scene.camera, projection=projection, height=4.0, lens_radius=0.0)
     scene = scene.seen_by(camera)
     size = {"width": 61, "height": 40}
-    layers = scene.render(**size, grid=1, samples="regular", filter="box", quality=0, layers=True).layers
+    aovs = scene.render(**size, grid=1, samples="regular", filter="box", quality=0, aovs=True).aovs
     origins, directions = scene.camera.rays(**size)
     assert origins.shape == directions.shape == (40, 61, 3) and directions.dtype == np.float64
     assert np.allclose(np.linalg.norm(directions, axis=-1), 1, rtol=1e-15)
@@ -200,12 +200,12 @@ def test_camera_rays_are_those_of_images(scenes, projection):
         assert (origins == camera.position).all()
     hits = Tracer(scene).intersect(origins, directions)
     assert 0.3 < hits.hit.mean()
-    # Surfaces that are visible from one side, or only partly, are not in the layers.
+    # Surfaces that are visible from one side, or only partly, are not in the aovs.
     opaque = np.array([m.opacity == 1 and m.visible == "both" for m in scene.materials])
     plain = ~hits.hit | opaque[scene.material_of(hits.shape_id)]
     assert plain.mean() > 0.9
-    assert np.array_equal(hits.t.astype(np.float32)[plain], layers.depth[plain])
-    assert np.array_equal(hits.shape_id[plain], layers.shape_id[plain])
+    assert np.array_equal(hits.t.astype(np.float32)[plain], aovs.depth[plain])
+    assert np.array_equal(hits.shape_id[plain], aovs.shape_id[plain])
 
 
 def test_rays_of_an_automatic_camera():

@@ -90,14 +90,14 @@ class Work {
     std::uint64_t draw(int which) const {
         constexpr const char* names[] = {"birthday", "cutaway", "ellipsoid"};
         const Scene scene = load(folder_ + "/" + names[which] + ".json");
-        RenderOptions options{.settings = scene.settings(), .threads = 2, .layers = which == 1};
+        RenderOptions options{.settings = scene.settings(), .threads = 2, .aovs = which == 1};
         options.settings->width = 96;
         options.settings->height = 72;
         options.settings->grid = 1;
         const Image image = render(scene, options);
         Hash hash;
         hash.add(image.rgb);
-        hash.add(image.layers.shape_id);
+        hash.add(image.aovs.shape_id);
         return hash.value();
     }
     std::uint64_t cancel() const {

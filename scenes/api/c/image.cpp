@@ -32,8 +32,8 @@ raylane_status render_to(const raylane_scene* scene, const raylane_render_option
     options.precision = enum_from_int<Precision>("precision", from.precision);
     if (from.crop_width != 0 || from.crop_height != 0)
         options.crop = {from.crop_x, from.crop_y, from.crop_width, from.crop_height};
-    options.layers = to.depth != nullptr || to.normal != nullptr || to.shape_id != nullptr ||
-                     to.material != nullptr || to.samples != nullptr;
+    options.aovs = to.depth != nullptr || to.normal != nullptr || to.shape_id != nullptr ||
+                   to.material != nullptr || to.samples != nullptr;
     const std::optional<Image> image = render(drawn, options, [&](const Progress& done) {
         if (from.progress == nullptr) return true;
         const raylane_progress told = to_c(done);
@@ -42,11 +42,11 @@ raylane_status render_to(const raylane_scene* scene, const raylane_render_option
     if (!image) return failed(RAYLANE_CANCELLED, "cancelled");
     give(image->rgb, to.rgb);
     give(image->alpha, to.alpha);
-    give(image->layers.depth, to.depth);
-    give(image->layers.normal, to.normal);
-    give(image->layers.shape_id, to.shape_id);
-    give(image->layers.material, to.material);
-    give(image->layers.samples, to.samples);
+    give(image->aovs.depth, to.depth);
+    give(image->aovs.normal, to.normal);
+    give(image->aovs.shape_id, to.shape_id);
+    give(image->aovs.material, to.material);
+    give(image->aovs.samples, to.samples);
     return RAYLANE_OK;
 }
 

@@ -40,7 +40,7 @@ simd::RenderOptions inner_options(const core::Settings& settings, const RenderOp
     simd::RenderOptions inner;
     inner.threads = options.threads;
     inner.precision = library::core_precision(options.precision);
-    inner.layers = options.layers;
+    inner.aovs = options.aovs;
     if (const auto& crop = options.crop) {
         const auto is_within = [](int first, int count, int all) { // no sum, which could overflow
             return first >= 0 && count >= 1 &&
@@ -65,13 +65,13 @@ std::vector<float> components_of(const std::vector<Vector>& vectors) {
 
 Image image_of(simd::Rendering rendering) {
     const core::Film& film = rendering.film;
-    core::Layers& layers = rendering.layers;
+    core::Aovs& aovs = rendering.aovs;
     return {film.width(),
             film.height(),
             components_of(film.pixels()),
             film.alphas(),
-            {std::move(layers.depth), components_of(layers.normal), std::move(layers.shape),
-             std::move(layers.material), std::move(layers.samples)}};
+            {std::move(aovs.depth), components_of(aovs.normal), std::move(aovs.shape),
+             std::move(aovs.material), std::move(aovs.samples)}};
 }
 
 Tile tile_of(const core::Film& film, const core::Region& region) {

@@ -88,12 +88,12 @@ py::dict arrays_of(Image&& image) {
     py::dict result;
     result["rgb"] = shaped(std::move(image.rgb), {height, width, 3});
     result["alpha"] = plane(std::move(image.alpha));
-    if (image.layers.depth.empty()) return result;
-    result["depth"] = plane(std::move(image.layers.depth));
-    result["normal"] = shaped(std::move(image.layers.normal), {height, width, 3});
-    result["shape"] = plane(std::move(image.layers.shape_id));
-    result["material"] = plane(std::move(image.layers.material));
-    result["samples"] = plane(std::move(image.layers.samples));
+    if (image.aovs.depth.empty()) return result;
+    result["depth"] = plane(std::move(image.aovs.depth));
+    result["normal"] = shaped(std::move(image.aovs.normal), {height, width, 3});
+    result["shape"] = plane(std::move(image.aovs.shape_id));
+    result["material"] = plane(std::move(image.aovs.material));
+    result["samples"] = plane(std::move(image.aovs.samples));
     return result;
 }
 
@@ -111,12 +111,12 @@ auto by_keywords(const Call& call) {
 }
 
 py::object render_image(const Scene& scene, const py::object& settings, const py::object& threads,
-                        const py::object& precision, const py::object& crop,
-                        const py::object& layers, const py::object& progress) {
+                        const py::object& precision, const py::object& crop, const py::object& aovs,
+                        const py::object& progress) {
     RenderOptions options{.settings = settings_from(settings),
                           .threads = threads_from(threads),
                           .precision = precision_from(precision),
-                          .layers = bool_from(layers, "layers")};
+                          .aovs = bool_from(aovs, "aovs")};
     if (!crop.is_none()) {
         try {
             const auto [x, y, width, height] = py::cast<std::array<int, 4>>(py::tuple(crop));
@@ -178,10 +178,10 @@ void write_arrays(const std::filesystem::path& path, const py::object& rgb, cons
 void bind_image(py::module_& module) {
     module.def("render", [](const Scene& scene, const py::object& settings,
                             const py::object& threads, const py::object& precision,
-                            const py::object& crop, const py::object& layers,
+                            const py::object& crop, const py::object& aovs,
                             const py::object& progress) {
         return by_keywords([&] {
-            return render_image(scene, settings, threads, precision, crop, layers, progress);
+            return render_image(scene, settings, threads, precision, crop, aovs, progress);
         });
     });
     module.def("write_image", &write_arrays);

@@ -55,7 +55,7 @@ ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
     if (!wanted || !may_have_checkpoint(output)) return;
     std::string text = options_line(settings, options_);
     text += " --tile " + std::to_string(simd::tile_of(settings, options_));
-    if (options_.layers) text += " --layers";
+    if (options_.aovs) text += " --aovs";
     if (part_) text += " --part " + part_->text();
     checkpoint_ = std::make_unique<Checkpoint>(
         output, CheckpointSubject{fingerprint, std::move(text)}, TileRecords(settings, options_),
@@ -190,18 +190,18 @@ void ResumableRendering::stopped() const {
 }
 
 void ResumableRendering::write(OutputFile& output, const core::Film& film,
-                               const ImageOptions& options, const core::Layers* layers) {
+                               const ImageOptions& options, const core::Aovs* aovs) {
     try {
-        return output.commit(film, options, layers);
+        return output.commit(film, options, aovs);
     } catch (const SystemRefused& refused) {
         const bool is_full = refused.error_number == ENOSPC || refused.error_number == EDQUOT;
         if (!is_full || !checkpoint_) throw;
         // Measures the image in memory first, to give the checkpoint up only if that helps.
         const MemoryFile memory("raylane picture");
-        OutputFile(memory.path(), output.format(), more_encoders).commit(film, options, layers);
+        OutputFile(memory.path(), output.format(), more_encoders).commit(film, options, aovs);
         if (!checkpoint_->give_room(memory.bytes())) throw;
     }
-    output.commit(film, options, layers);
+    output.commit(film, options, aovs);
 }
 
 void ResumableRendering::finished() {

@@ -43,7 +43,7 @@ class ResumableRendering {
     /// Writes the image. If the disk is full, it takes the space of the checkpoint. Throws
     /// SystemRefused.
     void write(OutputFile& output, const core::Film& film, const ImageOptions& options,
-               const core::Layers* layers);
+               const core::Aovs* aovs);
     /// Removes the checkpoint. Call it when the image is written.
     void finished();
     /// Throws Stopped if a signal has arrived since the last tiles were begun. Call it after

@@ -35,8 +35,8 @@ class Reader {
 };
 
 /// Visits all numbers of a tile in the order of its record, to read or write them.
-template <class Film, class Layers, class Visit>
-void visit_pixels(const core::Region& tile, const core::Region& crop, Film& film, Layers* layers,
+template <class Film, class Aovs, class Visit>
+void visit_pixels(const core::Region& tile, const core::Region& crop, Film& film, Aovs* aovs,
                   const Visit& visit) {
     for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x) {
@@ -49,36 +49,36 @@ void visit_pixels(const core::Region& tile, const core::Region& crop, Film& film
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x)
                 visit(film.alpha_at(x, y));
-    if (layers == nullptr) return;
+    if (aovs == nullptr) return;
     const core::Region part = tile.within(crop);
     for (int y = part.y0; y < part.y1; ++y)
         for (int x = part.x0; x < part.x1; ++x) {
-            const std::size_t i = layers->index(x - crop.x0, y - crop.y0);
-            visit(layers->depth[i]);
-            visit(layers->normal[i].x);
-            visit(layers->normal[i].y);
-            visit(layers->normal[i].z);
-            visit(layers->shape[i]);
-            visit(layers->material[i]);
-            visit(layers->samples[i]);
+            const std::size_t i = aovs->index(x - crop.x0, y - crop.y0);
+            visit(aovs->depth[i]);
+            visit(aovs->normal[i].x);
+            visit(aovs->normal[i].y);
+            visit(aovs->normal[i].z);
+            visit(aovs->shape[i]);
+            visit(aovs->material[i]);
+            visit(aovs->samples[i]);
         }
 }
 
-constexpr std::size_t bytes_of_layers =
+constexpr std::size_t bytes_of_aovs =
     4 * sizeof(float) + sizeof(core::ShapeId) + sizeof(core::MaterialIndex) + sizeof(std::uint32_t);
 
 } // namespace
 
 TileRecords::TileRecords(const core::Settings& settings, const simd::RenderOptions& options)
     : grid_(simd::grid_of(settings, options)), crop_(options.crop.value_or(grid_.part())),
-      alpha_(settings.alpha), layers_(options.layers) {}
+      alpha_(settings.alpha), aovs_(options.aovs) {}
 
 std::size_t TileRecords::bytes(std::size_t number) const {
     const core::Region region = grid_.tile(number), part = region.within(crop_);
     std::size_t bytes = sizeof(Counts) + static_cast<std::size_t>(region.pixels()) *
                                              (alpha_ ? 4 : 3) * sizeof(float);
-    if (layers_ && part.x0 < part.x1 && part.y0 < part.y1)
-        bytes += static_cast<std::size_t>(part.pixels()) * bytes_of_layers;
+    if (aovs_ && part.x0 < part.x1 && part.y0 < part.y1)
+        bytes += static_cast<std::size_t>(part.pixels()) * bytes_of_aovs;
     return bytes;
 }
 
@@ -86,7 +86,7 @@ void TileRecords::append(const simd::FinishedTile& tile, std::string& bytes) con
     Writer write(bytes);
     for (const std::uint64_t number : tile.counters.as_numbers())
         write(number);
-    visit_pixels(tile.region, crop_, tile.film, layers_ ? &tile.layers : nullptr,
+    visit_pixels(tile.region, crop_, tile.film, aovs_ ? &tile.aovs : nullptr,
                  [&](const auto& value) { write(value); });
 }
 
@@ -96,7 +96,7 @@ void TileRecords::fill(const simd::TileToFill& tile, std::span<const char> bytes
     for (std::uint64_t& number : counts)
         read(number);
     tile.counters = simd::EngineCounters::of_numbers(counts);
-    visit_pixels(tile.region, crop_, tile.film, layers_ ? &tile.layers : nullptr,
+    visit_pixels(tile.region, crop_, tile.film, aovs_ ? &tile.aovs : nullptr,
                  [&](auto& value) { read(value); });
 }
 

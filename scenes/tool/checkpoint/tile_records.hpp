@@ -9,7 +9,7 @@
 namespace raylane::scenes {
 
 /// Converts single tiles of an image to bytes: the counters; three floats for each pixel, row by
-/// row; the alphas, if the image has any; and, if it has layers, those of the pixels in the crop.
+/// row; the alphas, if the image has any; and, if it has AOVs, those of the pixels in the crop.
 /// The byte order is that of this machine, and of all machines that raylane runs on.
 class TileRecords {
   public:
@@ -27,7 +27,7 @@ class TileRecords {
   private:
     simd::TileGrid grid_;
     core::Region crop_;
-    bool alpha_, layers_;
+    bool alpha_, aovs_;
 };
 
 } // namespace raylane::scenes

@@ -48,10 +48,10 @@ class Merger {
             image.film.height() != first.film.height() ||
             image.film.has_alpha() != first.film.has_alpha())
             throw BadInput(name, "", "belongs to another division into parts than " + first_name_);
-        if (image.layers.has_value() != first.layers.has_value())
+        if (image.aovs.has_value() != first.aovs.has_value())
             throw BadInput(name, "",
-                           image.layers ? "has layers, but " + first_name_ + " has none"
-                                        : "has no layers, but " + first_name_ + " has some");
+                           image.aovs ? "has AOVs, but " + first_name_ + " has none"
+                                      : "has no AOVs, but " + first_name_ + " has some");
         if (has_[part.number - 1]) throw BadInput(name, "", "repeats part " + part.text());
         has_[part.number - 1] = true;
         const std::optional<RayTiers> rays = ray_tiers_of(text_in(name, image.texts, "Rays"));
@@ -104,14 +104,13 @@ class Merger {
         return side >= 8 && side <= 64 ? side : 0;
     }
 
-    /// Throws BadInput if the output's format cannot store the layers or the alpha that the parts
+    /// Throws BadInput if the output's format cannot store the AOVs or the alpha that the parts
     /// were rendered with.
     void require_fit(const std::string& name, const ExrImage& image, bool alpha) const {
         const bool is_exr = output_ == ImageFormat::exr;
-        if (image.layers && !is_exr)
-            throw BadInput(
-                name, "",
-                "was rendered with --layers, which goes with an output that ends in .exr");
+        if (image.aovs && !is_exr)
+            throw BadInput(name, "",
+                           "was rendered with --aovs, which goes with an output that ends in .exr");
         if (alpha && !is_exr && output_ != ImageFormat::png)
             throw BadInput(name, "", "was rendered with --alpha, which goes with PNG or EXR");
     }
@@ -124,7 +123,7 @@ class Merger {
         simd::RenderOptions options = arguments->render_options(/*with_isa=*/false);
         arguments->image.apply_to(options, settings_);
         options.tile = tile_of(image.texts);
-        options.layers = image.layers.has_value();
+        options.aovs = image.aovs.has_value();
         crop_ = options.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
         if (crop_.x1 - crop_.x0 != image.film.width() || crop_.y1 - crop_.y0 != image.film.height())
             throw BadInput(name, "", "has another size than its Comment states");
@@ -141,14 +140,14 @@ class Merger {
                 first_->film.at(column, row) = from.film.at(column, row);
                 if (from.film.has_alpha())
                     first_->film.alpha_at(column, row) = from.film.alpha_at(column, row);
-                if (!from.layers) continue;
-                const std::size_t i = from.layers->index(column, row);
-                core::Layers& layers = *first_->layers;
-                layers.depth[i] = from.layers->depth[i];
-                layers.normal[i] = from.layers->normal[i];
-                layers.shape[i] = from.layers->shape[i];
-                layers.material[i] = from.layers->material[i];
-                layers.samples[i] = from.layers->samples[i];
+                if (!from.aovs) continue;
+                const std::size_t i = from.aovs->index(column, row);
+                core::Aovs& aovs = *first_->aovs;
+                aovs.depth[i] = from.aovs->depth[i];
+                aovs.normal[i] = from.aovs->normal[i];
+                aovs.shape[i] = from.aovs->shape[i];
+                aovs.material[i] = from.aovs->material[i];
+                aovs.samples[i] = from.aovs->samples[i];
             }
     }
 
@@ -177,7 +176,7 @@ int merge(const MergeArguments& arguments) {
     const core::Transfer transfer = merger.transfer();
     const ExrImage image = merger.take();
     output.commit(image.film, {transfer, bits, arguments.encoding.dpi.value(), image.texts},
-                  image.layers ? &*image.layers : nullptr);
+                  image.aovs ? &*image.aovs : nullptr);
     return 0;
 }
 

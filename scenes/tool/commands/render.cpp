@@ -128,7 +128,7 @@ Plan::Plan(const RenderArguments& all)
     }
 }
 
-/// Sets the crop and the layers in `plan`. The crop must be within the image.
+/// Sets the crop and the AOVs in `plan`. The crop must be within the image.
 Target target_of(Plan& plan, const core::Scene& scene, const std::string& name,
                  std::optional<std::size_t> place) {
     const core::Settings settings = plan.arguments.settings_of(scene.settings());
@@ -193,7 +193,7 @@ std::string write(const Plan& plan, const Target& image, ResumableRendering& dra
                              image.settings.transfer);
     drawing.write(output, covered ? *covered : rendering.film,
                   image_options(plan, image, rendering, pixels),
-                  plan.options.layers ? &rendering.layers : nullptr);
+                  plan.options.aovs ? &rendering.aovs : nullptr);
     drawing.finished();
     return pixels;
 }

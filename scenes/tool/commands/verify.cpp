@@ -70,7 +70,7 @@ bool has_same_bits(const std::vector<T>& a, const std::vector<T>& b) {
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-bool has_same_bits(const core::Layers& a, const core::Layers& b) {
+bool has_same_bits(const core::Aovs& a, const core::Aovs& b) {
     return has_same_bits(a.depth, b.depth) && has_same_bits(a.normal, b.normal) &&
            has_same_bits(a.shape, b.shape) && has_same_bits(a.material, b.material) &&
            has_same_bits(a.samples, b.samples);
@@ -171,13 +171,13 @@ class Verifier {
     /// if the film has the bits that the image states, and if the file holds exactly the components
     /// that are written for it.
     Whole again() {
-        std::optional<core::Layers> layers;
+        std::optional<core::Aovs> aovs;
         if (image_.linear_float) {
             InputFile file(image_.name, bytes_);
-            layers = read_own_exr(file).layers;
+            aovs = read_own_exr(file).aovs;
         }
         simd::RenderOptions options = options_;
-        options.layers = layers.has_value();
+        options.aovs = aovs.has_value();
         const simd::Rendering rendering = draw(options);
         const Image written = as_written(rendering.film);
         const std::optional<RayTiers> tiers =
@@ -185,13 +185,13 @@ class Verifier {
         return {fingerprint_of(rendering.film) == text_in(image_.name, image_.texts, "Pixels") &&
                     tiers && written.rgb.is_same(image_.rgb) &&
                     written.alpha.is_same(image_.alpha) &&
-                    (!layers || has_same_bits(*layers, rendering.layers)),
+                    (!aovs || has_same_bits(*aovs, rendering.aovs)),
                 tiers && tiers->text() == RayTiers(rendering.counters).text()};
     }
 
   private:
     Verdict drawn_again(simd::RenderOptions options, const std::vector<std::size_t>& pixels) const {
-        options.layers = false;
+        options.aovs = false;
         if (is_exact()) options.tile = 8; // renders the fewest additional pixels
         const simd::TileGrid tiles = simd::grid_of(settings_, options);
         std::unordered_set<std::size_t> wanted;

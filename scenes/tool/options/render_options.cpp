@@ -125,7 +125,7 @@ void EncodingArguments::require_fit(ImageFormat format) const {
 void ImageArguments::require_fit(ImageFormat format) const {
     const bool is_exr = format == ImageFormat::exr;
     require_writable("--output", format);
-    if (layers && !is_exr) throw BadInput("--layers", "", "goes with an output that ends in .exr");
+    if (aovs && !is_exr) throw BadInput("--aovs", "", "goes with an output that ends in .exr");
     if (alpha && !is_exr && format != ImageFormat::png && format != ImageFormat::tiff)
         throw BadInput("--alpha", "", "goes with PNG, TIFF or EXR");
     encoding.require_fit(format);
@@ -138,7 +138,7 @@ void ImageArguments::apply_to(simd::RenderOptions& options, const core::Settings
                            std::to_string(settings.height) + " pixels, got \"" +
                            crop.texts().front() + "\"");
     options.crop = crop.value();
-    options.layers = layers.is_given();
+    options.aovs = aovs.is_given();
 }
 
 RenderArguments::RenderArguments() = default;

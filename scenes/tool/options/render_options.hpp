@@ -52,7 +52,7 @@ struct ImageArguments : OptionTable {
 
     /// Throws BadInput for options that the output's format does not support.
     void require_fit(ImageFormat format) const;
-    /// Sets crop and layers. Throws BadInput if the crop is not within the image.
+    /// Sets crop and AOVs. Throws BadInput if the crop is not within the image.
     void apply_to(simd::RenderOptions& options, const core::Settings& settings) const;
 
     Option<core::Region> crop = {
@@ -60,10 +60,10 @@ struct ImageArguments : OptionTable {
         "Render only this rectangle: its upper left corner and its size, in pixels of "
         "the whole image."};
     EncodingArguments encoding{*this, "8 (PNG, TIFF), 16 (EXR)"};
-    Flag layers = {*this, "--layers", flag(),
-                   "Add AOVs of the first surface at the middle of each pixel to an EXR: Z "
-                   "(distance along the ray), N.X, N.Y, N.Z, id.shape, id.material and "
-                   "samples (number of samples)."};
+    Flag aovs = {*this, "--aovs", flag(),
+                 "Add AOVs of the first surface at the middle of each pixel to an EXR: Z "
+                 "(distance along the ray), N.X, N.Y, N.Z, id.shape, id.material and "
+                 "samples (number of samples)."};
     Flag alpha = {*this, "--alpha", flag().recorded(),
                   "Omit the background, for compositing. The alpha of a PNG, TIFF or EXR is the "
                   "covered share of each pixel."};

@@ -438,7 +438,7 @@ TEST_CASE("remarks on files can be read in C") {
     CHECK(std::string(raylane_remarks()).empty());
 }
 
-TEST_CASE("parts, alpha and layers of images in C are those of C++") {
+TEST_CASE("parts, alpha and AOVs of images in C are those of C++") {
     const std::string text =
         R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "lights": [], "image": {"width": 24, "height": 16},
             "background": [0.25, 0.5, 0.75], "materials": {"m": {"ambient": 1}}, "objects": [
@@ -446,8 +446,7 @@ TEST_CASE("parts, alpha and layers of images in C are those of C++") {
     const SceneHandle scene = made<SceneHandle>(
         [&](raylane_scene** to) { return raylane_parse(text.data(), text.size(), "a.json", to); });
     const Scene same = parse(text, "a.json");
-    RenderOptions of_cpp{
-        .settings = same.settings(), .crop = PixelRect{3, 2, 10, 9}, .layers = true};
+    RenderOptions of_cpp{.settings = same.settings(), .crop = PixelRect{3, 2, 10, 9}, .aovs = true};
     of_cpp.settings->alpha = true;
     const Image truth = render(same, of_cpp);
     const std::size_t count = 10 * 9;
@@ -463,11 +462,11 @@ TEST_CASE("parts, alpha and layers of images in C are those of C++") {
     REQUIRE(raylane_render_image(scene.get(), &options, &image) == RAYLANE_OK);
     CHECK(rgb == truth.rgb);
     CHECK(alpha == truth.alpha);
-    CHECK(depth == truth.layers.depth);
-    CHECK(normal == truth.layers.normal);
-    CHECK(shape_id == truth.layers.shape_id);
-    CHECK(material == truth.layers.material);
-    CHECK(samples == truth.layers.samples);
+    CHECK(depth == truth.aovs.depth);
+    CHECK(normal == truth.aovs.normal);
+    CHECK(shape_id == truth.aovs.shape_id);
+    CHECK(material == truth.aovs.material);
+    CHECK(samples == truth.aovs.samples);
     CHECK(std::count(shape_id.begin(), shape_id.end(), 0U) > 5);
     CHECK(std::count(alpha.begin(), alpha.end(), 0.0F) > 5);
 

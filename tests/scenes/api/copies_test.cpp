@@ -294,13 +294,13 @@ TEST_CASE("images of kept copies have the bits of those of shapes") {
     contents.settings.grid = 2;
     const auto expect_same_images = [&] {
         RenderOptions options;
-        options.layers = true;
+        options.aovs = true;
         const Image kept = render(contents.built(true), options);
         const Image shapes = render(contents.built(false), options);
         CHECK((kept.rgb == shapes.rgb));
-        CHECK((kept.layers.shape_id == shapes.layers.shape_id));
-        CHECK((kept.layers.depth == shapes.layers.depth));
-        CHECK((kept.layers.samples == shapes.layers.samples));
+        CHECK((kept.aovs.shape_id == shapes.aovs.shape_id));
+        CHECK((kept.aovs.depth == shapes.aovs.depth));
+        CHECK((kept.aovs.samples == shapes.aovs.samples));
     };
     expect_same_images();
     contents.auto_camera = AutoCamera{};

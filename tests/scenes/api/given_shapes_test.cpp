@@ -171,12 +171,12 @@ TEST_CASE("the hits of camera rays have the depths of an image") {
     builder.add(Box{{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, material);
     builder.add(CappedCone{{-2, -1, 0}, {0, 2, 0}, 1, 0}, material);
     const Scene scene = builder.build();
-    const Image image = render(scene, {.layers = true});
+    const Image image = render(scene, {.aovs = true});
     const PixelRays rays = camera_rays(scene.camera(), image.width, image.height);
-    std::vector<double> t(image.layers.depth.size());
+    std::vector<double> t(image.aovs.depth.size());
     std::vector<ShapeId> shape(t.size());
     Tracer(scene).intersect(rays.span(), {.shape_id = shape, .t_double = t});
-    CHECK(shape == image.layers.shape_id);
+    CHECK(shape == image.aovs.shape_id);
     for (std::size_t i = 0; i < t.size(); ++i)
-        CHECK(static_cast<float>(t[i]) == image.layers.depth[i]);
+        CHECK(static_cast<float>(t[i]) == image.aovs.depth[i]);
 }

@@ -231,24 +231,24 @@ TEST_CASE("an image with alpha has no background") {
           "alpha: must be empty, or one for each of 70 x 50 pixels, got 3499");
 }
 
-TEST_CASE("a crop has the pixels and layers of the whole image") {
+TEST_CASE("a crop has the pixels and AOVs of the whole image") {
     const Scene scene = mirrored_ball();
-    const Image whole = render(scene, {.layers = true});
-    REQUIRE(whole.layers.depth.size() == 70 * 50);
-    CHECK(whole.layers.shape_id[0] == no_shape);
-    CHECK(whole.layers.depth[0] == std::numeric_limits<float>::infinity());
+    const Image whole = render(scene, {.aovs = true});
+    REQUIRE(whole.aovs.depth.size() == 70 * 50);
+    CHECK(whole.aovs.shape_id[0] == no_shape);
+    CHECK(whole.aovs.depth[0] == std::numeric_limits<float>::infinity());
     const std::size_t middle = 25 * 70 + 35;
-    CHECK(whole.layers.shape_id[middle] == 0);
-    CHECK(whole.layers.material[middle] == 0);
-    CHECK(whole.layers.samples[middle] == 1);
-    const float* const normal = &whole.layers.normal[3 * middle];
+    CHECK(whole.aovs.shape_id[middle] == 0);
+    CHECK(whole.aovs.material[middle] == 0);
+    CHECK(whole.aovs.samples[middle] == 1);
+    const float* const normal = &whole.aovs.normal[3 * middle];
     CHECK(std::hypot(normal[0], normal[1], normal[2]) == Approx(1.0F).epsilon(1e-6));
-    CHECK(render(scene).layers.depth.empty());
+    CHECK(render(scene).aovs.depth.empty());
 
     const PixelRect crop{30, 20, 11, 7};
     std::int64_t pixels = 0;
     const std::optional<Image> part =
-        render(scene, {.crop = crop, .layers = true}, [&](const Progress& progress) {
+        render(scene, {.crop = crop, .aovs = true}, [&](const Progress& progress) {
             CHECK(progress.total_pixels == 11 * 7);
             CHECK((progress.tile.x >= 30 && progress.tile.y >= 20)); // in the whole image
             pixels = progress.pixels;
@@ -260,8 +260,8 @@ TEST_CASE("a crop has the pixels and layers of the whole image") {
     for (int y = 0; y < 7; ++y)
         for (int x = 0; x < 11; ++x) {
             CHECK(part->at(x, y) == whole.at(30 + x, 20 + y));
-            CHECK(part->layers.depth[static_cast<std::size_t>(y * 11 + x)] ==
-                  whole.layers.depth[static_cast<std::size_t>((20 + y) * 70 + 30 + x)]);
+            CHECK(part->aovs.depth[static_cast<std::size_t>(y * 11 + x)] ==
+                  whole.aovs.depth[static_cast<std::size_t>((20 + y) * 70 + 30 + x)]);
         }
     constexpr int most = std::numeric_limits<int>::max();
     for (const PixelRect& outside : {PixelRect{0, 0, 71, 1},

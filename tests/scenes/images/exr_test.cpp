@@ -78,18 +78,18 @@ TEST_CASE("an EXR has a film's alpha and colors multiplied by it") {
     }
 }
 
-TEST_CASE("an EXR has the layers and the resolution and texts of the options") {
+TEST_CASE("an EXR has the AOVs and the resolution and texts of the options") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "out.exr";
-    core::Layers layers(3, 2);
-    layers.depth[4] = 2.5F;
-    layers.normal[4] = {0.0F, 0.6F, -0.8F};
-    layers.shape[4] = 16'777'217; // not a float
-    layers.material[4] = 7;
-    layers.samples[4] = 16;
+    core::Aovs aovs(3, 2);
+    aovs.depth[4] = 2.5F;
+    aovs.normal[4] = {0.0F, 0.6F, -0.8F};
+    aovs.shape[4] = 16'777'217; // not a float
+    aovs.material[4] = 7;
+    aovs.samples[4] = 16;
     const scenes::ImageOptions options{.dpi = 300.0F,
                                        .texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}}};
-    scenes::OutputFile(path, scenes::more_encoders).commit(little_film(), options, &layers);
+    scenes::OutputFile(path, scenes::more_encoders).commit(little_film(), options, &aovs);
 
     Imf::InputFile file(path.c_str());
     const Imf::Header& header = file.header();
@@ -116,22 +116,22 @@ TEST_CASE("an EXR has the layers and the resolution and texts of the options") {
     add("samples", Imf::UINT, samples);
     file.setFrameBuffer(buffer);
     file.readPixels(0, 1);
-    CHECK(depth == layers.depth);
+    CHECK(depth == aovs.depth);
     CHECK(depth[0] == std::numeric_limits<float>::infinity());
     CHECK(normal[4] == -0.8F);
-    CHECK(shape == layers.shape);
+    CHECK(shape == aovs.shape);
     CHECK(shape[0] == 4294967295U);
-    CHECK(material == layers.material);
-    CHECK(samples == layers.samples);
+    CHECK(material == aovs.material);
+    CHECK(samples == aovs.samples);
 }
 
 TEST_CASE("An EXR with attributes or channels that raylane does not write is refused as foreign") {
     const TemporaryDirectory directory;
     const auto own = directory.path() / "own.exr", path = directory.path() / "a.exr";
-    const core::Layers layers(3, 2);
+    const core::Aovs aovs(3, 2);
     const scenes::ImageOptions options{.dpi = 300.0F,
                                        .texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}}};
-    scenes::OutputFile(own, scenes::more_encoders).commit(little_film(), options, &layers);
+    scenes::OutputFile(own, scenes::more_encoders).commit(little_film(), options, &aovs);
     const auto complaint = [&](const auto& change) {
         Imf::InputFile from(own.c_str());
         Imf::Header header = from.header();
@@ -206,9 +206,9 @@ TEST_CASE("an EXR without colors or with fewer samples than pixels is refused be
 
 TEST_CASE("a damaged EXR is bad input") {
     const TemporaryDirectory directory;
-    const core::Layers layers(3, 2);
+    const core::Aovs aovs(3, 2);
     const scenes::ImageOptions named{.texts = {{"Title", "a scene"}}};
-    const std::string whole = scenes::exr_of(core::Film(3, 2, /*with_alpha=*/true), &layers, named);
+    const std::string whole = scenes::exr_of(core::Film(3, 2, /*with_alpha=*/true), &aovs, named);
     const auto read = [&](const std::string& content) {
         const auto path = directory.write("a.exr", content);
         return tests::message_in<scenes::BadInput>(directory.path(),

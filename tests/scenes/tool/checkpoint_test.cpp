@@ -29,7 +29,7 @@ const std::string text = R"({
                 {"type": "plane", "material": "red", "point": [0, -1, 0], "normal": [0, 1, 0]}]
 })";
 
-bool same(const core::Layers& a, const core::Layers& b) {
+bool same(const core::Aovs& a, const core::Aovs& b) {
     return a.depth == b.depth && a.normal == b.normal && a.shape == b.shape &&
            a.material == b.material && a.samples == b.samples;
 }
@@ -110,7 +110,7 @@ TEST_CASE("a checkpoint that is truncated or damaged at any byte does not change
     Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
     drawing.options.threads = 1;
     drawing.options.tile = 8;
-    drawing.options.layers = true;
+    drawing.options.aovs = true;
     drawing.settings.alpha = true;
     const simd::Rendering whole = drawing.draw(nullptr);
     {
@@ -128,7 +128,7 @@ TEST_CASE("a checkpoint that is truncated or damaged at any byte does not change
         REQUIRE(rendering.complete);
         REQUIRE(rendering.film.pixels() == whole.film.pixels());
         REQUIRE(rendering.film.alphas() == whole.film.alphas());
-        REQUIRE(same(rendering.layers, whole.layers));
+        REQUIRE(same(rendering.aovs, whole.aovs));
         REQUIRE(rendering.counters.as_numbers() == whole.counters.as_numbers());
         return checkpoint.found_pixels();
     };

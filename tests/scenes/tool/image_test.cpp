@@ -105,8 +105,8 @@ TEST_CASE("options that an image cannot have give an error of one line") {
         CHECK(error_of(fixture, "a.png", {"--crop", text}) == crop + text + "\"\n");
     CHECK(error_of(fixture, "a.png", {"--crop", "10,0,7x3"}) ==
           "raylane: --crop: must lie in the image of 16 x 12 pixels, got \"10,0,7x3\"\n");
-    CHECK(error_of(fixture, "a.png", {"--layers"}) ==
-          "raylane: --layers: goes with an output that ends in .exr\n");
+    CHECK(error_of(fixture, "a.png", {"--aovs"}) ==
+          "raylane: --aovs: goes with an output that ends in .exr\n");
     CHECK(error_of(fixture, "a.pfm", {"--dpi", "300"}) ==
           "raylane: --dpi: goes with PNG, TIFF or EXR\n");
     CHECK(error_of(fixture, "a.hdr", {"--bits", "16"}) ==
@@ -125,7 +125,7 @@ TEST_CASE("options that an image cannot have give an error of one line") {
           "raylane: --outline-color: goes with --outline\n");
 }
 
-TEST_CASE("layers are written to an EXR") {
+TEST_CASE("AOVs are written to an EXR") {
     const ToolFixture fixture;
     if (!scenes::has_exr()) {
         CHECK(error_of(fixture, "a.exr", {}) == "raylane: --output: must be .png, .hdr or .pfm: "
@@ -134,7 +134,7 @@ TEST_CASE("layers are written to an EXR") {
     }
     CHECK(error_of(fixture, "a.exr", {"--bits", "8"}) ==
           "raylane: --bits: must be 16 or 32 in EXR, got \"8\"\n");
-    const Options options = {"--layers", "--bits", "32"};
+    const Options options = {"--aovs", "--bits", "32"};
     const scenes::Image image = fixture.rendered("a.exr", options);
     const scenes::Image floats = fixture.rendered("a.pfm", {});
     CHECK(image.rgb.floats() == floats.rgb.floats());

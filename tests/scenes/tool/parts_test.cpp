@@ -52,11 +52,11 @@ TEST_CASE("merged parts of an image are the same file as the whole") {
           {"--size", "150x90", "--quality", "35", "--crop", "21,3,100x70", "--alpha"},
           {"--size", "150x90", "--tile", "9", "--outline", "2"},
           {"--engine", "reference", "--transfer", "linear"},
-          {"--size", "150x90", "--layers"}}) {
+          {"--size", "150x90", "--aovs"}}) {
         CAPTURE(options);
         draw_parts(fixture, 3, options);
-        const bool layers = options.back() == "--layers";
-        const std::string ending = layers ? ".exr" : ".png";
+        const bool aovs = options.back() == "--aovs";
+        const std::string ending = aovs ? ".exr" : ".png";
         REQUIRE(fixture.render("whole" + ending, joined(options, floats_in(ending))).code == 0);
         const Outcome outcome = fixture.run(merged({2, 3, 1}, "merged" + ending));
         CHECK(outcome.err.empty());
@@ -158,15 +158,15 @@ TEST_CASE("parts of scenes with different settings are refused even if the Comme
     }
 }
 
-TEST_CASE("parts with and without layers are not merged") {
+TEST_CASE("parts with and without AOVs are not merged") {
     if (!scenes::has_exr()) return;
     const ToolFixture fixture;
     draw_parts(fixture, 2);
-    REQUIRE(fixture.run(part(2, 2, {"--layers"})).code == 0);
+    REQUIRE(fixture.run(part(2, 2, {"--aovs"})).code == 0);
     CHECK(fixture.run(merged({1, 2}, "out/a.exr")).err ==
-          "raylane: part-2.exr: has layers, but part-1.exr has none\n");
+          "raylane: part-2.exr: has AOVs, but part-1.exr has none\n");
     CHECK(fixture.run(merged({2, 1}, "out/a.exr")).err ==
-          "raylane: part-1.exr: has no layers, but part-2.exr has some\n");
+          "raylane: part-1.exr: has no AOVs, but part-2.exr has some\n");
     CHECK(fixture.is_output_empty());
 }
 
@@ -223,7 +223,7 @@ TEST_CASE("one frame of several can be drawn in parts") {
     CHECK(std::distance(std::filesystem::directory_iterator(fixture.output()), {}) == 1);
 }
 
-TEST_CASE("parts with alpha or layers are not merged into a format without them") {
+TEST_CASE("parts with alpha or AOVs are not merged into a format without them") {
     if (!scenes::has_exr()) return;
     const ToolFixture fixture;
     const auto refused = [&](const std::string& output, const std::string& message) {
@@ -242,9 +242,9 @@ TEST_CASE("parts with alpha or layers are not merged into a format without them"
     draw_parts(fixture, 2, {"--alpha"});
     for (const std::string& output : without_alpha)
         refused("out/" + output, "--alpha, which goes with PNG or EXR");
-    draw_parts(fixture, 2, {"--layers"});
+    draw_parts(fixture, 2, {"--aovs"});
     for (const std::string& output : joined(without_alpha, {"a.png"}))
-        refused("out/" + output, "--layers, which goes with an output that ends in .exr");
+        refused("out/" + output, "--aovs, which goes with an output that ends in .exr");
     CHECK(fixture.is_output_empty());
     becomes("a.exr");
     // If the scene itself has alpha, other formats show it over black, as render does.

@@ -51,7 +51,7 @@ try png --size 150x90 --threads 3 --quality 35 --crop 21,3,100x70 --alpha
 try png --size 90x50 --engine reference --outline 2
 try png --size 3x2 --tile 8 # fewer tiles than ranks
 if "$raylane" render "$scene" -q -o one.exr --size 150x90 2>/dev/null; then
-    try exr --size 150x90 --layers
+    try exr --size 150x90 --aovs
     try exr --size 150x90 --part 2/3
 fi
 

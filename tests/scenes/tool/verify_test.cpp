@@ -103,7 +103,7 @@ TEST_CASE("verify reproduces each pixel of an image from its scene and options")
     REQUIRE(fixture.render("a.png", {"--crop", "3,4,5x6"}).code == 0);
     CHECK(verify(fixture, "a.png", {"--pixels", "7"}).out.find("7 equal") != std::string::npos);
     if (!scenes::has_exr()) return;
-    for (const Options& options : {Options{}, {"--bits", "32", "--layers"}, {"--alpha"}}) {
+    for (const Options& options : {Options{}, {"--bits", "32", "--aovs"}, {"--alpha"}}) {
         CAPTURE(options);
         REQUIRE(fixture.render("a.exr", options).code == 0);
         CHECK(verify(fixture, "a.exr", {"--whole"}).out == right + std::string(again));
@@ -152,11 +152,11 @@ TEST_CASE("verify finds one changed bit in each format") {
     if (!scenes::has_exr()) return;
     for (const int bits : {16, 32}) {
         CAPTURE(bits);
-        REQUIRE(fixture.render("a.exr", {"--bits", std::to_string(bits), "--layers"}).code == 0);
+        REQUIRE(fixture.render("a.exr", {"--bits", std::to_string(bits), "--aovs"}).code == 0);
         scenes::ExrImage image = scenes::read_own_exr(fixture.path() / "a.exr");
         scenes::ImageOptions options{.bits = bits, .texts = image.texts};
         const auto written = [&] {
-            fixture.write("a.exr", scenes::exr_of(image.film, &*image.layers, options));
+            fixture.write("a.exr", scenes::exr_of(image.film, &*image.aovs, options));
         };
         written();
         CHECK(verify(fixture, "a.exr", {"--whole"}).out == right + std::string(again));
@@ -166,21 +166,21 @@ TEST_CASE("verify finds one changed bit in each format") {
         written();
         others("a.exr");
         number = right_number;
-        core::Layers& layers = *image.layers;
-        const std::size_t pixel = layers.index(8, 6);
-        for (float* const layer : {&layers.depth[pixel], &layers.normal[pixel].y}) {
-            const float before = *layer;
-            *layer = with_another_bit(before, 0);
+        core::Aovs& aovs = *image.aovs;
+        const std::size_t pixel = aovs.index(8, 6);
+        for (float* const value : {&aovs.depth[pixel], &aovs.normal[pixel].y}) {
+            const float before = *value;
+            *value = with_another_bit(before, 0);
             written();
             others("a.exr");
-            *layer = before;
+            *value = before;
         }
-        for (std::uint32_t* const layer :
-             {&layers.shape[pixel], &layers.material[pixel], &layers.samples[pixel]}) {
-            *layer ^= 1U;
+        for (std::uint32_t* const value :
+             {&aovs.shape[pixel], &aovs.material[pixel], &aovs.samples[pixel]}) {
+            *value ^= 1U;
             written();
             others("a.exr");
-            *layer ^= 1U;
+            *value ^= 1U;
         }
         for (auto& [key, text] : options.texts)
             if (key == "Rays") text = "all of them, by magic";

@@ -142,8 +142,8 @@ TEST_CASE("an image with details everywhere is sampled without middles of pixels
         return builder.finish();
     };
     const auto has_middles = [](const Scene& scene) {
-        const simd::Rendering rendering = rendered(scene, 30.0F, {.layers = true});
-        const auto& samples = rendering.layers.samples;
+        const simd::Rendering rendering = rendered(scene, 30.0F, {.aovs = true});
+        const auto& samples = rendering.aovs.samples;
         // The middle of a pixel counts only if the pixel has no other sample.
         const std::uint64_t counted =
             std::accumulate(samples.begin(), samples.end(), std::uint64_t{0});
@@ -173,10 +173,10 @@ TEST_CASE("an image with details everywhere may have the same grid in each pixel
                               luminous(Color(100.0F)));
     }
     const Scene scene = builder.finish();
-    const simd::Rendering rendering = rendered(scene, 25.0F, {.layers = true});
+    const simd::Rendering rendering = rendered(scene, 25.0F, {.aovs = true});
     const Film truth = converged(scene);
     CHECK(psnr(rendering.film, truth) >= 24.5);
-    const auto& samples = rendering.layers.samples;
+    const auto& samples = rendering.aovs.samples;
     CHECK(std::count(samples.begin(), samples.end(), 9U) > size * size * 9 / 10);
     // Pixels in which the grid misses a stick continue.
     CHECK(*std::min_element(samples.begin(), samples.end()) == 9);

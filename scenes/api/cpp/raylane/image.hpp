@@ -16,7 +16,7 @@ namespace RAYLANE_API raylane {
 /// AOVs (render outputs): for each pixel, the first visible surface, transparent or not, on the ray
 /// through the centre of the pixel and the centre of the lens. Arrays are height x width, as in
 /// Image.
-struct Layers {
+struct Aovs {
     /// Distance along the ray, in units of length: from the camera's position or, orthographic,
     /// from the image plane through that position. Infinite where nothing is hit.
     std::vector<float> depth{};
@@ -37,7 +37,7 @@ struct Image {
     /// height x width, or empty: the covered fraction of each pixel, in [0, 1]. Colours are
     /// premultiplied: over a background they are rgb + (1 - alpha) * background.
     std::vector<float> alpha{};
-    Layers layers{}; ///< empty unless RenderOptions::layers is set
+    Aovs aovs{}; ///< empty unless RenderOptions::aovs is set
 
     /// Returns the colour of the pixel in column x from the left and row y from the top.
     Color at(int x, int y) const {
@@ -60,7 +60,7 @@ struct RenderOptions {
     Precision precision = Precision::exact;
     /// The part of the image to render. It has the same bits as in the whole image. Unset: all.
     std::optional<PixelRect> crop{};
-    bool layers = false; ///< true: fill Image::layers
+    bool aovs = false; ///< true: fill Image::aovs
 };
 
 /// A finished tile, in the memory of the image that is being rendered. Valid only during the

@@ -935,7 +935,7 @@ typedef struct raylane_render_options {
 } raylane_render_options;
 /** Returns the default values of the C++ struct. */
 RAYLANE_API raylane_render_options raylane_default_render_options(void);
-/** Output arrays of an image with height x width pixels, same as Image and Layers in image.hpp.
+/** Output arrays of an image with height x width pixels, same as Image and Aovs in image.hpp.
  * NULL: not wanted. If `alpha` is not NULL, the image has alpha, whatever the scene's settings.
  * `rgb` and `normal` have three floats for each pixel. */
 typedef struct raylane_image {

@@ -12,7 +12,7 @@ import sys as _sys
 from ._atoms import frames, from_ase, from_atoms, from_mdanalysis, from_mdtraj
 from ._errors import BadInput, InputError, InvalidValue, SystemRefused
 from ._group import Group
-from ._image import Cancelled, Image, Layers, imshow, render
+from ._image import Cancelled, Image, Aovs, imshow, render
 from ._orbit import orbit
 from ._raylane import version as __version__
 from ._scene import Scene, SceneBuilder, load, parse
@@ -49,7 +49,7 @@ __all__ = [
     "Image",
     "InputError",
     "InvalidValue",
-    "Layers",
+    "Aovs",
     "Leaving",
     "Lengths",
     "Light",

@@ -30,7 +30,7 @@ class Cancelled(Exception):
 
 
 @renamed("shape", "shape_id")
-class Layers:
+class Aovs:
     """AOVs (render outputs): the first visible surface on the ray through the centre of each pixel.
 
     ``shape_id``, ``material`` and ``samples`` have the shape (height, width). ``shape_id`` is ``NO_SHAPE`` and
@@ -54,20 +54,20 @@ class Image(Fields):
     """(height, width, 3): rows from the top down."""
     alpha: Optional[NDArray[np.float32]]
     """(height, width), in [0, 1], or None. The colours are premultiplied by it."""
-    layers: Optional[Layers]
-    """The AOVs, or None if :func:`render` was called without ``layers=True``."""
+    aovs: Optional[Aovs]
+    """The AOVs, or None if :func:`render` was called without ``aovs=True``."""
     transfer: str
 
     def __init__(
         self,
         rgb: NDArray[Any],
         alpha: Optional[NDArray[Any]] = None,
-        layers: Optional[Layers] = None,
+        aovs: Optional[Aovs] = None,
         transfer: str = "srgb",
     ) -> None:
         self.rgb = rgb
         self.alpha = alpha
-        self.layers = layers
+        self.aovs = aovs
         self.transfer = transfer
 
     @property
@@ -166,7 +166,7 @@ def render(
     threads: int = 0,
     precision: Precision = "exact",
     crop: Optional[Tuple[int, int, int, int]] = None,
-    layers: bool = False,
+    aovs: bool = False,
     progress: Union[bool, OnProgress] = False,
     **changed: Any,
 ) -> Image:
@@ -175,7 +175,7 @@ def render(
     ``settings``: default is those of the scene. Further arguments change single settings: ``render(scene, width=800,
     height=600, grid=4)``. ``camera``: replaces the scene's (:meth:`Scene.seen_by`). ``threads``: maximum, 1 to 4096;
     0 is the value of RAYLANE_THREADS, or all processors. ``crop``: the part of the image to render, as x, y, width,
-    height in pixels. ``layers=True`` adds :class:`Layers`. ``progress``: called from time to time with the numbers of
+    height in pixels. ``aovs=True`` adds :class:`Aovs`. ``progress``: called from time to time with the numbers of
     finished and of all pixels; True shows a bar of tqdm, if that is installed.
 
     Raises :class:`InvalidValue` if an argument is out of range, and :class:`Cancelled` if ``progress`` returns False,
@@ -188,13 +188,13 @@ def render(
     bar = _bar() if progress is True else None
     on_progress = bar if isinstance(progress, bool) else progress
     try:
-        arrays = _raylane.render(scene._scene, chosen, threads, precision, crop, layers, on_progress)
+        arrays = _raylane.render(scene._scene, chosen, threads, precision, crop, aovs, on_progress)
     finally:
         if bar is not None:
             bar.close()
     if arrays is None:
         raise Cancelled
-    return Image(arrays["rgb"], arrays["alpha"], Layers(arrays) if layers else None, chosen.transfer)
+    return Image(arrays["rgb"], arrays["alpha"], Aovs(arrays) if aovs else None, chosen.transfer)
 
 
 def imshow(picture: Union[Scene, Image], ax: Any = None, **options: Any) -> Any:

@@ -166,7 +166,7 @@ def render(
     threads: int,
     precision: str,
     crop: Optional[Tuple[int, int, int, int]],
-    layers: bool,
+    aovs: bool,
     progress: Optional[Callable[[int, int], Optional[bool]]],
 ) -> Optional[Dict[str, Any]]: ...
 def write_image(path: str, rgb: Any, alpha: Any, transfer: str) -> None: ...

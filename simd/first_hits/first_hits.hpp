@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/scene/aovs.hpp"
 #include "core/scene/camera_rays.hpp"
-#include "core/scene/layers.hpp"
 #include "core/scene/region.hpp"
 #include "simd/query/transparency_walk.hpp"
 
@@ -64,9 +64,9 @@ class FirstHits {
     std::vector<std::size_t> places_; // in `hits`, by lane
 };
 
-/// Fills in a region of an image's layers, except for the samples. The layers cover the part `of`
+/// Fills in a region of an image's AOVs, except for the samples. The AOVs cover the part `of`
 /// of the image.
-void fill_layers(FirstHits& tracer, const core::Region& region, const core::Region& of,
-                 core::Layers& layers);
+void fill_aovs(FirstHits& tracer, const core::Region& region, const core::Region& of,
+               core::Aovs& aovs);
 
 } // namespace raylane::simd

@@ -6,7 +6,7 @@
 
 #include <numeric>
 
-/// Layers (AOVs) beside an image's colours, and crops of images.
+/// AOVs beside an image's colours, and crops of images.
 using namespace raylane;
 using namespace little_scene;
 
@@ -34,12 +34,12 @@ Scene still_life(float quality = 0.0F) {
     return builder.finish();
 }
 
-core::Layers layers_of(const Scene& scene, simd::RenderOptions options = {}) {
-    options.layers = true;
-    return simd::render(scene, scene.settings(), options).layers;
+core::Aovs aovs_of(const Scene& scene, simd::RenderOptions options = {}) {
+    options.aovs = true;
+    return simd::render(scene, scene.settings(), options).aovs;
 }
 
-bool same(const core::Layers& a, const core::Layers& b) {
+bool same(const core::Aovs& a, const core::Aovs& b) {
     return a.width == b.width && a.height == b.height && a.depth == b.depth &&
            a.normal == b.normal && a.shape == b.shape && a.material == b.material &&
            a.samples == b.samples;
@@ -47,18 +47,18 @@ bool same(const core::Layers& a, const core::Layers& b) {
 
 } // namespace
 
-TEST_CASE("layers hold the first hit of the ray through a pixel's middle") {
+TEST_CASE("AOVs hold the first hit of the ray through a pixel's middle") {
     const Scene scene = still_life();
-    const core::Layers layers = layers_of(scene);
+    const core::Aovs aovs = aovs_of(scene);
     Settings settings = scene.settings();
     settings.grid = 1;
     const CameraRays<double> rays(scene.camera(), settings);
     Searcher<double> searcher(scene, Search::hierarchy, Precision::exact);
     std::vector<int> seen(scene.shape_count() + 1);
-    REQUIRE(layers.width == 41);
-    REQUIRE(layers.height == 33);
-    for (int y = 0; y < layers.height; ++y)
-        for (int x = 0; x < layers.width; ++x) {
+    REQUIRE(aovs.width == 41);
+    REQUIRE(aovs.height == 33);
+    for (int y = 0; y < aovs.height; ++y)
+        for (int x = 0; x < aovs.width; ++x) {
             const Ray<double> ray = rays.ray(x, y, 0);
             const Hit<double> hit =
                 searcher
@@ -68,18 +68,18 @@ TEST_CASE("layers hold the first hit of the ray through a pixel's middle") {
                             return scene.material_of(candidate.shape).is_seen(candidate.enters());
                         })
                     .hit;
-            const std::size_t pixel = layers.index(x, y);
-            CHECK(layers.shape[pixel] == hit.shape);
-            CHECK(layers.depth[pixel] == static_cast<float>(hit.t));
-            CHECK(layers.samples[pixel] == 4);
+            const std::size_t pixel = aovs.index(x, y);
+            CHECK(aovs.shape[pixel] == hit.shape);
+            CHECK(aovs.depth[pixel] == static_cast<float>(hit.t));
+            CHECK(aovs.samples[pixel] == 4);
             ++seen[hit.any() ? hit.shape : scene.shape_count()];
             if (!hit.any()) {
-                CHECK(layers.material[pixel] == no_material);
-                CHECK(layers.normal[pixel] == Vec3f(0.0F));
+                CHECK(aovs.material[pixel] == no_material);
+                CHECK(aovs.normal[pixel] == Vec3f(0.0F));
                 continue;
             }
-            CHECK(layers.material[pixel] == scene.material_index_of(hit.shape));
-            const Vec3d normal = convert<double>(layers.normal[pixel]);
+            CHECK(aovs.material[pixel] == scene.material_index_of(hit.shape));
+            const Vec3d normal = convert<double>(aovs.normal[pixel]);
             CHECK(std::abs(length(normal) - 1.0) < 1e-6);
             CHECK(dot(normal, ray.direction) < 0.0);
             Vec3d true_normal = searcher.surface_at(ray, {}, hit).normal;
@@ -91,27 +91,27 @@ TEST_CASE("layers hold the first hit of the ray through a pixel's middle") {
     CHECK(seen[3] == 0); // visible only from its back
 }
 
-TEST_CASE("layers have the same bits for all threads and engines and instruction sets") {
+TEST_CASE("AOVs have the same bits for all threads and engines and instruction sets") {
     const Scene scene = still_life();
-    const core::Layers layers = layers_of(scene);
+    const core::Aovs aovs = aovs_of(scene);
     simd::RenderOptions options{.tile = 8, .threads = 5};
-    CHECK(same(layers, layers_of(scene, options)));
+    CHECK(same(aovs, aovs_of(scene, options)));
     options.precision = Precision::fast;
-    CHECK(same(layers, layers_of(scene, options)));
+    CHECK(same(aovs, aovs_of(scene, options)));
     options.engine = simd::Engine::reference;
-    CHECK(same(layers, layers_of(scene, options)));
+    CHECK(same(aovs, aovs_of(scene, options)));
     for (const simd::Isa isa : simd::available_isas()) {
         options = {};
         options.isa = isa;
-        CHECK(same(layers, layers_of(scene, options)));
+        CHECK(same(aovs, aovs_of(scene, options)));
     }
-    CHECK(simd::render(scene, scene.settings(), {}).layers.width == 0); // not requested
+    CHECK(simd::render(scene, scene.settings(), {}).aovs.width == 0); // not requested
 }
 
-TEST_CASE("layers count the samples that a quality takes") {
+TEST_CASE("AOVs count the samples that a quality takes") {
     const Scene scene = still_life(25.0F);
-    const simd::Rendering rendering = simd::render(scene, scene.settings(), {.layers = true});
-    const auto& samples = rendering.layers.samples;
+    const simd::Rendering rendering = simd::render(scene, scene.settings(), {.aovs = true});
+    const auto& samples = rendering.aovs.samples;
     CHECK(*std::min_element(samples.begin(), samples.end()) == 1);
     CHECK(*std::max_element(samples.begin(), samples.end()) >= 4);
     // Primary rays include a sample in the middle of each pixel, which counts only in pixels that
@@ -129,20 +129,20 @@ TEST_CASE("a crop has the same bits as in the whole image") {
             Settings settings = scene.settings();
             settings.outline.width = 3.0F;
             settings.outline.color = {1, 0, 0};
-            simd::RenderOptions options{.engine = engine, .layers = true};
+            simd::RenderOptions options{.engine = engine, .aovs = true};
             const simd::Rendering whole = simd::render(scene, settings, options);
             for (const Region& crop :
                  {Region{0, 0, 41, 33}, {5, 3, 6, 4}, {17, 0, 41, 20}, {9, 15, 37, 33}}) {
                 options.crop = crop;
                 const simd::Rendering part = simd::render(scene, settings, options);
                 CHECK(part.film.pixels() == whole.film.cropped(crop).pixels());
-                REQUIRE(part.layers.depth.size() == static_cast<std::size_t>(crop.pixels()));
+                REQUIRE(part.aovs.depth.size() == static_cast<std::size_t>(crop.pixels()));
                 for (int y = crop.y0; y < crop.y1; ++y)
                     for (int x = crop.x0; x < crop.x1; ++x) {
-                        const std::size_t here = part.layers.index(x - crop.x0, y - crop.y0);
-                        const std::size_t there = whole.layers.index(x, y);
-                        CHECK(part.layers.shape[here] == whole.layers.shape[there]);
-                        CHECK(part.layers.samples[here] == whole.layers.samples[there]);
+                        const std::size_t here = part.aovs.index(x - crop.x0, y - crop.y0);
+                        const std::size_t there = whole.aovs.index(x, y);
+                        CHECK(part.aovs.shape[here] == whole.aovs.shape[there]);
+                        CHECK(part.aovs.samples[here] == whole.aovs.samples[there]);
                     }
             }
         }

@@ -1,4 +1,4 @@
-#include "simd/layers/first_hits.hpp"
+#include "simd/first_hits/first_hits.hpp"
 
 #include "core/shapes/shapes.hpp"
 #include "simd/query/as_core.hpp"
@@ -118,18 +118,18 @@ void FirstHits::settle(std::size_t lane, FirstHit& hit) {
     set_normals(hit, flat, shading, first.entering);
 }
 
-void fill_layers(FirstHits& tracer, const core::Region& region, const core::Region& of,
-                 core::Layers& layers) {
+void fill_aovs(FirstHits& tracer, const core::Region& region, const core::Region& of,
+               core::Aovs& aovs) {
     std::vector<FirstHit> hits;
     tracer.trace(region, 1, hits);
     auto hit = hits.begin();
     for (int y = region.y0; y < region.y1; ++y)
         for (int x = region.x0; x < region.x1; ++x, ++hit) {
-            const std::size_t pixel = layers.index(x - of.x0, y - of.y0);
-            layers.depth[pixel] = static_cast<float>(hit->t);
-            layers.normal[pixel] = core::convert<float>(hit->shading_normal);
-            layers.shape[pixel] = hit->shape;
-            layers.material[pixel] = hit->material;
+            const std::size_t pixel = aovs.index(x - of.x0, y - of.y0);
+            aovs.depth[pixel] = static_cast<float>(hit->t);
+            aovs.normal[pixel] = core::convert<float>(hit->shading_normal);
+            aovs.shape[pixel] = hit->shape;
+            aovs.material[pixel] = hit->material;
         }
 }
 

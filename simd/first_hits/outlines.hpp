@@ -2,7 +2,7 @@
 
 #include "core/scene/film.hpp"
 #include "core/scene/outline.hpp"
-#include "simd/layers/first_hits.hpp"
+#include "simd/first_hits/first_hits.hpp"
 
 namespace raylane::simd {
 

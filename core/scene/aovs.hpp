@@ -14,7 +14,7 @@ namespace raylane::core {
 /// Render outputs of an image besides its colours (AOVs). Each pixel describes the first visible
 /// surface, transmissive or not, on the ray through the pixel's middle and the middle of the lens.
 /// Arrays by pixel, rows from top to bottom.
-struct Layers {
+struct Aovs {
     int width = 0;
     int height = 0;
     /// Distance along the ray, in units of length, from the camera's position or, if orthographic,
@@ -28,8 +28,8 @@ struct Layers {
     std::vector<MaterialIndex> material; ///< no_material where the ray hits nothing
     std::vector<std::uint32_t> samples;  ///< number of samples in the colour's mean
 
-    Layers() = default;
-    Layers(int width_, int height_) : width(width_), height(height_) {
+    Aovs() = default;
+    Aovs(int width_, int height_) : width(width_), height(height_) {
         const std::size_t count = static_cast<std::size_t>(width) * static_cast<unsigned>(height);
         depth.assign(count, std::numeric_limits<float>::infinity());
         normal.assign(count, Vec3f(0.0F));

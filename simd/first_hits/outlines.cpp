@@ -1,4 +1,4 @@
-#include "simd/layers/outlines.hpp"
+#include "simd/first_hits/outlines.hpp"
 
 #include "core/numbers/elementary.hpp"
 #include "core/numbers/infinity.hpp"
