@@ -72,11 +72,12 @@ Crossed crossed(const RTCRayHit& found, const simd::SceneData& data, Kind kind) 
 /// `single`: ray by ray; otherwise 16 at a time.
 template <class Shape, bool hard>
 void find(benchmark::State& state, simd::Isa isa, bool single) {
-    const auto& of = MethodRays<Shape, hard>::get();
+    const auto& method_rays = MethodRays<Shape, hard>::get();
     const EmbreeDevice device = make_embree_device(isa);
-    EmbreeScene scene(device.get(), of.scene, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
+    EmbreeScene scene(device.get(), method_rays.scene, RTC_SCENE_FLAG_ROBUST,
+                      RTC_BUILD_QUALITY_HIGH);
     scene.commit();
-    const WideRays rays(of.paths);
+    const WideRays rays(method_rays.paths);
     std::vector<RTCRayHit> lone(method_ray_count), lone_start(method_ray_count);
     for (std::size_t i = 0; i < method_ray_count; ++i)
         lone_start[i] = rays.single(i);
@@ -99,8 +100,8 @@ void find(benchmark::State& state, simd::Isa isa, bool single) {
     std::vector<Crossed> found;
     for (std::size_t i = 0; i < method_ray_count; ++i)
         found.push_back(
-            crossed(single ? lone[i] : packets.single(i), of.data, core::kind_of<Shape>));
-    report_errors(state, of.truths, found);
+            crossed(single ? lone[i] : packets.single(i), method_rays.data, core::kind_of<Shape>));
+    report_errors(state, method_rays.truths, found);
 }
 
 template <class Shape, bool hard>

@@ -24,19 +24,19 @@ std::vector<Crossed> found_in(const simd::Query& finder, const std::vector<Cross
 
 template <class Shape, bool hard>
 void find(benchmark::State& state, simd::Isa isa, core::Precision precision) {
-    const auto& of = MethodRays<Shape, hard>::get();
-    simd::Query finder(of.data, {&simd::kernels_of(isa), precision}, simd::Asked::points);
+    const auto& method_rays = MethodRays<Shape, hard>::get();
+    simd::Query finder(method_rays.data, {&simd::kernels_of(isa), precision}, simd::Asked::points);
     const simd::Arena arena =
         simd::arena_for([&](simd::Arena& a) { finder.take_from(a, method_ray_count); });
     simd::EngineCounters counters;
     for (auto _ : state)
-        finder.nearest(of.paths, nullptr, counters);
+        finder.nearest(method_rays.paths, nullptr, counters);
     state.SetItemsProcessed(static_cast<std::int64_t>(method_ray_count) * state.iterations());
     const double rays =
         static_cast<double>(method_ray_count) * static_cast<double>(state.iterations());
     state.counters["refined"] = static_cast<double>(counters.refined) / rays;
     state.counters["left_to_the_reference"] = static_cast<double>(counters.doubtful) / rays;
-    report_errors(state, of.truths, found_in(finder, of.truths));
+    report_errors(state, method_rays.truths, found_in(finder, method_rays.truths));
 }
 
 template <class Shape, bool hard>

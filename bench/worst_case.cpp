@@ -73,7 +73,7 @@ struct Hits {
 
     explicit Hits(std::size_t n) : t(n), x(n), y(n), z(n), shape(n) {}
     HitSpan span(std::size_t first, std::size_t count) {
-        const auto part = [&](auto& of) { return std::span(of).subspan(first, count); };
+        const auto part = [&](auto& column) { return std::span(column).subspan(first, count); };
         return {part(t), part(x), part(y), part(z), part(shape)};
     }
 };

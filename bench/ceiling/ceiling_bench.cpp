@@ -76,19 +76,19 @@ struct Columns {
 
 template <class Shape, bool hard>
 void find(benchmark::State& state, simd::Isa isa) {
-    const auto& of = MethodRays<Shape, hard>::get();
+    const auto& method_rays = MethodRays<Shape, hard>::get();
     Numbers numbers;
     for (int i = 0; i < method_shape_count; ++i)
-        prepare(of.shape(i), numbers);
-    Columns columns(of.paths);
+        prepare(method_rays.shape(i), numbers);
+    Columns columns(method_rays.paths);
     const CeilingLoop loop = loop_of<Shape>(unit_of(isa));
     for (auto _ : state)
         loop(numbers.data(), method_shape_count, columns.rays(), columns.hits());
     state.SetItemsProcessed(static_cast<std::int64_t>(method_ray_count) * state.iterations());
     std::vector<Crossed> found;
     for (std::size_t i = 0; i < method_ray_count; ++i)
-        found.push_back(columns.crossed(i, of.data, core::kind_of<Shape>));
-    report_errors(state, of.truths, found);
+        found.push_back(columns.crossed(i, method_rays.data, core::kind_of<Shape>));
+    report_errors(state, method_rays.truths, found);
 }
 
 template <class Shape, bool hard>

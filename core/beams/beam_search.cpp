@@ -144,7 +144,7 @@ void BeamSearch::narrow(const Beam& beam, std::vector<BeamCandidate>& candidates
     std::erase_if(candidates, [](const BeamCandidate& c) { return !(c.near < far); });
 }
 
-void BeamSearch::add(const Child& block, int lane, const BlockBounds& all, float near,
+void BeamSearch::add(const Child& block, int lane, const BlockBounds& block_bounds, float near,
                      std::vector<BeamCandidate>& candidates) const {
     const Place place{block.index(), static_cast<std::uint8_t>(lane)};
     const ShapeId id = with_table(scene_.shapes(), block.kind(),
@@ -152,8 +152,8 @@ void BeamSearch::add(const Child& block, int lane, const BlockBounds& all, float
     if (id == no_shape) return;
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
-        bounds.lower[axis] = all.lower[axis][lane];
-        bounds.upper[axis] = all.upper[axis][lane];
+        bounds.lower[axis] = block_bounds.lower[axis][lane];
+        bounds.upper[axis] = block_bounds.upper[axis][lane];
     }
     candidates.push_back({bounds, place, block.kind(), id, near});
 }
@@ -172,10 +172,10 @@ template <class Shape>
 template <class Shape>
 Crossing<Affine> first_possible(const Shape& shape, const Beam& beam) {
     ErrorPredicate<Affine> predicate = ErrorPredicate<Affine>::that_lets_none_miss();
-    const Crossings<Affine> all = meetings(shape, beam, predicate);
-    if (predicate.doubt() || all.begin() == all.end())
+    const Crossings<Affine> crossings = meetings(shape, beam, predicate);
+    if (predicate.doubt() || crossings.begin() == crossings.end())
         return {Affine(0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()), body};
-    return *all.begin();
+    return *crossings.begin();
 }
 
 } // namespace
@@ -190,10 +190,10 @@ BeamSearch::Met BeamSearch::meet(const BeamCandidate& candidate, const Beam& bea
     const Material& material = scene_.material_of(candidate.id);
     return with_table(scene_.shapes(), candidate.kind, [&](const auto& table) -> Met {
         ErrorPredicate<Affine> predicate;
-        const Crossings<Affine> all = meetings(table.get(candidate.place), beam, predicate);
+        const Crossings<Affine> crossings = meetings(table.get(candidate.place), beam, predicate);
         if (predicate.doubt())
             return {Met::partly, first_possible(table.get(candidate.place), beam)};
-        for (const Crossing<Affine>& crossing : all) {
+        for (const Crossing<Affine>& crossing : crossings) {
             if (crossing.t.upper() < 0.0) continue;
             if (!(crossing.t.lower() > 0.0)) return {Met::partly, crossing};
             if (ErrorPredicate<Affine>::is_doubtful(crossing)) return {Met::partly, crossing};

@@ -49,7 +49,7 @@ class BeamSearch {
 
     /// Returns the bounds of a block's shapes. Valid until the next call.
     const BlockBounds& bounds_of(const Child& block);
-    void add(const Child& block, int lane, const BlockBounds& all, float near,
+    void add(const Child& block, int lane, const BlockBounds& block_bounds, float near,
              std::vector<BeamCandidate>& candidates) const;
 
     const Scene& scene_;

@@ -57,10 +57,10 @@ double variance_around(std::span<const Shown> middles) {
             squares[channel] += off * off;
         }
     const auto n = static_cast<float>(middles.size());
-    float all = 0.0F;
+    float total = 0.0F;
     for (const std::size_t channel : channels_of_film)
-        all += std::max(0.0F, squares[channel] / n - sum[channel] / n * (sum[channel] / n));
-    return static_cast<double>(all) / 3.0;
+        total += std::max(0.0F, squares[channel] / n - sum[channel] / n * (sum[channel] / n));
+    return static_cast<double>(total) / 3.0;
 }
 
 PixelSamples& PixelSamples::operator+=(const PixelSamples& more) {

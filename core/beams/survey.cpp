@@ -108,8 +108,8 @@ Survey::Survey(const Scene& scene, const Settings& settings)
 
 std::size_t Survey::batches(Pass pass) const {
     if (pass == Pass::grid && promising_grid_ == 0) return 0;
-    const std::size_t all = pass == Pass::look ? places_.size() : records_.size();
-    return (all + batch_places - 1) / batch_places;
+    const std::size_t total = pass == Pass::look ? places_.size() : records_.size();
+    return (total + batch_places - 1) / batch_places;
 }
 
 Survey::Samples::Samples(Survey& survey, Pass pass, std::size_t batch)
@@ -187,20 +187,20 @@ void Survey::Samples::complete(const Pixel& pixel) const {
     Record& record = survey_.records_[pixel.number];
     if (pass_ == Pass::sample) complete_sequence(pixel, record);
     record.squared_error_of_grid =
-        squared_distance(pixel.in_grid.exact_mean(), record.all, survey_.settings_.transfer);
+        squared_distance(pixel.in_grid.exact_mean(), record.mean, survey_.settings_.transfer);
 }
 
 void Survey::Samples::complete_sequence(const Pixel& pixel, Record& record) const {
     const Transfer transfer = survey_.settings_.transfer;
     const PixelSamples halves[] = {sum(pixel.runs[0], pixel.runs[1]),
                                    sum(pixel.runs[2], pixel.runs[3])};
-    const PixelSamples all = sum(halves[0], halves[1]);
-    record.all = all.exact_mean();
+    const PixelSamples both_halves = sum(halves[0], halves[1]);
+    record.mean = both_halves.exact_mean();
     const auto error_of = [&](const Mean& mean) {
-        return squared_distance(mean, record.all, transfer);
+        return squared_distance(mean, record.mean, transfer);
     };
     record.cost = pixel.cost / (1.0 + measured_grid + all_samples);
-    record.variance = all.squares_shown(transfer) / (all_samples - 1.0);
+    record.variance = both_halves.squares_shown(transfer) / (all_samples - 1.0);
     for (std::size_t history = 0; history < histories; ++history) {
         const auto set = [&](std::size_t stage, const Mean& mean, double squares) {
             const int count = stage == 0 ? 0 : samples_at(stage);
@@ -210,7 +210,8 @@ void Survey::Samples::complete_sequence(const Pixel& pixel, Record& record) cons
         set(0, pixel.middle, 0.0);
         for (const std::size_t stage : {1, 2})
             set(stage, pixel.means[history][stage - 1], pixel.squares[history][stage - 1]);
-        const PixelSamples* const longer[] = {&pixel.runs[history], &halves[history / 2], &all};
+        const PixelSamples* const longer[] = {&pixel.runs[history], &halves[history / 2],
+                                              &both_halves};
         for (const std::size_t stage : {3, 4, 5})
             set(stage, longer[stage - 3]->exact_mean(), longer[stage - 3]->squares_shown(transfer));
     }
@@ -231,15 +232,15 @@ void Survey::end(Pass pass) {
 /// stands for step / chance places.
 void Survey::choose_records() {
     std::vector<double> around;
-    double all = 0.0;
+    double total = 0.0;
     for (const Place& place : places_) {
         around.push_back(variance_around({place.around, place.neighbours}));
-        all += around.back();
+        total += around.back();
     }
     const auto count = static_cast<double>(places_.size());
-    const double base = all > 0.0 ? anywhere * all / count : 1.0;
+    const double base = total > 0.0 ? anywhere * total / count : 1.0;
     const auto samples = static_cast<double>(sampled_in(pixels_of(settings_)));
-    const double step = (all + base * count) / samples;
+    const double step = (total + base * count) / samples;
     double due = 0.5 * step;
     for (std::size_t i = 0; i < places_.size(); ++i) {
         const double chance = around[i] + base;
@@ -366,7 +367,7 @@ double Survey::squared_error_at(const Record& record, std::size_t history,
 }
 
 Survey::Outcome Survey::outcome_of(const Policy& policy) const {
-    Outcome all;
+    Outcome outcome;
     double weights = 0.0;
     for (const Record& record : records_) {
         double squared_error = 0.0, samples = 0.0;
@@ -378,11 +379,11 @@ Survey::Outcome Survey::outcome_of(const Policy& policy) const {
             squared_error += squared_error_at(record, history, stage);
             samples += weighted_samples(samples_at(stage), policy);
         }
-        all.squared_error += record.weight / histories * squared_error;
-        all.cost += record.weight / histories * record.cost * samples;
+        outcome.squared_error += record.weight / histories * squared_error;
+        outcome.cost += record.weight / histories * record.cost * samples;
         weights += record.weight;
     }
-    return {all.squared_error / weights, all.cost / weights};
+    return {outcome.squared_error / weights, outcome.cost / weights};
 }
 
 /// Returns the mean cost of a sample over all pixels.
@@ -415,7 +416,7 @@ void Survey::choose_policy() {
     const double asked = squared_error_of(margin), too_good = squared_error_of(margin + excess);
     const double sample_cost = mean_cost();
     const double max_cost = RegionSamples::max_samples * sample_cost;
-    double least = infinity<double>, least_price = infinity<double>;
+    double least = infinity<double>, min_price = infinity<double>;
     for (const bool spares_alike : {true, false})
         for (std::size_t stage = 0; stage < stages; ++stage) {
             Policy policy{samples_at(stage), spares_alike};
@@ -431,8 +432,8 @@ void Survey::choose_policy() {
                                     ? outcome.cost
                                     : max_cost * outcome.squared_error / asked;
             const double price = outcome.squared_error < too_good ? dislike * cost : cost;
-            if (price < least_price) {
-                least_price = price;
+            if (price < min_price) {
+                min_price = price;
                 least = cost;
                 policy_ = policy;
             }

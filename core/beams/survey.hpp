@@ -118,7 +118,7 @@ class Survey {
         double around;                      ///< variance
         double cost = 0.0;                  ///< of a sample
         double variance = 0.0;              ///< of one sample
-        Mean all{};                         ///< mean of all 64 samples
+        Mean mean{};                        ///< mean of all 64 samples
         double squared_error_of_grid = 0.0; ///< relative to that, of the grid measured last
         struct AtStage {
             double squared_error; ///< relative to the mean of all 64 samples

@@ -221,8 +221,8 @@ void partition_strips(std::span<Item> items, const Range& range, const IsLeft& i
 } // namespace
 
 Range range_of(std::span<const Item> items, std::size_t first, std::size_t last, Workers& workers) {
-    Range whole{first, last, {}, {}};
-    std::vector<Range> strips(strips_of(whole.size()));
+    Range whole_range{first, last, {}, {}};
+    std::vector<Range> strips(strips_of(whole_range.size()));
     workers.each(strips.size(), [&](std::size_t i) {
         const std::size_t begin = first + i * strip_size;
         for (const Item& item : items.subspan(begin, std::min(strip_size, last - begin))) {
@@ -231,10 +231,10 @@ Range range_of(std::span<const Item> items, std::size_t first, std::size_t last,
         }
     });
     for (const Range& strip : strips) {
-        whole.box.include(strip.box);
-        whole.centers.include(strip.centers);
+        whole_range.box.include(strip.box);
+        whole_range.centers.include(strip.centers);
     }
-    return whole;
+    return whole_range;
 }
 
 Halves split_by_bins(std::span<Item> items, const Range& range, Workers& workers) {

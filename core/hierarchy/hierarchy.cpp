@@ -22,10 +22,10 @@ Bounds WideNode::bounds(int i) const {
 }
 
 Bounds WideNode::bounds() const {
-    Bounds all;
+    Bounds scene_bounds;
     for (int entry = 0; entry < block_size && !children[entry].empty(); ++entry)
-        all.include(bounds(entry));
-    return all;
+        scene_bounds.include(bounds(entry));
+    return scene_bounds;
 }
 
 void WideNode::set(int i, const Bounds& bounds, Child child) {

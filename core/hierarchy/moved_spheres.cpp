@@ -157,7 +157,7 @@ class SphereMover {
         const bool has_doubles = !blocks.doubles.empty();
         if (has_doubles) blocks.doubles[index] = {};
         Block<Sphere> block;
-        Bounds all;
+        Bounds moved_bounds;
         for (std::uint8_t lane = 0; lane < block_size; ++lane) {
             const Place place{index, lane};
             const ShapeId id = table_.id(place);
@@ -168,20 +168,20 @@ class SphereMover {
                 if (of_part == nullptr) sphere = moved(id, sphere.radius);
                 block.set(lane, to_floats(sphere), id);
                 if (has_doubles) blocks.doubles[index].set(lane, sphere);
-                all.include(of_part != nullptr ? *of_part
-                            : has_doubles      ? bounds_of(sphere)
-                                               : bounds_of(to_floats(sphere)));
+                moved_bounds.include(of_part != nullptr ? *of_part
+                                     : has_doubles      ? bounds_of(sphere)
+                                                        : bounds_of(to_floats(sphere)));
             } else {
                 const Number* const center = at(id);
                 const Sphere sphere{{static_cast<float>(center[0]), static_cast<float>(center[1]),
                                      static_cast<float>(center[2])},
                                     table_.plain_blocks()[index].values[3][lane]};
                 block.set(lane, sphere, id);
-                all.include(bounds_of(sphere));
+                moved_bounds.include(bounds_of(sphere));
             }
         }
         blocks.floats[index] = block;
-        bounds[index] = all;
+        bounds[index] = moved_bounds;
     }
 
     std::span<const Number> coordinates_;

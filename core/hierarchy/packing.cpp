@@ -87,13 +87,13 @@ class Packer {
         std::map<std::uint32_t, std::size_t> by_pattern;
         std::vector<Counts> found(std::min<std::size_t>(tasks_, 64));
         for (std::size_t first = 0; first < tasks_; first += found.size()) { // limits memory
-            const std::size_t some = std::min(found.size(), tasks_ - first);
+            const std::size_t count = std::min(found.size(), tasks_ - first);
             std::fill(found.begin(), found.end(), Counts());
-            workers_.each(some, [&](std::size_t i) {
+            workers_.each(count, [&](std::size_t i) {
                 for_each_in_task(first + i,
                                  [&](std::size_t block) { found[i].add(blocks_[block]); });
             });
-            for (std::size_t i = 0; i < some; ++i)
+            for (std::size_t i = 0; i < count; ++i)
                 found[i].add_to(by_pattern);
         }
         std::vector<std::pair<std::size_t, std::uint32_t>> by_count;

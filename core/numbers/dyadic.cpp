@@ -32,12 +32,12 @@ Dyadic::Dyadic(FromDouble, double value) : negative_(value < 0.0) {
     if (value == 0.0) return;
     int power = 0;
     const double mantissa = std::frexp(std::abs(value), &power);
-    const auto whole = static_cast<std::uint64_t>(std::ldexp(mantissa, 53));
+    const auto integer = static_cast<std::uint64_t>(std::ldexp(mantissa, 53));
     // whole 2^(power - 53), shifted to a multiple of 64 bits.
     const int lowest = power - 53;
     const int shift = ((lowest % digit_bits) + digit_bits) % digit_bits;
     exponent_ = (lowest - shift) / digit_bits;
-    const TwoDigits shifted = TwoDigits{whole} << shift;
+    const TwoDigits shifted = TwoDigits{integer} << shift;
     digits_.reset(2);
     digits_[0] = static_cast<Digit>(shifted);
     digits_[1] = static_cast<Digit>(shifted >> digit_bits);

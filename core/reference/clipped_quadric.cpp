@@ -324,11 +324,11 @@ bool is_clipped(const QuadricOf<double>& quadric) {
 }
 
 /// Returns true if the only closest point of the whole surface is in the box.
-bool is_in_box(WholeQuadricDistance& whole, const QuadricOf<double>& quadric) {
+bool is_in_box(WholeQuadricDistance& search, const QuadricOf<double>& quadric) {
     for (int axis = 0; axis < 3; ++axis)
         for (const double limit : {quadric.lower[axis], quadric.upper[axis]}) {
             if (std::isinf(limit)) continue;
-            const int side = whole.compare_coordinate(axis, Dyadic(quadric.center[axis]) + limit);
+            const int side = search.compare_coordinate(axis, Dyadic(quadric.center[axis]) + limit);
             if (limit == quadric.lower[axis] ? side < 0 : side > 0) return false;
         }
     return true;
@@ -377,10 +377,10 @@ std::unique_ptr<QuadricDistance> exact_distance(const QuadricOf<double>& quadric
                                                 const Vec3d& from) {
     const auto point = convert<Dyadic>(from);
     const FormAbout<Dyadic> form = form_about(quadric, point);
-    auto whole = std::make_unique<WholeQuadricDistance>(Dual<Dyadic>(form), point);
-    if (whole->exists()) {
-        if (!is_clipped(quadric)) return whole;
-        if (!whole->has_several_points() && is_in_box(*whole, quadric)) return whole;
+    auto unbounded = std::make_unique<WholeQuadricDistance>(Dual<Dyadic>(form), point);
+    if (unbounded->exists()) {
+        if (!is_clipped(quadric)) return unbounded;
+        if (!unbounded->has_several_points() && is_in_box(*unbounded, quadric)) return unbounded;
     }
     StationarySearch search(quadric, form, point, 0.0, 300, 256);
     return search.is_complete() ? search.closest() : closest_nearby(quadric, form, point);

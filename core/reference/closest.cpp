@@ -110,7 +110,7 @@ ExactClosest exactly_closest(const Scene& scene, Kind kind, Place place, const V
 }
 
 double nearest_distance(ExactClosest& closest) {
-    return std::visit([](auto& of) { return of.nearest_distance(); }, closest);
+    return std::visit([](auto& search) { return search.nearest_distance(); }, closest);
 }
 
 /// Returns bounds on the root of a number, which may be infinite.
@@ -320,9 +320,9 @@ Closest ClosestSearcher::answer(const Candidate& it, const Vec3d& point) const {
             *distance, {*coordinates[0], *coordinates[1], *coordinates[2]}, it.shape, known->face};
     ExactClosest exact = exactly_closest(scene_, it.kind, it.place, point);
     return std::visit(
-        [&](auto& of) -> Closest {
-            return {distance ? *distance : of.nearest_distance(), of.nearest_point(), it.shape,
-                    of.face()};
+        [&](auto& search) -> Closest {
+            return {distance ? *distance : search.nearest_distance(), search.nearest_point(),
+                    it.shape, search.face()};
         },
         exact);
 }

@@ -106,12 +106,12 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
     begin_around_start(from, hits, t_min);
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const Hit<double>& hit = hits[i];
-        End here{false, {}, &sharp_[i]};
+        End end{false, {}, &sharp_[i]};
         if (compare_t(scene_, from, hit, t_min) <= 0)
-            here = limit_at(t_min);
+            end = limit_at(t_min);
         else if (compare_t(scene_, from, hit, t_max) >= 0)
-            here = limit_at(t_max);
-        pass(body_of(hit.shape), hit.enters(), here);
+            end = limit_at(t_max);
+        pass(body_of(hit.shape), hit.enters(), end);
     }
     end_at(t_max);
 
@@ -152,14 +152,14 @@ bool PathLengths::add_certain(const Ray<double>& ray, std::span<const SolidCross
     for (const SolidCrossing& crossing : crossings) {
         const Bounded<double> t = in_double(crossing.t);
         const double off = t.error + 0x1p-52 * t.magnitude(); // covers the sums' roundings
-        End here{false, crossing.t, nullptr};
+        End end{false, crossing.t, nullptr};
         if (t.value + off <= t_min)
-            here = limit_at(t_min);
+            end = limit_at(t_min);
         else if (t.value - off >= t_max)
-            here = limit_at(t_max);
+            end = limit_at(t_max);
         else if (!(t.value - off > t_min && t.value + off < t_max))
             return false;
-        pass(numbered(crossing.body), crossing.enters, here);
+        pass(numbered(crossing.body), crossing.enters, end);
     }
     end_at(t_max);
 
@@ -180,12 +180,12 @@ bool PathLengths::add_certain(const Ray<double>& ray, std::span<const SolidCross
 }
 
 /// Passes a crossing of one of the body's solids, or a limit in its place.
-void PathLengths::pass(Body& one, bool enters, const End& here) {
+void PathLengths::pass(Body& one, bool enters, const End& end) {
     if (enters) {
-        if (one.depth++ == 0) one.begin = here;
+        if (one.depth++ == 0) one.begin = end;
     } else if (--one.depth == 0) {
-        const bool is_none = here.is_limit && one.begin.is_limit_at(here.at.value.high);
-        if (!is_none) one.parts.push_back({one.begin, here});
+        const bool is_none = end.is_limit && one.begin.is_limit_at(end.at.value.high);
+        if (!is_none) one.parts.push_back({one.begin, end});
     }
 }
 

@@ -72,7 +72,7 @@ class PathLengths {
                                             : scene_.solids().solid_of(shape);
     }
     Body& body_of(ShapeId shape) { return numbered(number_of(shape)); }
-    static void pass(Body& one, bool enters, const End& here);
+    static void pass(Body& one, bool enters, const End& end);
     void end_at(double t_max);
     void begin_around_start(const LeavingRay& from, std::span<const Hit<double>> hits,
                             double t_min);

@@ -196,13 +196,13 @@ Value SolidSurfaces::quickly(const LeavingRay& from, const Hit<double>& hit,
     const bool is_alone = with_part(scene_, part, [&](const auto& shape) {
         if (certainly_crosses(shape, from, hit)) return true;
         std::uint64_t widened = 0;
-        int there = 0;
+        int coincident = 0;
         for (const Crossing<double>& crossing :
              solve(shape, from.ray, from.origins.start_on(hit.shape), widened)) {
             const Hit<double> other = hit_of(part, crossing);
-            there += !other.is_surely_before(hit) && !hit.is_surely_before(other) ? 1 : 0;
+            coincident += !other.is_surely_before(hit) && !hit.is_surely_before(other) ? 1 : 0;
         }
-        return there == 1;
+        return coincident == 1;
     });
     return is_alone ? Value::yes : Value::unknown;
 }
@@ -228,34 +228,34 @@ WayInUnion::WayInUnion(const Scene& scene, const LeavingRay& from, ShapeId shape
 SolidSurfaces::Sides SolidSurfaces::sides_of_part(Index index, const LeavingRay& from,
                                                   const SharpHit& hit) {
     const Solids::Node& part = solids_.node(index);
-    const Hit<double>& there = hit.hit();
+    const Hit<double>& surface = hit.hit();
     const Contact<double>* contact = from.origins.find(part.shape);
-    if (there.at_start && contact != nullptr)
+    if (surface.at_start && contact != nullptr)
         return {contact->inside != part.reversed, contact->goes_inside != part.reversed};
     Sides inside{};
     with_part(scene_, part, [&](const auto& shape) {
         const Start start = from.origins.start_on(part.shape);
         std::uint64_t widened = 0;
-        const Crossings<double> all = solve(unclipped(shape), from.ray, start, widened);
-        if (all.begin() == all.end()) {
+        const Crossings<double> crossings = solve(unclipped(shape), from.ray, start, widened);
+        if (crossings.begin() == crossings.end()) {
             inside.before = inside.behind =
                 start.on_surface ? start.inward : runs_inside(shape, from.ray);
             return;
         }
         const CrossingOrder order(scene_, from);
-        const auto last = all.end() - 1;
-        if (last != all.begin() &&
-            order.compare(hit_of(part, *all.begin()), hit_of(part, *last)) == 0) {
+        const auto last = crossings.end() - 1;
+        if (last != crossings.begin() &&
+            order.compare(hit_of(part, *crossings.begin()), hit_of(part, *last)) == 0) {
             inside.before = inside.behind = touches_from_inside(shape, from.ray);
             return;
         }
-        inside.before = inside.behind = !all.begin()->entering;
-        for (const Crossing<double>& crossing : all) {
+        inside.before = inside.behind = !crossings.begin()->entering;
+        for (const Crossing<double>& crossing : crossings) {
             const Hit<double> other = hit_of(part, crossing);
-            const bool is_same = !there.at_start && other.shape == there.shape &&
-                                 other.face == there.face && other.entering == there.entering;
+            const bool is_same = !surface.at_start && other.shape == surface.shape &&
+                                 other.face == surface.face && other.entering == surface.entering;
             const int before = is_same ? 0
-                               : there.at_start
+                               : surface.at_start
                                    ? (other.t > 0.0 ? 1 : -1) // after the start: not crossed yet
                                    : order.compare(other, hit);
             if (before < 0) inside.before = crossing.entering;
@@ -288,13 +288,13 @@ bool SolidSurfaces::exactly(const LeavingRay& from, const Hit<double>& hit) {
     const SharpHit sharp(hit);
     const Bounds around = bounds_of(point_of(from, hit));
     Index index = solids_.root_of(solids_.part_of(hit.shape));
-    const Sides whole = sides_of(index, from, sharp, around);
-    if (!whole.change()) return false;
+    const Sides sides = sides_of(index, from, sharp, around);
+    if (!sides.change()) return false;
     // Finds the first part that changes in the same way as the whole solid.
     while (solids_.node(index).op != Solids::Op::part) {
         Index changed = Solids::none;
         const auto look = [&](Index child) {
-            if (sides_of(child, from, sharp, around) == whole) changed = child;
+            if (sides_of(child, from, sharp, around) == sides) changed = child;
             return changed == Solids::none;
         };
         if (solids_.node(index).many)

@@ -37,14 +37,14 @@ void include_shape(const Shape& shape, Frame& frame) {
 
 /// Returns the middle of all bounded shapes.
 Vec3d center_of(const Scene& scene) {
-    Bounds all;
+    Bounds scene_bounds;
     for_each_bounded_shape(scene, [&](const auto& shape, ShapeId id) {
-        if (!scene.solids().has(id)) all.include(bounds_of(shape));
+        if (!scene.solids().has(id)) scene_bounds.include(bounds_of(shape));
     });
     for (Solids::Index i = 0; i < scene.solids().nodes().size(); i = scene.solids().node(i).end)
-        if (is_finite(scene.solids().bounds(i))) all.include(scene.solids().bounds(i));
-    if (!is_finite(all)) return Vec3d(0.0);
-    return 0.5 * (convert<double>(all.lower) + convert<double>(all.upper));
+        if (is_finite(scene.solids().bounds(i))) scene_bounds.include(scene.solids().bounds(i));
+    if (!is_finite(scene_bounds)) return Vec3d(0.0);
+    return 0.5 * (convert<double>(scene_bounds.lower) + convert<double>(scene_bounds.upper));
 }
 
 /// Returns the fog that did not come with the camera.

@@ -68,10 +68,10 @@ class Checker {
     }
 
     void check_materials() {
-        const MaterialIndices& of = shapes_.material_of;
+        const MaterialIndices& materials = shapes_.material_of;
         if (shape_count() > 0 && materials_ == 0) refuse("shapes without a material");
-        require_all(of.width() == 0 ? 0 : of.size(), "an invalid index of a material",
-                    [&](std::size_t id) { return of[id] < materials_; });
+        require_all(materials.width() == 0 ? 0 : materials.size(), "an invalid index of a material",
+                    [&](std::size_t id) { return materials[id] < materials_; });
     }
 
     void check_polygons() const {
@@ -144,7 +144,8 @@ class Checker {
     /// Checks that merged shapes are not stored, of whatever kind, and not merged twice. The shapes
     /// that they equal must be stored, with the same kind.
     void check_merged() const {
-        if (std::ranges::all_of(shapes_.merged, [](const auto& of) { return of.empty(); })) return;
+        if (std::ranges::all_of(shapes_.merged, [](const auto& merged) { return merged.empty(); }))
+            return;
         constexpr std::uint8_t nowhere = kind_count, merged = kind_count + 1;
         std::vector<std::uint8_t> place(shape_count(),
                                         nowhere); // or the kind in which it is stored

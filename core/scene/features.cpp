@@ -38,7 +38,8 @@ Features features_of(const Scene& scene, const Settings& settings) {
     });
 
     std::vector<bool> used(scene.materials().size());
-    scene.material_indices().for_each_material([&](MaterialIndex of) { used[of] = true; });
+    scene.material_indices().for_each_material(
+        [&](MaterialIndex material) { used[material] = true; });
     const bool traces_further = settings.max_depth > 0;
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;

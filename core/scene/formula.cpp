@@ -214,8 +214,8 @@ class Parser {
         const Term exponent = with_sign();
         const double n = values_.number_of(exponent).value_or(0.0);
         values_.place = {names_.channel, at_};
-        constexpr double most_products = 16.0;
-        if (n >= 1.0 && n <= most_products && n == static_cast<int>(n))
+        constexpr double max_products = 16.0;
+        if (n >= 1.0 && n <= max_products && n == static_cast<int>(n))
             return values_.power(base, static_cast<int>(n));
         return result(Operation::power, base, exponent);
     }

@@ -25,8 +25,8 @@ PartShape given_shape(const Scene& scene, ShapeId id) {
         const auto found = std::ranges::lower_bound(merged, id, {}, &MergedShape::id);
         const ShapeId stored = found != merged.end() && found->id == id ? found->first : id;
         for (std::uint32_t block = 0; block < table.block_count(); ++block)
-            for_each_in_block(table, block, [&](Place place, ShapeId of) {
-                if (of == stored) shape = table.get(place);
+            for_each_in_block(table, block, [&](Place place, ShapeId listed) {
+                if (listed == stored) shape = table.get(place);
             });
     });
     return shape;

@@ -43,10 +43,10 @@ GivenShapes<Shape> given_beside_copies(const Scene& scene) {
         row(shape.id) = shape.id;
 
     GivenShapes<Shape> given;
-    for (ShapeId& of : row_of)
-        if (of != no_shape) {
-            given.ids.push_back(of);
-            of = static_cast<ShapeId>(given.ids.size() - 1);
+    for (ShapeId& entry : row_of)
+        if (entry != no_shape) {
+            given.ids.push_back(entry);
+            entry = static_cast<ShapeId>(given.ids.size() - 1);
         }
     const auto shape_of = [&](ShapeId id) -> InDouble<Shape>& { return given.shapes[row(id)]; };
     given.shapes.resize(given.ids.size());

@@ -270,9 +270,9 @@ bool is_ordinary(const Vec3d& point) {
 
 bool can_copy(const PartShape& shape) {
     return can_place(shape) && std::visit(
-                                   []<class Shape>(const Shape& of) {
+                                   []<class Shape>(const Shape& given) {
                                        if constexpr (is_bounded<InFloat<Shape>>) {
-                                           const Bounds bounds = bounds_of(of);
+                                           const Bounds bounds = bounds_of(given);
                                            // No number that is above 0 becomes 0 in a copy.
                                            return is_ordinary(convert<double>(bounds.lower)) &&
                                                   is_ordinary(convert<double>(bounds.upper)) &&

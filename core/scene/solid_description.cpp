@@ -65,10 +65,10 @@ class SolidWriter {
             return made(Made::by_difference, std::move(taken_away));
         }
         std::vector<Solid> parts() && {
-            std::vector<Solid> all;
+            std::vector<Solid> members;
             for (std::vector<Solid>& group : groups_)
-                all.push_back(made(Made::by_difference, std::move(group)));
-            return all;
+                members.push_back(made(Made::by_difference, std::move(group)));
+            return members;
         }
 
       private:

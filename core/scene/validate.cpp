@@ -70,7 +70,7 @@ void require_between(const Field& place, float value, float least, float most) {
 }
 
 template <class Of>
-void check_fields(const Of& of, Kinds kinds) {
+void check_fields(const Of& object, Kinds kinds) {
     fields::for_each_field(
         [&]<class Value>(const fields::Field& field, const Value& value) {
             if ((field.use.used & kinds) == 0) return;
@@ -90,7 +90,7 @@ void check_fields(const Of& of, Kinds kinds) {
             else if constexpr (fields::PatternLike<Value> || fields::OutlineLike<Value>)
                 validate_in(field.name, value);
         },
-        of);
+        object);
 }
 
 } // namespace

@@ -51,9 +51,9 @@ void MaterialIndices::push_back_repeated(const MaterialIndices& of_one, std::siz
 }
 
 const MaterialIndices::Repeat* MaterialIndices::repeat_before(std::size_t i) const {
-    const auto after =
-        std::upper_bound(repeats_.begin(), repeats_.end(), i,
-                         [](std::size_t index, const Repeat& of) { return index < of.first; });
+    const auto after = std::upper_bound(
+        repeats_.begin(), repeats_.end(), i,
+        [](std::size_t index, const Repeat& repeat) { return index < repeat.first; });
     return after == repeats_.begin() ? nullptr : &*(after - 1);
 }
 
@@ -84,10 +84,10 @@ MaterialIndices MaterialIndices::renumbered(std::span<const MaterialIndex> new_i
 }
 
 MaterialIndices MaterialIndices::all_stored() const {
-    MaterialIndices all;
+    MaterialIndices joined;
     for (std::size_t i = 0; i < size(); ++i)
-        all.push_back((*this)[i]);
-    return all;
+        joined.push_back((*this)[i]);
+    return joined;
 }
 
 void MaterialIndices::reserve(std::size_t size) {

@@ -71,9 +71,9 @@ Solid joined(Made made, Solid first, const Solid& second) {
 
 Solid union_of(std::vector<Solid> parts) {
     if (parts.size() == 1) return std::move(parts[0]);
-    Solid all{Made::by_union};
-    all.parts = std::move(parts);
-    return all;
+    Solid joined{Made::by_union};
+    joined.parts = std::move(parts);
+    return joined;
 }
 
 bool has_materials(const Solid& solid) {

@@ -204,13 +204,13 @@ Bounds bounds_of_common(std::span<const HalfSpace> half_spaces) {
         extent.add(quadrics[i]);
         for (std::size_t j = 0; j < i; ++j)
             extent.add(quadrics[i] + quadrics[j]);
-        Form all = quadrics[i];
+        Form product = quadrics[i];
         for (const Form& slab : slabs) {
-            all = all + slab;
+            product = product + slab;
             for (const double weight : {0x1p-6, 0x1p-3, 0.5, 8.0, 64.0})
                 extent.add(Dyadic(weight) * quadrics[i] + slab);
         }
-        if (slabs.size() > 1) extent.add(all);
+        if (slabs.size() > 1) extent.add(product);
     }
     return extent.bounds;
 }

@@ -125,11 +125,11 @@ Solid solid_of(const Lens& lens) {
             beyond = std::min(beyond, std::abs(lens.radii[side] / (1.0 + lens.conics[side])));
     double ends[2] = {std::min(0.0, edges[0]) - beyond,
                       std::max(lens.thickness, edges[1]) + beyond};
-    Solid whole{Made::by_difference};
+    Solid solid{Made::by_difference};
     Solid inside{Made::by_intersection};
     for (int side = 0; side < 2; ++side) {
         const bool bulges = surfaces.bulges(side);
-        (bulges ? inside : whole).parts.push_back(surfaces.body(side));
+        (bulges ? inside : solid).parts.push_back(surfaces.body(side));
         if (bulges || !(lens.conics[side] > -1.0)) continue;
         // The cylinder must not extend beyond the middle of a hollow ellipsoid, which narrows
         // there.
@@ -139,9 +139,9 @@ Solid solid_of(const Lens& lens) {
     inside.parts.push_back(of_shape(CylinderOf<double, Ends::capped>{
         {0.0, 0.0, ends[0]}, {0.0, 0.0, ends[1] - ends[0]}, lens.radius}));
     Solid result = std::move(inside);
-    if (!whole.parts.empty()) {
-        whole.parts.insert(whole.parts.begin(), std::move(result));
-        result = std::move(whole);
+    if (!solid.parts.empty()) {
+        solid.parts.insert(solid.parts.begin(), std::move(result));
+        result = std::move(solid);
     }
     return Transform::translation(lens.vertex).after(turned_to(lens.axis))(result);
 }

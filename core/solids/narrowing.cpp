@@ -24,10 +24,10 @@ std::size_t max_steps(std::size_t parts) {
 } // namespace
 
 SolidNarrowing::Expression SolidNarrowing::expression_of(Index solid) const {
-    Expression whole;
+    Expression expression;
     for (Index index = solid; index < nodes_[solid].end; ++index)
-        whole.terms.push_back({index, std::size_t{nodes_[index].end} - solid});
-    return whole;
+        expression.terms.push_back({index, std::size_t{nodes_[index].end} - solid});
+    return expression;
 }
 
 Value SolidNarrowing::value_of(Index part, const Somewhere& point) const {
@@ -72,7 +72,7 @@ Value SolidNarrowing::reduce_term(const std::vector<Term>& from, std::size_t at,
     bool is_decided = !term.is_cut && !node.many;
     for (std::size_t child = at + 1; child < term.end; child = from[child].end) {
         if (node.many) { // evaluates only the group's parts
-            const auto is_kept = [&](const Term& of) { return is_of_group(of.node); };
+            const auto is_kept = [&](const Term& kept) { return is_of_group(kept.node); };
             if (std::any_of(&from[child], &from[0] + from[child].end, is_kept))
                 reduce_term(from, child, box, to);
             continue;
@@ -133,18 +133,18 @@ void SolidNarrowing::narrow_parts(Index solid, std::vector<Index> parts) {
 
 void SolidNarrowing::narrow_group(std::size_t first, std::size_t last,
                                   const Expression& expression) {
-    Bounds all;
+    Bounds common_bounds;
     for (std::size_t i = first; i < last; ++i) {
         number_[parts_[i] - solid_] = i;
-        all.include(bounds_[parts_[i]]);
+        common_bounds.include(bounds_[parts_[i]]);
     }
     first_ = first;
     last_ = last;
     max_terms_ = terms_for_each(number_.size()) * (last - first);
     Expression reduced;
-    reduce(expression, somewhere_in(all), reduced);
+    reduce(expression, somewhere_in(common_bounds), reduced);
     if (last - first == 1) return narrow_part(parts_[first], reduced);
-    const Vec3d size = convert<double>(all.upper) - convert<double>(all.lower);
+    const Vec3d size = convert<double>(common_bounds.upper) - convert<double>(common_bounds.lower);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const auto twice_the_middle = [&](Index part) {
         return static_cast<double>(bounds_[part].lower[axis]) +

@@ -99,9 +99,9 @@ void SolidCollector::find_hulls(Index first) {
         const bool of_all = node.op == Solids::Op::all;
         Bounds common_to_all = everywhere(), around_any;
         solids_.each_child(index, [&](Index child) {
-            const Hulls& of = hulls_[child];
-            common_to_all = common(common_to_all, of_all ? of.inside : of.outside);
-            const Bounds& more = of_all ? of.outside : of.inside;
+            const Hulls& hulls = hulls_[child];
+            common_to_all = common(common_to_all, of_all ? hulls.inside : hulls.outside);
+            const Bounds& more = of_all ? hulls.outside : hulls.inside;
             if (!is_empty(more)) around_any.include(more);
             return true;
         });

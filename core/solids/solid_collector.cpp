@@ -14,12 +14,12 @@ namespace raylane::core {
 /// Converts open cylinders and cones to half-spaces, as they have no inside by themselves.
 PartShape SolidCollector::as_half_space(const PartShape& shape) {
     return std::visit(
-        []<class Shape>(const Shape& of) -> PartShape {
+        []<class Shape>(const Shape& part) -> PartShape {
             if constexpr (kind_of<Shape> == Kind::open_cylinder ||
                           kind_of<Shape> == Kind::open_cone)
-                return half_space_of(of);
+                return half_space_of(part);
             else
-                return of;
+                return part;
         },
         shape);
 }
@@ -37,10 +37,10 @@ SolidCollector::Index SolidCollector::begin(Solids::Op op, Index parent) {
 /// Finds the bounds of a whole solid and of its parts.
 void SolidCollector::find_bounds(Index solid, SolidNarrowing& narrowing) {
     std::vector<Node>& nodes = solids_.nodes_;
-    Bounds& whole = solids_.bounds_[solid];
-    whole = hulls_[solid].inside;
-    if (is_finite(whole) && !nodes[solid].many) narrowing.narrow_whole(solid);
-    const Bounds of_solid = whole;
+    Bounds& total_bounds = solids_.bounds_[solid];
+    total_bounds = hulls_[solid].inside;
+    if (is_finite(total_bounds) && !nodes[solid].many) narrowing.narrow_whole(solid);
+    const Bounds of_solid = total_bounds;
     // The hierarchy has no unbounded parts.
     if (!is_finite(of_solid))
         for (Index index = solid; index < nodes[solid].end; ++index)
@@ -142,13 +142,13 @@ void SolidCollector::note_counted(Index solid) {
     if (of_many != 1 || !solids_.nodes_[counted].counts) return;
     solids_.counted_.resize(solids_.nodes_.size(), Solids::none);
     solids_.counted_[solid] = counted;
-    Bounds all;
+    Bounds joined;
     for (Index part = counted + 1; part < solids_.nodes_[counted].end; ++part)
-        if (solids_.nodes_[part].traced) all.include(solids_.bounds_[part]);
+        if (solids_.nodes_[part].traced) joined.include(solids_.bounds_[part]);
     if (counted != solid)
-        solids_.bounds_[counted] = all;
+        solids_.bounds_[counted] = joined;
     else
-        solids_.bounds_[solid].include(all);
+        solids_.bounds_[solid].include(joined);
 }
 
 void SolidCollector::list(ShapeLists& lists) {
@@ -185,7 +185,7 @@ void SolidCollector::list(ShapeLists& lists) {
     SolidNarrowing narrowing(nodes, shapes_, solids_.bounds_);
     for (Index solid = 0; solid < nodes.size(); solid = nodes[solid].end) {
         find_bounds(solid, narrowing);
-        const Bounds whole = solids_.bounds_[solid];
+        const Bounds solid_bounds = solids_.bounds_[solid];
         for (Index part = solid; part < nodes[solid].end; ++part)
             if (nodes[part].op == Solids::Op::part && nodes[part].traced) put(part, lists);
         note_counted(solid);
@@ -193,11 +193,11 @@ void SolidCollector::list(ShapeLists& lists) {
             nodes.begin() + solid, nodes.begin() + nodes[solid].end, [](const Node& node) {
                 return node.op == Solids::Op::part && node.shape == no_shape && !node.cuts_nothing;
             });
-        if (is_finite(whole)) cover(solid, whole);
+        if (is_finite(solid_bounds)) cover(solid, solid_bounds);
         for (Index index = solid; index < nodes[solid].end; ++index)
             if (nodes[index].many)
                 solids_.each_child(index, [&](Index child) {
-                    cover(child, common(hulls_[child].inside, whole));
+                    cover(child, common(hulls_[child].inside, solid_bounds));
                     return true;
                 });
     }

@@ -29,7 +29,7 @@ class SheetRenderer {
     void render() {
         for (const MarkGroup& group : sheet_.groups)
             for (const Mark& mark : group.marks)
-                std::visit([this](const auto& of) { render(of); }, mark);
+                std::visit([this](const auto& shape) { render(shape); }, mark);
     }
 
   private:

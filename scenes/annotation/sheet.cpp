@@ -70,7 +70,7 @@ class SvgWriter {
         for (const MarkGroup& group : sheet_.groups) {
             text_ += "<g" + with("id", escaped(group.name)) + ">\n";
             for (const Mark& mark : group.marks)
-                std::visit([this](const auto& of) { add(of); }, mark);
+                std::visit([this](const auto& shape) { add(shape); }, mark);
             text_ += "</g>\n";
         }
         return text_ + "</svg>\n";

@@ -21,7 +21,7 @@ namespace {
 using core::fields::Field;
 
 template <class Of>
-void write_fields(JsonObject& object, const Of& of, const char* group = "");
+void write_fields(JsonObject& object, const Of& source, const char* group = "");
 
 void write_axes(JsonObject& object, const Field& field, std::uint8_t bits) {
     std::string axes;
@@ -76,17 +76,17 @@ bool is_wanted(const auto&, std::string_view) {
 
 /// Writes the fields of a struct's kind. `group`: only fields of this group.
 template <class Of>
-void write_fields(JsonObject& object, const Of& of, const char* group) {
+void write_fields(JsonObject& object, const Of& source, const char* group) {
     const Of usual{};
     core::fields::for_each_field(
-        [&, kind = core::fields::kind_of(of)]<class Value>(const Field& field, const Value& value,
-                                                           const Value& usual_value) {
-            if (!field.is_in(group, kind) || !is_wanted(of, field.name)) return;
+        [&, kind = core::fields::kind_of(source)]<class Value>(
+            const Field& field, const Value& value, const Value& usual_value) {
+            if (!field.is_in(group, kind) || !is_wanted(source, field.name)) return;
             if constexpr (std::equality_comparable<Value>)
                 if (field.spelling.sparse && value == usual_value) return;
             write_field(object, field, value);
         },
-        of, usual);
+        source, usual);
 }
 
 void write_fit_camera(JsonObject& object, const core::FitCamera& fit_camera, float depth_cue) {

@@ -134,14 +134,14 @@ class NffWriter {
     }
     /// Writes the box's faces, counter-clockwise as seen from outside.
     void write_shape(const core::BoxOf<double>& s) {
-        const Vec3d all = s.edge_u + s.edge_v + s.edge_w;
+        const Vec3d diagonal = s.edge_u + s.edge_v + s.edge_w;
         const bool left_handed = core::dot(core::cross(s.edge_u, s.edge_v), s.edge_w) < 0.0;
         const std::array<std::array<Vec3d, 2>, 3> sides = {
             {{s.edge_u, s.edge_v}, {s.edge_v, s.edge_w}, {s.edge_w, s.edge_u}}};
         for (auto [a, b] : sides) {
             if (left_handed) std::swap(a, b);
             write_face(s.corner, b, a);
-            write_face(s.corner + all, -a, -b);
+            write_face(s.corner + diagonal, -a, -b);
         }
     }
     void write_face(const Vec3d& corner, const Vec3d& a, const Vec3d& b) {

@@ -135,9 +135,9 @@ bool looks_like_pdb(const std::vector<std::string_view>& lines) {
     static constexpr std::array<std::string_view, 13> records = {
         "HEADER", "TITLE ", "COMPND", "SOURCE", "KEYWDS", "EXPDTA", "AUTHOR",
         "REMARK", "CRYST1", "MODEL ", "ATOM  ", "HETATM", "OBSLTE"};
-    return !lines.empty() && std::any_of(records.begin(), records.end(), [&](std::string_view of) {
-        return lines[0].starts_with(of);
-    });
+    return !lines.empty() &&
+           std::any_of(records.begin(), records.end(),
+                       [&](std::string_view record) { return lines[0].starts_with(record); });
 }
 
 /// Returns true if the first word after comments begins a data block.

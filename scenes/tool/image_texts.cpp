@@ -63,9 +63,9 @@ std::optional<ImagePart> image_part_of(const std::string& text) {
     constexpr int most = 1'000'000;
     const std::size_t slash = text.find('/');
     if (slash == std::string::npos) return std::nullopt;
-    const std::string_view whole = text;
-    const std::optional<int> number = to_int(whole.substr(0, slash));
-    const std::optional<int> count = to_int(whole.substr(slash + 1));
+    const std::string_view original = text;
+    const std::optional<int> number = to_int(original.substr(0, slash));
+    const std::optional<int> count = to_int(original.substr(slash + 1));
     if (!number || !count || *number < 1 || *number > *count || *count > most) return std::nullopt;
     return ImagePart{static_cast<std::size_t>(*number), static_cast<std::size_t>(*count)};
 }

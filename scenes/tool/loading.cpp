@@ -31,17 +31,17 @@ class Loader : public simd::ParallelWorkers {
 
     core::Scene load(const std::filesystem::path& path, LoadOptions options) {
         options.workers = this;
-        options.on_read = [this](std::uint64_t bytes, std::uint64_t of) {
+        options.on_read = [this](std::uint64_t bytes, std::uint64_t total) {
             bytes_ = bytes;
-            all_bytes_ = of;
+            all_bytes_ = total;
         };
         options.on_remark = [this](const std::string& remark) { remarks_.push_back(remark); };
         return load_scene(path, options);
     }
 
     void added(std::size_t count) override { added_ = count; }
-    void placed(std::size_t count, std::size_t all) override {
-        to_place_ = all;
+    void placed(std::size_t count, std::size_t total) override {
+        to_place_ = total;
         placed_ += count;
     }
 
@@ -49,8 +49,8 @@ class Loader : public simd::ParallelWorkers {
     const std::vector<std::string>& remarks() const { return remarks_; }
 
     std::string text() const {
-        const auto share = [](auto done, auto all) {
-            return static_cast<double>(done) / static_cast<double>(all);
+        const auto share = [](auto done, auto total) {
+            return static_cast<double>(done) / static_cast<double>(total);
         };
         if (to_place_ > 0)
             return bar_text(share(placed_.load(), to_place_.load())) + "  of " +

@@ -35,9 +35,9 @@ std::string with_prefix(double value) {
 
 std::string duration_text(double seconds) {
     if (seconds < 59.95) return formatted("%.1f s", seconds);
-    const auto whole = static_cast<long long>(std::llround(seconds));
-    if (whole < 3600) return formatted("%lld min %02lld s", whole / 60, whole % 60);
-    return formatted("%lld h %02lld min", whole / 3600, whole / 60 % 60);
+    const auto rounded = static_cast<long long>(std::llround(seconds));
+    if (rounded < 3600) return formatted("%lld min %02lld s", rounded / 60, rounded % 60);
+    return formatted("%lld h %02lld min", rounded / 3600, rounded / 60 % 60);
 }
 
 std::string bar_text(double done) {

@@ -171,11 +171,11 @@ std::size_t CandidateResolver::first_of_many(const Paths& paths, std::size_t lan
     for (std::size_t next = 0; next < listed_.size();) {
         const std::size_t found = count_;
         if (found != 0 && listed_[next].lower > hits_.t[0] + hits_.error[0]) break;
-        const std::size_t some = std::min(most - count_, listed_.size() - next);
-        add(paths, lane, std::span(listed_).subspan(next, some));
+        const std::size_t count = std::min(most - count_, listed_.size() - next);
+        add(paths, lane, std::span(listed_).subspan(next, count));
         solve(found);
         count_ = first_of(0, count_, counters);
-        next += some;
+        next += count;
     }
     return count_;
 }

@@ -112,14 +112,15 @@ class Collector {
         std::vector<HalfSpace> group;
         bool is_known = !node.many;
         for (Solids::Index part = index; is_known && part < node.end; ++part) {
-            const Solids::Node& of = solids_.node(part);
-            if (of.op == Solids::Op::part) {
-                const HalfSpacesOf more(scene_, of, !of.reversed);
+            const Solids::Node& part_node = solids_.node(part);
+            if (part_node.op == Solids::Op::part) {
+                const HalfSpacesOf more(scene_, part_node, !part_node.reversed);
                 // The half-spaces of a part that is not reversed would need one group each.
-                is_known = more.size() == faces_of(of) && (of.reversed || more.size() == 1);
+                is_known =
+                    more.size() == faces_of(part_node) && (part_node.reversed || more.size() == 1);
                 group.insert(group.end(), more.begin(), more.end());
             } else {
-                is_known = of.op == Solids::Op::any;
+                is_known = part_node.op == Solids::Op::any;
             }
         }
         if (is_known)
@@ -192,7 +193,7 @@ void ClipPlanes::find(const core::Scene& scene, SceneView& view, std::uint32_t s
             // cuts.
             const auto begin = solids.nodes().begin();
             if (child == index || std::any_of(begin + child, begin + solids.node(child).end,
-                                              [](const Solids::Node& of) { return of.many; }))
+                                              [](const Solids::Node& node) { return node.many; }))
                 return true;
             for (Solids::Index part = child; part < solids.node(child).end; ++part)
                 if (solids.node(part).op == Solids::Op::part) cut_by_[part] = number_[index];

@@ -42,14 +42,15 @@ SurfaceNode SurfaceExpressions::shape_of(core::Kind kind, core::Place place) {
     node.kind = kind;
     node.id = no_slot - 1; // no ray leaves a shape that rays do not cross
     node.slot = scene_.slot_of(kind, place);
-    std::array<double, most_numbers>& numbers = numbers_.emplace_back();
+    std::array<double, max_numbers>& numbers = numbers_.emplace_back();
     node.numbers = numbers.data();
-    core::with_table(scene_.scene().shapes(), kind, [&]<class Shape>(const core::Table<Shape>& of) {
-        const auto exact = of.get(place);
-        const auto all = std::bit_cast<core::Numbers<core::InDouble<Shape>>>(exact);
-        static_assert(all.size() <= most_numbers);
-        std::copy(all.begin(), all.end(), numbers.begin());
-    });
+    core::with_table(
+        scene_.scene().shapes(), kind, [&]<class Shape>(const core::Table<Shape>& table) {
+            const auto exact = table.get(place);
+            const auto shape_numbers = std::bit_cast<core::Numbers<core::InDouble<Shape>>>(exact);
+            static_assert(shape_numbers.size() <= max_numbers);
+            std::copy(shape_numbers.begin(), shape_numbers.end(), numbers.begin());
+        });
     return node;
 }
 

@@ -23,14 +23,14 @@ class SurfaceExpressions {
     }
 
   private:
-    static constexpr std::size_t most_numbers = 24;
+    static constexpr std::size_t max_numbers = 24;
 
     SurfaceNode shape_of(core::Kind kind, core::Place place);
     void describe(SurfaceNode& node) const;
 
     const SceneData& scene_;
     std::vector<SurfaceNode> nodes_;
-    std::deque<std::array<double, most_numbers>> numbers_; // of each shape
+    std::deque<std::array<double, max_numbers>> numbers_; // of each shape
 };
 
 } // namespace raylane::simd

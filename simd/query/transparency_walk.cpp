@@ -73,7 +73,7 @@ void TransparencyWalk::go_on(const Paths& paths, const Coherence* coherence,
         passed_[to] = 0.0;
         onward_paths_.move_to(to, point_of(paths, lane));
         move_on(hits, lane, to);
-        std::erase_if(points_, [&](const HitPoint& of) { return of.lane == lane; });
+        std::erase_if(points_, [&](const HitPoint& point) { return point.lane == lane; });
     }
     // Rays that go on no longer start at one point.
     if (coherence != nullptr && !coherence->converging && !coherence->parallel)
@@ -128,7 +128,7 @@ void TransparencyWalk::settle(const Paths& paths, std::size_t lane) {
     };
     const core::Encounter<double> first = searcher_->nearest(ray, origins, is_seen);
     const Hits& hits = query_.hits();
-    std::erase_if(points_, [&](const HitPoint& of) { return of.lane == lane; });
+    std::erase_if(points_, [&](const HitPoint& point) { return point.lane == lane; });
     if (first.contacts.size() > 1) {
         hits.slot[lane] = no_slot;
         at_contacts_.push_back(static_cast<std::uint32_t>(lane));

@@ -112,12 +112,12 @@ void FewRays::round() {
     double size = before, off = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         const double origin = ray_.origin[axis][0], direction = ray_.direction[axis][0];
-        const double there = before * direction + origin;
-        const auto rounded = static_cast<float>(there);
+        const double coordinate = before * direction + origin;
+        const auto rounded = static_cast<float>(coordinate);
         ray_.rounded_origin[axis][0] = rounded;
         ray_.rounded_direction[axis][0] = static_cast<float>(direction);
         size += std::abs(origin);
-        off += std::abs(static_cast<double>(rounded) - there);
+        off += std::abs(static_cast<double>(rounded) - coordinate);
     }
     if (before > 0.0) off += 0x1p-50 * size;
     ray_.slack[0] = static_cast<float>(off) * (1.0F + 0x1p-15F) + least_slack_;

@@ -174,13 +174,15 @@ bool StreamWorker::touches(const LoneRay& ray, const core::Hit<double>& hit) {
     const core::CrossingOrder order(scene, ray.leaving());
     return core::with_table(scene.shapes(), hit.kind, [&](const auto& table) {
         std::uint64_t widened = 0;
-        const auto all =
+        const auto answers =
             core::solve(table.get(hit.place), ray.ray, ray.origins.start_on(hit.shape), widened);
-        return std::any_of(all.begin(), all.end(), [&](const core::Crossing<double>& crossing) {
-            const core::Hit<double> other(crossing, hit.shape, hit.kind, hit.place, hit.reversed);
-            return other.entering != hit.entering && order.compare(other, hit) == 0 &&
-                   ray.finds(scene, other) && solid_surfaces_.is_surface(ray.leaving(), other);
-        });
+        return std::any_of(
+            answers.begin(), answers.end(), [&](const core::Crossing<double>& crossing) {
+                const core::Hit<double> other(crossing, hit.shape, hit.kind, hit.place,
+                                              hit.reversed);
+                return other.entering != hit.entering && order.compare(other, hit) == 0 &&
+                       ray.finds(scene, other) && solid_surfaces_.is_surface(ray.leaving(), other);
+            });
     });
 }
 

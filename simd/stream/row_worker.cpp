@@ -341,18 +341,18 @@ std::size_t RowWorker::for_each_row(const RayStream<Real>& rays, bool with_norma
     const core::Scene& scene = scene_.scene();
     intake_.take_whole_lines(false);
     return for_each_ray(rays, with_normals, [&](std::size_t first, std::size_t lane) {
-        const RayStream<Real> some = part_of(rays, first, rays.count - first);
+        const RayStream<Real> part = part_of(rays, first, rays.count - first);
         const auto counts = [&](std::size_t k) {
-            return !scene_.looks_through() || is_seen(some, lane, k);
+            return !scene_.looks_through() || is_seen(part, lane, k);
         };
         keys_.clear();
         if ((!intake_.is_ray(lane) && !intake_.is_apart(lane)) ||
-            (intake_.is_ray(lane) && sort_at_once(some, lane, counts)))
-            return visit(some, lane, static_cast<const LoneRay*>(nullptr));
-        const LoneRay ray = intake_.lone(some, lane, lane);
+            (intake_.is_ray(lane) && sort_at_once(part, lane, counts)))
+            return visit(part, lane, static_cast<const LoneRay*>(nullptr));
+        const LoneRay ray = intake_.lone(part, lane, lane);
         find(ray, lane, [&](const core::Hit<double>& hit) { return ray.finds(scene, hit); });
         leave_one_of_polygons();
-        visit(some, lane, &ray);
+        visit(part, lane, &ray);
     });
 }
 
@@ -360,9 +360,9 @@ template <class Real>
 std::size_t RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
                                  CrossingRows& rows, CrossingCounters& counters) {
     counters_ = {};
-    const auto visit = [&](const RayStream<Real>& some, std::size_t lane, const LoneRay* ray) {
+    const auto visit = [&](const RayStream<Real>& part, std::size_t lane, const LoneRay* ray) {
         if (ray == nullptr)
-            add_keys(some, lane, wanted, rows);
+            add_keys(part, lane, wanted, rows);
         else
             add(*ray, wanted, rows);
         rows.first.push_back(rows.t.size());
@@ -410,10 +410,10 @@ void RowWorker::add(const LoneRay& ray, const CrossingRequest& wanted, CrossingR
 }
 
 /// Adds the crossings at one t: the first `most` of them, or all if there are fewer.
-void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
+void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> group, std::size_t most,
                              const CrossingRequest& wanted, CrossingRows& rows) {
     // Entering crossings come first; each side is sorted by shape.
-    const auto left = std::find_if(all.begin(), all.end(),
+    const auto left = std::find_if(group.begin(), group.end(),
                                    [](const Crossed& crossed) { return !crossed.hit.enters(); });
     const auto is_among = [](auto begin, auto end, core::ShapeId shape) {
         const auto found =
@@ -423,10 +423,10 @@ void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, s
         return found != end && found->hit.shape == shape;
     };
     const core::Scene& scene = scene_.scene();
-    for (const Crossed& crossed : all.first(std::min(most, all.size()))) {
+    for (const Crossed& crossed : group.first(std::min(most, group.size()))) {
         const core::Hit<double>& hit = crossed.hit;
-        const bool touches = hit.enters() ? is_among(left, all.end(), hit.shape)
-                                          : is_among(all.begin(), left, hit.shape);
+        const bool touches = hit.enters() ? is_among(left, group.end(), hit.shape)
+                                          : is_among(group.begin(), left, hit.shape);
         rows.t.push_back(ray.double_t_of(scene, hit, crossed.t, crossed.error));
         rows.shape.push_back(hit.shape);
         rows.entering.push_back(hit.enters() ? 1 : 0);

@@ -75,7 +75,7 @@ class RowWorker {
     void leave_one_of_polygons();
     void find_lengths(LoneRay ray, std::size_t lane, core::Bodies bodies);
     void add(const LoneRay& ray, const CrossingRequest& wanted, CrossingRows& rows);
-    void add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
+    void add_at_one_t(const LoneRay& ray, std::span<const Crossed> group, std::size_t most,
                       const CrossingRequest& wanted, CrossingRows& rows);
 
     static constexpr std::size_t at_a_time = 1024;      // rays

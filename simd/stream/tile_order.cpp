@@ -100,9 +100,9 @@ bool TileOrder::find_cells(std::size_t count) {
     Extent u{huge, -huge}, v{huge, -huge};
     float rims = 0.0F;
     for (std::size_t begin = 0; begin < count; begin += group) {
-        const std::size_t here = std::min(group, count - begin);
-        const Extent of_u = extent_of(u_.data() + begin, here);
-        const Extent of_v = extent_of(v_.data() + begin, here);
+        const std::size_t size = std::min(group, count - begin);
+        const Extent of_u = extent_of(u_.data() + begin, size);
+        const Extent of_v = extent_of(v_.data() + begin, size);
         rims += of_u.size() + of_v.size();
         u = {std::min(u.low, of_u.low), std::max(u.high, of_u.high)};
         v = {std::min(v.low, of_v.low), std::max(v.high, of_v.high)};

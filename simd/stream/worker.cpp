@@ -37,8 +37,8 @@ void StreamWorker::in_good_order(const RayStream<Real>& rays, const AsTheyAre& a
                                  const InTiles& in_tiles) {
     std::size_t in_order = 0; // up to here, the rays' own order is good enough
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
-        const RayStream<Real> some = intake_.take(rays, first);
-        count = some.count;
+        const RayStream<Real> part = intake_.take(rays, first);
+        count = part.count;
         if (first >= in_order && are_better_in_tiles(rays, first)) {
             const std::size_t most = std::min(rays.count - first, TileOrder::most);
             if (tiles_.find(part_of(rays, first, most), intake_.coherence()->parallel)) {
@@ -48,7 +48,7 @@ void StreamWorker::in_good_order(const RayStream<Real>& rays, const AsTheyAre& a
             }
             in_order = first + most;
         }
-        as_they_are(some, first);
+        as_they_are(part, first);
     }
 }
 
@@ -61,12 +61,12 @@ std::size_t StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& 
     std::size_t refused = 0;
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
         count = std::min(rays.count - first, TileOrder::most);
-        const RayStream<Real> some = part_of(rays, first, count);
+        const RayStream<Real> part = part_of(rays, first, count);
         HitStream found = part_of(hits, first);
         columns_.add_missing(found, count);
-        refused += find_nearest(some, found);
+        refused += find_nearest(part, found);
         for (std::size_t i = 0; i < count; ++i) {
-            const core::Vec3d normal = double_normal_of(some, found, i);
+            const core::Vec3d normal = double_normal_of(part, found, i);
             for (int axis = 0; axis < 3; ++axis)
                 if (normals.normal[axis] != nullptr) normals.normal[axis][first + i] = normal[axis];
         }
@@ -85,8 +85,8 @@ std::size_t StreamWorker::find_nearest(const RayStream<Real>& rays, const HitStr
     }
     in_good_order(
         rays,
-        [&](const RayStream<Real>& some, std::size_t first) {
-            nearest_of(some, part_of(hits, first));
+        [&](const RayStream<Real>& part, std::size_t first) {
+            nearest_of(part, part_of(hits, first));
         },
         [&](std::size_t first, std::size_t count) {
             nearest_in_tiles(part_of(rays, first, count), part_of(hits, first));
@@ -110,8 +110,8 @@ std::size_t StreamWorker::occluded(const RayStream<Real>& rays, std::uint8_t* oc
     }
     in_good_order(
         rays,
-        [&](const RayStream<Real>& some, std::size_t first) {
-            occluded_of(some, occluded + first);
+        [&](const RayStream<Real>& part, std::size_t first) {
+            occluded_of(part, occluded + first);
         },
         [&](std::size_t first, std::size_t count) {
             occluded_in_tiles(part_of(rays, first, count), occluded + first);
@@ -134,9 +134,9 @@ void StreamWorker::nearest_in_tiles(const RayStream<Real>& rays, const HitStream
     const std::span<const std::uint32_t> order = tiles_.order();
     const auto [sorted, found] = tile_columns_.take(rays, hits, order);
     for (std::size_t first = 0, count = 0; first < sorted.count; first += count) {
-        const RayStream<Real> some = intake_.take(sorted, first);
-        count = some.count;
-        nearest_of(some, part_of(found, first));
+        const RayStream<Real> part = intake_.take(sorted, first);
+        count = part.count;
+        nearest_of(part, part_of(found, first));
     }
     TileColumns::hand_back(found, order, hits);
 }
@@ -148,9 +148,9 @@ void StreamWorker::occluded_in_tiles(const RayStream<Real>& rays, std::uint8_t* 
     answers.entering = occluded;
     const auto [sorted, found] = tile_columns_.take(rays, answers, order);
     for (std::size_t first = 0, count = 0; first < sorted.count; first += count) {
-        const RayStream<Real> some = intake_.take(sorted, first);
-        count = some.count;
-        occluded_of(some, found.entering + first);
+        const RayStream<Real> part = intake_.take(sorted, first);
+        count = part.count;
+        occluded_of(part, found.entering + first);
     }
     TileColumns::hand_back(found, order, answers);
 }
@@ -166,7 +166,7 @@ void StreamWorker::FrustaToTry::trace(const Coherence* coherence, std::size_t co
         without_ -= count;
     } else {
         trace(coherence, counters);
-        without_ = counters.in_frusta == 0 ? most_without : 0;
+        without_ = counters.in_frusta == 0 ? max_without : 0;
     }
 }
 

@@ -115,7 +115,7 @@ class StreamWorker {
         void trace(const Coherence* coherence, std::size_t count, const Trace& trace);
 
       private:
-        static constexpr std::size_t most_without = 1024;
+        static constexpr std::size_t max_without = 1024;
         std::size_t without_ = 0; ///< number of rays, also of other calls, that try no frusta
     };
     FrustaToTry to_hits_, to_occluders_;

@@ -187,17 +187,17 @@ class SpectralTracer {
     }
 
     auto counters() const {
-        auto all = tracers_.front().counters();
+        auto totals = tracers_.front().counters();
         for (std::size_t i = 1; i < tracers_.size(); ++i)
-            all += tracers_[i].counters();
-        return all;
+            totals += tracers_[i].counters();
+        return totals;
     }
 
     int samples_of(std::size_t pixel) const {
-        int all = 0;
+        int total = 0;
         for (const Tracer& tracer : tracers_)
-            all += tracer.samples_of(pixel);
-        return all;
+            total += tracer.samples_of(pixel);
+        return total;
     }
 
   private:
@@ -287,13 +287,13 @@ void require_part(const core::Settings& settings, const std::optional<core::Regi
 } // namespace
 
 core::Region drawn_part(const core::Settings& settings, const std::optional<core::Region>& crop) {
-    const core::Region whole = whole_of(settings);
-    if (!crop || settings.quality == 0.0F) return crop.value_or(whole);
+    const core::Region image = whole_of(settings);
+    if (!crop || settings.quality == 0.0F) return crop.value_or(image);
     constexpr int square = core::RegionSamples::square_size;
     const auto up = [](int edge) { return (edge + square - 1) / square * square; };
     return core::Region{crop->x0 / square * square, crop->y0 / square * square, up(crop->x1),
                         up(crop->y1)}
-        .within(whole);
+        .within(image);
 }
 
 int tile_of(const core::Settings& settings, const RenderOptions& options) {

@@ -82,7 +82,7 @@ class Wavefront {
     void take(Samples samples, const Add& add);
     template <class Add>
     void flush(const Add& add);
-    core::CameraRays<double>::InPixel in_pixel(const Samples& some, int number) const;
+    core::CameraRays<double>::InPixel in_pixel(const Samples& batch, int number) const;
     void start(std::size_t count);
     void count_costs();
     void note_first_hits();

@@ -27,10 +27,10 @@ template <class Shape, class CShape>
 raylane_status add_polygon(raylane_builder* builder, const CShape* triangles, std::size_t count,
                            std::uint32_t material, std::uint32_t* first) noexcept {
     return added(builder, first, [&](SceneBuilder& to) {
-        std::vector<Shape> all;
+        std::vector<Shape> converted;
         for (const CShape& triangle : span_of("triangles", triangles, count))
-            all.push_back(std::bit_cast<Shape>(triangle));
-        return to.add_polygon(all, material);
+            converted.push_back(std::bit_cast<Shape>(triangle));
+        return to.add_polygon(converted, material);
     });
 }
 
@@ -107,8 +107,8 @@ raylane_status raylane_set_merge_duplicates(raylane_builder* builder, int merge)
 raylane_status raylane_set_wavelengths(raylane_builder* builder, const double* wavelengths,
                                        size_t count) {
     return guarded([&] {
-        const std::span<const double> all = span_of("wavelengths", wavelengths, count);
-        checked("builder", builder).builder.wavelengths.assign(all.begin(), all.end());
+        const std::span<const double> values = span_of("wavelengths", wavelengths, count);
+        checked("builder", builder).builder.wavelengths.assign(values.begin(), values.end());
     });
 }
 

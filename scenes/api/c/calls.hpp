@@ -101,10 +101,10 @@ raylane_status handle_of(const char* name, Handle** handle, const Make& make) no
 /// Calls add(shape) for each of an array's shapes, and names the one that is invalid.
 template <class CShape, class Add>
 void add_all(const char* name, const CShape* shapes, std::size_t count, const Add& add) {
-    const std::span<const CShape> all = span_of(name, shapes, count);
-    for (std::size_t i = 0; i < all.size(); ++i)
+    const std::span<const CShape> given = span_of(name, shapes, count);
+    for (std::size_t i = 0; i < given.size(); ++i)
         try {
-            add(all[i]);
+            add(given[i]);
         } catch (const InvalidValue& error) {
             std::string field = std::to_string(i);
             if (!error.field.empty()) field.append("/").append(error.field);

@@ -79,8 +79,8 @@ raylane_status raylane_write_image(const char* path, int width, int height, cons
         if (is_side(width) && is_side(height)) {
             const std::size_t count =
                 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-            const std::span<const float> all = span_of("rgb", rgb, count);
-            image.rgb.assign(all.begin(), all.end());
+            const std::span<const float> components = span_of("rgb", rgb, count);
+            image.rgb.assign(components.begin(), components.end());
         }
         write_image(&checked("path", path), image, enum_from_int<Transfer>("transfer", transfer));
     });

@@ -10,12 +10,12 @@ void raylane_rows_release(raylane_rows* rows) {
 
 size_t raylane_rows_count(const raylane_rows* rows) {
     if (rows == nullptr) return 0;
-    return std::visit([](const auto& of) { return of.first.size() - 1; }, rows->rows);
+    return std::visit([](const auto& columns) { return columns.first.size() - 1; }, rows->rows);
 }
 
 const uint64_t* raylane_rows_first(const raylane_rows* rows) {
     if (rows == nullptr) return nullptr;
-    return std::visit([](const auto& of) { return of.first.data(); }, rows->rows);
+    return std::visit([](const auto& columns) { return columns.first.data(); }, rows->rows);
 }
 
 raylane_crossing_statistics raylane_rows_statistics(const raylane_rows* rows) {
@@ -26,9 +26,9 @@ raylane_crossing_statistics raylane_rows_statistics(const raylane_rows* rows) {
     const Element* raylane_rows_##name(const raylane_rows* rows) {                                 \
         if (rows == nullptr) return nullptr;                                                       \
         return std::visit(                                                                         \
-            [](const auto& of) -> const Element* {                                                 \
-                if constexpr (requires { of.name; }) {                                             \
-                    if (!of.name.empty()) return of.name.data();                                   \
+            [](const auto& columns) -> const Element* {                                            \
+                if constexpr (requires { columns.name; }) {                                        \
+                    if (!columns.name.empty()) return columns.name.data();                         \
                 }                                                                                  \
                 return nullptr;                                                                    \
             },                                                                                     \

@@ -114,10 +114,10 @@ raylane_vec3 raylane_scene_background(const raylane_scene* scene) {
 raylane_status raylane_scene_lights(const raylane_scene* scene, raylane_light* lights, size_t size,
                                     size_t* count) {
     return guarded([&] {
-        const std::vector<Light> all = checked("scene", scene).scene.lights();
-        const std::size_t copied = std::min(size, all.size());
+        const std::vector<Light> found = checked("scene", scene).scene.lights();
+        const std::size_t copied = std::min(size, found.size());
         for (raylane_light& to : span_of("lights", lights, copied))
-            to = converted<raylane_light>(all[static_cast<std::size_t>(&to - lights)]);
-        if (count != nullptr) *count = all.size();
+            to = converted<raylane_light>(found[static_cast<std::size_t>(&to - lights)]);
+        if (count != nullptr) *count = found.size();
     });
 }

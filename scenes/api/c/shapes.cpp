@@ -24,11 +24,11 @@ template <template <class> class ShapeOf, class CShape>
 raylane_status shapes_of(const raylane_scene* scene, std::uint32_t* ids, std::uint32_t* materials,
                          CShape* shapes, std::size_t size, std::size_t* count) noexcept {
     return guarded([&] {
-        const auto all = checked("scene", scene).scene.shapes<ShapeOf>();
-        copy_to(ids, all.id, size);
-        copy_to(materials, all.material, size);
-        copy_to(shapes, all.shape, size);
-        if (count != nullptr) *count = all.id.size();
+        const auto found = checked("scene", scene).scene.shapes<ShapeOf>();
+        copy_to(ids, found.id, size);
+        copy_to(materials, found.material, size);
+        copy_to(shapes, found.shape, size);
+        if (count != nullptr) *count = found.id.size();
     });
 }
 

@@ -14,12 +14,12 @@ static_assert(RAYLANE_NO_MATERIAL == ~MaterialIndex(0)); // core::no_material
 
 std::vector<Solid> parts_of(const char* name, const raylane_solid* const* parts,
                             std::size_t count) {
-    std::vector<Solid> all;
+    std::vector<Solid> result;
     for (const raylane_solid* const& part : span_of(name, parts, count)) {
-        const std::string place = std::string(name) + "/" + std::to_string(all.size());
-        all.push_back(checked(place.c_str(), part).solid);
+        const std::string place = std::string(name) + "/" + std::to_string(result.size());
+        result.push_back(checked(place.c_str(), part).solid);
     }
-    return all;
+    return result;
 }
 
 /// Stores the solid that `make` returns, with a material, in a new handle.

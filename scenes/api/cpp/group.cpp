@@ -47,8 +47,8 @@ void Group::add(const Solid& solid, MaterialIndex material) {
 }
 
 void Group::add(const Group& group, MaterialIndex material) {
-    const Group whole = group.of(material); // a copy, as it may be this group
-    members_.insert(members_.end(), whole.members_.begin(), whole.members_.end());
+    const Group copied = group.of(material); // a copy, as it may be this group
+    members_.insert(members_.end(), copied.members_.begin(), copied.members_.end());
 }
 
 Group Group::transformed(const Transform& transform) const {

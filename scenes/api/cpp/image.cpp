@@ -42,9 +42,9 @@ simd::RenderOptions inner_options(const core::Settings& settings, const RenderOp
     inner.precision = library::core_precision(options.precision);
     inner.aovs = options.aovs;
     if (const auto& crop = options.crop) {
-        const auto is_within = [](int first, int count, int all) { // no sum, which could overflow
+        const auto is_within = [](int first, int count, int size) { // no sum, which could overflow
             return first >= 0 && count >= 1 &&
-                   count <= std::min(all, core::Settings::max_size) - first;
+                   count <= std::min(size, core::Settings::max_size) - first;
         };
         if (!is_within(crop->x, crop->width, settings.width) ||
             !is_within(crop->y, crop->height, settings.height))

@@ -19,9 +19,9 @@ namespace {
 
 /// Returns the value with a name. Throws InvalidValue with all names.
 template <class Named>
-const Named& find(const char* field, std::string_view name, std::span<const Named> all) {
+const Named& find(const char* field, std::string_view name, std::span<const Named> table) {
     std::string names;
-    for (const Named& each : all) {
+    for (const Named& each : table) {
         if (each.name == name) return each;
         names.append(names.empty() ? "\"" : ", \"").append(each.name).append("\"");
     }

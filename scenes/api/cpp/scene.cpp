@@ -251,14 +251,14 @@ void SceneBuilder::add_light(const Light& light) {
 #define RAYLANE_ADD(Shape, name, text)                                                             \
     template <>                                                                                    \
     ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {                        \
-        return add_with(material, [&](MaterialIndex of) {                                          \
-            return builder().add(library::core_shape<core::Shape>(shape), of);                     \
+        return add_with(material, [&](MaterialIndex index) {                                       \
+            return builder().add(library::core_shape<core::Shape>(shape), index);                  \
         });                                                                                        \
     }                                                                                              \
     template <>                                                                                    \
     ShapeId SceneBuilder::add(const Shape##Of<double>& shape, MaterialIndex material) {            \
-        return add_with(material, [&](MaterialIndex of) {                                          \
-            return builder().add(library::core_shape<core::InDouble<core::Shape>>(shape), of);     \
+        return add_with(material, [&](MaterialIndex index) {                                       \
+            return builder().add(library::core_shape<core::InDouble<core::Shape>>(shape), index);  \
         });                                                                                        \
     }
 RAYLANE_SHAPES(RAYLANE_ADD)
@@ -268,7 +268,8 @@ ShapeId SceneBuilder::add(const Solid& solid, MaterialIndex material) {
     const core::Solid& given = library::Internals::of(solid);
     if (material == no_material && core::has_materials(given))
         return translated([&] { return builder().add_solid(given, core::no_material); });
-    return add_with(material, [&](MaterialIndex of) { return builder().add_solid(given, of); });
+    return add_with(material,
+                    [&](MaterialIndex index) { return builder().add_solid(given, index); });
 }
 
 /// Calls add(members) for the members of a group, all of which then have materials.
@@ -282,11 +283,11 @@ ShapeId SceneBuilder::add_members(const Group& group, MaterialIndex material, co
     }
     if (material == no_material && all_have_materials)
         return translated([&] { return add(members); });
-    return add_with(material, [&](MaterialIndex of) {
+    return add_with(material, [&](MaterialIndex index) {
         for (core::Solid& member : members)
             if (member.material == core::no_material &&
                 (material != no_material || !core::has_materials(member)))
-                member.material = of;
+                member.material = index;
         return add(members);
     });
 }
@@ -310,23 +311,23 @@ ShapeId SceneBuilder::add(const Group& group, std::span<const Placement> placeme
 }
 
 ShapeId SceneBuilder::add(const Sphereflake& flake, MaterialIndex material) {
-    return add_with(material, [&](MaterialIndex of) {
+    return add_with(material, [&](MaterialIndex index) {
         const auto first = static_cast<ShapeId>(builder().shape_count());
-        builder().require_material(of);
+        builder().require_material(index);
         core::add(builder(),
                   {converted<core::Vec3f>(flake.center), flake.radius, flake.depth,
                    converted<core::Vec3f>(flake.up)},
-                  of);
+                  index);
         return first;
     });
 }
 
 ShapeId SceneBuilder::add(const Lattice& lattice, MaterialIndex material,
                           MaterialIndex strut_material) {
-    return add_with(material, [&](MaterialIndex of) {
+    return add_with(material, [&](MaterialIndex index) {
         const auto first = static_cast<ShapeId>(builder().shape_count());
-        const MaterialIndex of_struts = strut_material == no_material ? of : strut_material;
-        builder().require_material(of);
+        const MaterialIndex of_struts = strut_material == no_material ? index : strut_material;
+        builder().require_material(index);
         builder().require_material(of_struts);
         core::add(builder(),
                   {{lattice.corner.x, lattice.corner.y, lattice.corner.z},
@@ -334,7 +335,7 @@ ShapeId SceneBuilder::add(const Lattice& lattice, MaterialIndex material,
                    lattice.spacing,
                    lattice.sphere_radius,
                    lattice.strut_radius},
-                  of, of_struts);
+                  index, of_struts);
         return first;
     });
 }

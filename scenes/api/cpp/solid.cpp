@@ -36,9 +36,9 @@ Solid joined(core::Made by, const Solid& a, const Solid& b) {
 }
 
 std::vector<Solid> with_first(const Solid& first, const std::vector<Solid>& others) {
-    std::vector<Solid> all{first};
-    all.insert(all.end(), others.begin(), others.end());
-    return all;
+    std::vector<Solid> operands{first};
+    operands.insert(operands.end(), others.begin(), others.end());
+    return operands;
 }
 
 template <class CoreShape, class Shape>

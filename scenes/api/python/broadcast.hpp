@@ -52,8 +52,8 @@ inline py::array flattened(const py::array& array, const Axes& row, const Axes& 
     py::array whole = array;
     if (count != 1 && static_cast<std::size_t>(array.size()) == count_of(row))
         return whole.reshape(row);
-    if (const Axes all = joined(leading, row); own != all)
-        whole = py::array(py::module_::import("numpy").attr("broadcast_to")(array, all));
+    if (const Axes axes = joined(leading, row); own != axes)
+        whole = py::array(py::module_::import("numpy").attr("broadcast_to")(array, axes));
     return whole.reshape(joined({static_cast<py::ssize_t>(count)}, row));
 }
 

@@ -108,7 +108,8 @@ py::tuple one_shape(const Scene& scene, const py::object& id) {
         const ShapeVariant shape =
             scene.shape(static_cast<ShapeId>(std::min(number, std::size_t{no_shape})));
         const py::array numbers = std::visit(
-            []<class Shape>(const Shape& of) { return numbers_of(std::vector<Shape>{of}); }, shape);
+            []<class Shape>(const Shape& value) { return numbers_of(std::vector<Shape>{value}); },
+            shape);
         return py::make_tuple(shape_types[shape.index()].name, numbers);
     } catch (const InvalidValue& error) {
         throw InvalidValue("id", error.expectation);
@@ -175,9 +176,9 @@ void bind_scene(py::module_& module) {
         .def("shapes", &shapes_of_type)
         .def("material",
              [](const Scene& scene, const py::object& index) {
-                 const MaterialIndex of = one_material(index, "index");
+                 const MaterialIndex material = one_material(index, "index");
                  try {
-                     return to_python(scene.material(of));
+                     return to_python(scene.material(material));
                  } catch (const InvalidValue& error) {
                      throw InvalidValue("index", error.expectation);
                  }

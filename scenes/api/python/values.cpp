@@ -46,15 +46,15 @@ std::string word_in_python(std::string word) {
 
 template <class Enum>
 Enum enum_from(const py::handle& from, const std::string& field, Words words) {
-    std::string all;
+    std::string names;
     const bool is_text = PyUnicode_Check(from.ptr()) != 0;
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::string word = word_in_python(words[i]);
         if (is_text && PyUnicode_CompareWithASCIIString(from.ptr(), word.c_str()) == 0)
             return static_cast<Enum>(i);
-        all += (i == 0 ? "\"" : ", \"") + word + "\"";
+        names += (i == 0 ? "\"" : ", \"") + word + "\"";
     }
-    refuse(field, "one of " + all, from);
+    refuse(field, "one of " + names, from);
 }
 
 /// Returns a whole number of Python or NumPy that Python accepts as an index. Throws InvalidValue
@@ -193,8 +193,8 @@ template <class Value>
 Value value_from(const py::handle& from, const char* type, const std::string& name) {
     Value value;
     bool is_other = true; // true if `from` has no field of Value
-    for_each_field([&](const Field& of,
-                       const auto&) { is_other = is_other && !py::hasattr(from, of.python()); },
+    for_each_field([&](const Field& field,
+                       const auto&) { is_other = is_other && !py::hasattr(from, field.python()); },
                    value);
     if (is_other) refuse(name, std::string("a ") + type, from);
     take_fields(from, name + "/", value);
@@ -274,7 +274,7 @@ InvalidValue named_as_in_python(const InvalidValue& error) {
         std::string_view from, to;
         std::string_view word, other; // another field's name in the expectation
     };
-    constexpr Renamed all[] = {
+    constexpr Renamed renamed_words[] = {
         {"auto_camera/direction", "camera/view", "", ""},
         {"auto_camera", "camera", "", ""},
         {"view", "camera/view", "", ""},
@@ -285,7 +285,7 @@ InvalidValue named_as_in_python(const InvalidValue& error) {
         {"pattern", "color", "", ""},
         {"spectrum/wavelengths", "wavelengths", "", ""},
     };
-    for (const Renamed& renamed : all) {
+    for (const Renamed& renamed : renamed_words) {
         const std::string_view rest =
             std::string_view(error.field).substr(std::min(error.field.size(), renamed.from.size()));
         if (!error.field.starts_with(renamed.from) || !(rest.empty() || rest[0] == '/')) continue;

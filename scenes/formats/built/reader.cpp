@@ -84,19 +84,19 @@ class Reader {
         const core::BigArray<std::uint64_t> counts =
             directory_.array<std::uint64_t>(layout::counts);
         if (counts.size() != core::kind_count) directory_.refuse_damaged("other kinds of shapes");
-        std::size_t all = 0;
+        std::size_t total = 0;
         for (const std::uint64_t count : counts) {
-            if (count > core::no_shape - all) directory_.refuse_damaged("too many shapes");
-            all += static_cast<std::size_t>(count);
+            if (count > core::no_shape - total) directory_.refuse_damaged("too many shapes");
+            total += static_cast<std::size_t>(count);
         }
         core::for_each_table(shapes.tables, [&]<class Shape>(core::Table<Shape>& table) {
             const auto kind = static_cast<std::size_t>(core::kind_of<Shape>);
-            read_table(table, static_cast<std::size_t>(counts[kind]), all);
+            read_table(table, static_cast<std::size_t>(counts[kind]), total);
             const auto merged = directory_.array<core::MergedShape>(
                 std::string(core::kind_names[kind]) + layout::merged);
             shapes.merged[kind].assign(merged.begin(), merged.end());
         });
-        shapes.material_of = materials(all);
+        shapes.material_of = materials(total);
         const auto polygons = directory_.array<core::IdRange>(layout::polygons);
         shapes.polygons.assign(polygons.begin(), polygons.end());
         shapes.hierarchy = core::hierarchy_of(directory_.array<core::WideNode>(layout::nodes));

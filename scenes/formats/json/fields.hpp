@@ -45,24 +45,24 @@ void read_field(const JsonValue& value, const core::fields::Field& field, Enum& 
 /// Throws if the object has keys other than `others` and those of the struct's kind. `group`: only
 /// fields of this group.
 template <class Of>
-void allow_fields(const JsonValue& value, const Of& of,
+void allow_fields(const JsonValue& value, const Of& object,
                   std::initializer_list<std::string_view> others = {},
                   std::string_view group = "") {
     std::vector<std::string_view> keys(others);
     core::fields::for_each_field(
-        [&, kind = core::fields::kind_of(of)](const core::fields::Field& field, const auto&) {
+        [&, kind = core::fields::kind_of(object)](const core::fields::Field& field, const auto&) {
             if (field.is_in(group, kind)) keys.push_back(field.key());
         },
-        of);
+        object);
     value.allow_only(keys);
 }
 
 /// Reads the fields of a struct whose kind is set.
 template <class Of>
-void read_fields(const JsonValue& value, Of& of, std::string_view group = "") {
+void read_fields(const JsonValue& value, Of& object, std::string_view group = "") {
     core::fields::for_each_field(
-        [&, kind = core::fields::kind_of(of)]<class Member>(const core::fields::Field& field,
-                                                            Member& member) {
+        [&, kind = core::fields::kind_of(object)]<class Member>(const core::fields::Field& field,
+                                                                Member& member) {
             if (!field.is_in(group, kind) || field.use.selects_kind) return;
             if constexpr (!core::fields::OutlineLike<Member>) { // an object of its own
                 if ((field.use.required & kind) != 0)
@@ -71,14 +71,14 @@ void read_fields(const JsonValue& value, Of& of, std::string_view group = "") {
                     read_field(*found, field, member);
             }
         },
-        of);
+        object);
 }
 
 /// Reads an object that has only these fields.
 template <class Of>
-void read_only_fields(const JsonValue& value, Of& of, std::string_view group = "") {
-    allow_fields(value, of, {}, group);
-    read_fields(value, of, group);
+void read_only_fields(const JsonValue& value, Of& object, std::string_view group = "") {
+    allow_fields(value, object, {}, group);
+    read_fields(value, object, group);
 }
 
 } // namespace raylane::scenes

@@ -14,9 +14,9 @@ namespace {
 
 /// Returns the value with the name that `value` has.
 template <class Value, class Named>
-Value named(const JsonValue& value, std::span<const Named> all, Value Named::*member) {
+Value named(const JsonValue& value, std::span<const Named> table, Value Named::*member) {
     std::vector<std::pair<std::string_view, Value>> choices;
-    for (const Named& each : all)
+    for (const Named& each : table)
         choices.emplace_back(each.name, each.*member);
     return value.choice(JsonValue::Choices<Value>(choices));
 }

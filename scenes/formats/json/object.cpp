@@ -390,28 +390,29 @@ using Read = void (*)(ObjectReader&);
 
 /// Returns the reader functions by JSON's "type".
 const std::vector<std::pair<std::string_view, Read>>& readers() {
-    static const auto all = [] {
+    static const auto known_types = [] {
         std::vector<std::pair<std::string_view, Read>> readers;
         core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
             const std::string_view name = core::type_name_of(core::kind_of<Shape>);
             // Several kinds may share a name. The reader of the first kind distinguishes them.
             if (readers.empty() || readers.back().first != name)
                 readers.push_back(
-                    {name, [](ObjectReader& of) { of.read(std::type_identity<Shape>()); }});
+                    {name, [](ObjectReader& reader) { reader.read(std::type_identity<Shape>()); }});
         });
-        readers.emplace_back("sphereflake", [](ObjectReader& of) { of.sphereflake(); });
-        readers.emplace_back("lattice", [](ObjectReader& of) { of.lattice(); });
-        readers.emplace_back("union", [](ObjectReader& of) { of.made(Made::by_union); });
+        readers.emplace_back("sphereflake", [](ObjectReader& reader) { reader.sphereflake(); });
+        readers.emplace_back("lattice", [](ObjectReader& reader) { reader.lattice(); });
+        readers.emplace_back("union", [](ObjectReader& reader) { reader.made(Made::by_union); });
         readers.emplace_back("intersection",
-                             [](ObjectReader& of) { of.made(Made::by_intersection); });
-        readers.emplace_back("difference", [](ObjectReader& of) { of.made(Made::by_difference); });
-        readers.emplace_back("clip", [](ObjectReader& of) { of.made(Made::by_clip); });
-        readers.emplace_back("lens", [](ObjectReader& of) { of.lens(); });
-        readers.emplace_back("group", [](ObjectReader& of) { of.several(); });
-        readers.emplace_back("instance", [](ObjectReader& of) { of.several(); });
+                             [](ObjectReader& reader) { reader.made(Made::by_intersection); });
+        readers.emplace_back("difference",
+                             [](ObjectReader& reader) { reader.made(Made::by_difference); });
+        readers.emplace_back("clip", [](ObjectReader& reader) { reader.made(Made::by_clip); });
+        readers.emplace_back("lens", [](ObjectReader& reader) { reader.lens(); });
+        readers.emplace_back("group", [](ObjectReader& reader) { reader.several(); });
+        readers.emplace_back("instance", [](ObjectReader& reader) { reader.several(); });
         return readers;
     }();
-    return all;
+    return known_types;
 }
 
 void ObjectReader::read(const JsonValue& object, ObjectReader& reader) {
@@ -437,27 +438,27 @@ std::vector<Solid> SolidReader::described(const JsonValue& object, Use use) {
     std::vector<std::string_view> keys = {"type", "material"};
     keys.insert(keys.end(), transform_keys.begin(), transform_keys.end());
     const std::string_view type = object.at("type").string();
-    std::vector<Solid> all;
+    std::vector<Solid> members;
     if (type == "group") {
         keys.emplace_back("objects");
         object.allow_only(keys);
         for (const JsonValue& member : object.at("objects").array("objects"))
             for (Solid& solid : described(member, use))
-                all.push_back(std::move(solid));
+                members.push_back(std::move(solid));
     } else if (type == "instance") {
         keys.emplace_back("of");
         keys.emplace_back("placements");
         object.allow_only(keys);
         if (const auto placements = object.find("placements"))
             placements->fail("goes with an instance that is an object of the scene itself");
-        all = instance_of(object, use);
+        members = instance_of(object, use);
     } else {
-        ObjectReader reader(object, *this, use, all.emplace_back());
+        ObjectReader reader(object, *this, use, members.emplace_back());
         ObjectReader::read(object, reader);
     }
     if (has_transform(object)) {
         const core::Transform transform = transform_of(object);
-        for (Solid& solid : all) {
+        for (Solid& solid : members) {
             solid = checked(object, [&] {
                 return use == Use::part ? transform(solid)
                                         : core::transformed_member(std::move(solid), transform);
@@ -466,10 +467,10 @@ std::vector<Solid> SolidReader::described(const JsonValue& object, Use use) {
     }
     if (const auto material = object.find("material");
         material && (type == "group" || type == "instance"))
-        for (Solid& solid : all)
+        for (Solid& solid : members)
             if (solid.material == core::no_material)
                 solid.material = context.material_of(*material);
-    return all;
+    return members;
 }
 
 } // namespace

@@ -57,13 +57,13 @@ class Reader {
 
     template <class Triangle>
     void add_polygon(const std::vector<Triangle>& triangles) {
-        const core::MaterialIndex of = material(Visible::both);
+        const core::MaterialIndex material_index = material(Visible::both);
         if (core::first_off_plane<Triangle>(triangles) == triangles.size()) {
-            builder_.add_polygon<Triangle>(triangles, of);
+            builder_.add_polygon<Triangle>(triangles, material_index);
             return;
         }
         for (const Triangle& triangle : triangles)
-            builder_.add(triangle, of);
+            builder_.add(triangle, material_index);
     }
 
     void require_no_objects() const;

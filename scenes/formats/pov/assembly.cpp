@@ -266,24 +266,24 @@ Solid Assembly::made_of(const Object& object, const Look& look, const Shared<Mot
     if (object.kind == ObjectKind::mesh)
         fail(object.place,
              "must have an inside to be a part of another object, got a mesh, which has none");
-    Solid all{Made::by_union}, less{Made::by_difference};
+    Solid joined{Made::by_union}, less{Made::by_difference};
     if (object.kind == ObjectKind::intersection || object.kind == ObjectKind::difference)
-        all.made = Made::by_intersection;
+        joined.made = Made::by_intersection;
     bool is_first = true;
     for (const Shared<Object>& part : object.parts) {
         if (part->count == 0) continue;
         const bool is_taken = object.kind == ObjectKind::difference && !is_first;
         const bool is_kept = is_taken == is_inside_out(*part);
-        if (!is_kept && all.made == Made::by_union)
+        if (!is_kept && joined.made == Made::by_union)
             fail(part->place, "must not be inverse in a union, because its outside is unbounded");
-        (is_kept ? all : less).parts.push_back(described(*part, look, motion, false));
+        (is_kept ? joined : less).parts.push_back(described(*part, look, motion, false));
         is_first = false;
     }
-    if (all.parts.empty())
+    if (joined.parts.empty())
         fail(object.place, "must have an object that is not inverse and not subtracted");
-    if (less.parts.empty()) return all;
+    if (less.parts.empty()) return joined;
     less.parts.insert(less.parts.begin(),
-                      all.parts.size() == 1 ? std::move(all.parts[0]) : std::move(all));
+                      joined.parts.size() == 1 ? std::move(joined.parts[0]) : std::move(joined));
     return less;
 }
 

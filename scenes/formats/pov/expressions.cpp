@@ -59,9 +59,9 @@ Tuple read_vector_literal(Tokens& tokens, const Place& place) {
     ++tokens.open_brackets;
     do {
         if (vector.size == 5) fail(place, "must be a vector of at most five numbers");
-        const Place here = tokens.peek().place;
+        const Place component_place = tokens.peek().place;
         const Tuple component = read_tuple(tokens);
-        if (component.size != 1) fail(here, "must be a number, got a vector");
+        if (component.size != 1) fail(component_place, "must be a number, got a vector");
         vector.at[static_cast<std::size_t>(vector.size++)] = component.at[0];
         tokens.accept(",");
     } while (!tokens.at(">"));

@@ -126,17 +126,17 @@ Vec3d turned(const Vec3d& v, const Vec3d& axis, double degrees) {
 /// Reads the arguments of "dimension_size(ARRAY, NUMBER)".
 Tuple read_dimension_size(Tokens& tokens) {
     tokens.expect("(");
-    const Token of = tokens.next();
-    const Value* value = tokens.value_of(of);
+    const Token name = tokens.next();
+    const Value* value = tokens.value_of(name);
     const auto* found = value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
     // Keeps the array alive while the number is read, which may declare the array's name again.
     const std::shared_ptr<Array> array = found != nullptr ? *found : nullptr;
-    if (array == nullptr) fail(of.place, "must be the name of an array, got " + of.quoted());
+    if (array == nullptr) fail(name.place, "must be the name of an array, got " + name.quoted());
     tokens.expect(",");
     const double which = read_number(tokens);
     const auto& sizes = array->sizes;
     if (!(which >= 1.0 && which <= static_cast<double>(sizes.size())))
-        fail(of.place, "must have a dimension of that number, got " + of.quoted());
+        fail(name.place, "must have a dimension of that number, got " + name.quoted());
     tokens.expect(")");
     return Tuple::of(static_cast<double>(sizes[static_cast<std::size_t>(which) - 1]));
 }

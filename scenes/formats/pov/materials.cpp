@@ -150,11 +150,11 @@ core::Material Materials::material_of(const Look& look, const Place& place,
     material.pattern.colors[0] = color_of(pigment.color);
     if (pigment.kind != PigmentKind::color) {
         const Shared<Motion> motion = both(pigment.motion, look.above);
-        const Motion& all = motion != nullptr ? *motion : Motion{};
+        const Motion& object_motion = motion != nullptr ? *motion : Motion{};
         core::Pattern pattern;
         const bool is_set = pigment.kind == PigmentKind::checker
-                                ? set_checker(pigment, all, plane, pattern)
-                                : set_gradient(pigment, all, pattern);
+                                ? set_checker(pigment, object_motion, plane, pattern)
+                                : set_gradient(pigment, object_motion, pattern);
         if (is_set) {
             material.pattern = pattern;
             // In scenes that convert writes, gradients are visible only between their ends.

@@ -170,7 +170,7 @@ Shared<Motion> read_transform(Tokens& tokens) {
     };
     const Place place = tokens.peek().place;
     if (!tokens.accept("{")) return named();
-    Shared<Motion> all;
+    Shared<Motion> joined;
     bool is_inverse = false; // of all of it, wherever the word is
     while (!tokens.accept("}")) {
         if (tokens.accept("inverse")) {
@@ -178,10 +178,10 @@ Shared<Motion> read_transform(Tokens& tokens) {
             continue;
         }
         const Shared<Motion> next = read_motion(tokens);
-        all = both(all, next != nullptr ? next : named());
+        joined = both(joined, next != nullptr ? next : named());
     }
-    if (all == nullptr) return std::make_shared<const Motion>();
-    return is_inverse ? inverse_of(*all, place) : all;
+    if (joined == nullptr) return std::make_shared<const Motion>();
+    return is_inverse ? inverse_of(*joined, place) : joined;
 }
 
 } // namespace raylane::scenes::pov

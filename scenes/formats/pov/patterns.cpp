@@ -116,7 +116,7 @@ class PatternReader {
             return true;
         }
         const auto list = std::find_if(std::begin(list_patterns), std::end(list_patterns),
-                                       [&](const auto& of) { return word.is(of.name); });
+                                       [&](const auto& entry) { return word.is(entry.name); });
         if (list != std::end(list_patterns)) {
             tokens_.next();
             read_list(*list, word);

@@ -82,11 +82,11 @@ void AtomColors::color_by_residue(bool by_chain) {
 }
 
 void AtomColors::override_kinds(const ColorWords& words, std::vector<std::string>& unmatched) {
-    for (const OfKind<std::uint32_t>& of : words.of_kinds) {
-        const std::vector<std::size_t> kinds = kinds_named(structure_.of_kind, of.kind);
-        if (kinds.empty()) unmatched.push_back(matches_no_kind(words.option, of.kind));
+    for (const OfKind<std::uint32_t>& words_of_kind : words.of_kinds) {
+        const std::vector<std::size_t> kinds = kinds_named(structure_.of_kind, words_of_kind.kind);
+        if (kinds.empty()) unmatched.push_back(matches_no_kind(words.option, words_of_kind.kind));
         for (const std::size_t kind : kinds) {
-            of_kind_[kind] = of.value;
+            of_kind_[kind] = words_of_kind.value;
             is_overridden_[kind] = 1;
         }
     }

@@ -91,9 +91,10 @@ class LayerShapes {
     void find_displacements() {
         if (structure_.anisotropies.empty())
             throw BadInput("--ellipsoids", "", file_ + " has no anisotropic displacements");
-        for (const Anisotropy& of : structure_.anisotropies)
-            if (has(of.atom))
-                if (const auto axes = axes_of(of, atoms_.deviations)) set_axes(of.atom, *axes);
+        for (const Anisotropy& anisotropy : structure_.anisotropies)
+            if (has(anisotropy.atom))
+                if (const auto axes = axes_of(anisotropy, atoms_.deviations))
+                    set_axes(anisotropy.atom, *axes);
     }
 
     /// Finds the atoms that are not balls, in the same proportion to their size as balls.
@@ -109,26 +110,27 @@ class LayerShapes {
 
     void add_ellipsoid(AtomIndex atom, const Vec3f& at, const std::array<Vec3d, 3>& axes) {
         const MaterialIndex material = material_of(atom);
-        const core::Ellipsoid whole = ellipsoid_at(at, axes);
+        const core::Ellipsoid ellipsoid = ellipsoid_at(at, axes);
         const bool has_ellipses =
             *layer_.look.opacity == 1.0F &&
             (atoms_.ellipsoids == Ellipsoids::ellipses || atoms_.ellipsoids == Ellipsoids::octants);
         if (has_ellipses && atoms_.ellipsoids == Ellipsoids::octants) {
-            add_without_octant(atom, whole, material);
+            add_without_octant(atom, ellipsoid, material);
             return;
         }
-        add(whole, material, {atom, atom});
+        add(ellipsoid, material, {atom, atom});
         if (!has_ellipses) return;
-        for (const core::Ellipsoid& rim : principal_ellipses(whole))
+        for (const core::Ellipsoid& rim : principal_ellipses(ellipsoid))
             add(rim, ellipse_material(), {atom, atom});
     }
 
-    void add_without_octant(AtomIndex atom, const core::Ellipsoid& whole, MaterialIndex material) {
+    void add_without_octant(AtomIndex atom, const core::Ellipsoid& ellipsoid,
+                            MaterialIndex material) {
         const std::uint32_t color = layer_.colors.of(atom);
         const MaterialIndex of_cut =
             palette_.of(darker(color), [&] { return layer_.colors.meaning_of(atom) + ", octant"; });
         const core::Solid solid =
-            without_octant(whole, atoms_.to_camera, material, ellipse_material(), of_cut);
+            without_octant(ellipsoid, atoms_.to_camera, material, ellipse_material(), of_cut);
         builder_.add_solid(solid, material);
         if (atoms_of_shape_ != nullptr)
             atoms_of_shape_->insert(atoms_of_shape_->end(), core::count_parts(solid), {atom, atom});
@@ -193,10 +195,10 @@ class LayerShapes {
     /// Omits the half of an atom of another representation. `share`: factor for the radius.
     void add_stick(const Bond& bond, const Vec3d& a, const Vec3d& b, float share) {
         const AtomPair atoms = {atoms_.original(bond.a), atoms_.original(bond.b)};
-        const auto add_part = [&](const Vec3d& from, const Vec3d& to, AtomIndex of) {
+        const auto add_part = [&](const Vec3d& from, const Vec3d& to, AtomIndex atom) {
             add(core::CappedCylinder{core::convert<float>(from), core::convert<float>(to - from),
-                                     share * layer_.radii.stick_of(of)},
-                material_of(of), atoms);
+                                     share * layer_.radii.stick_of(atom)},
+                material_of(atom), atoms);
         };
         const bool is_whole = has(atoms[0]) && has(atoms[1]) &&
                               material_of(atoms[0]) == material_of(atoms[1]) &&
@@ -216,11 +218,11 @@ class LayerShapes {
         for (const auto& [from, to] : dashes_of(a, b)) {
             const Vec3d middle = 0.5 * (from + to);
             const bool is_first = core::dot(middle - a, b - a) < 0.5 * core::dot(b - a, b - a);
-            const AtomIndex of = atoms[is_first ? 0 : 1];
-            if (!has(of)) continue;
+            const AtomIndex atom = atoms[is_first ? 0 : 1];
+            if (!has(atom)) continue;
             add(core::CappedCylinder{core::convert<float>(from), core::convert<float>(to - from),
-                                     share_of_stick * layer_.radii.stick_of(of)},
-                material_of(of), atoms);
+                                     share_of_stick * layer_.radii.stick_of(atom)},
+                material_of(atom), atoms);
         }
     }
 
@@ -233,16 +235,16 @@ class LayerShapes {
 
     /// Finds up to two neighbours that each atom is bonded to. The atom itself stands for a missing
     /// one.
-    void find_neighbours(const Structure& all) {
-        one_.resize(all.size());
-        another_.resize(all.size());
+    void find_neighbours(const Structure& structure) {
+        one_.resize(structure.size());
+        another_.resize(structure.size());
         for (AtomIndex i = 0; i < one_.size(); ++i)
             one_[i] = another_[i] = i;
-        const auto note = [&](AtomIndex of, AtomIndex other) {
-            if (one_[of] == of)
-                one_[of] = other;
-            else if (another_[of] == of)
-                another_[of] = other;
+        const auto note = [&](AtomIndex atom, AtomIndex other) {
+            if (one_[atom] == atom)
+                one_[atom] = other;
+            else if (another_[atom] == atom)
+                another_[atom] = other;
         };
         // In a ring, the neighbours are those of the ring.
         for (const bool is_aromatic : {true, false})
@@ -254,7 +256,8 @@ class LayerShapes {
     }
 
     /// Returns a direction across a bond, of length 1, in the plane of an adjacent bond.
-    Vec3d beside(const Structure& all, const Bond& bond, const Vec3d& a, const Vec3d& b) const {
+    Vec3d beside(const Structure& structure, const Bond& bond, const Vec3d& a,
+                 const Vec3d& b) const {
         const Vec3d along = 1.0 / core::length(b - a) * (b - a);
         const auto across = [&](const Vec3d& way) {
             const Vec3d part = way - core::dot(way, along) * along;
@@ -265,8 +268,8 @@ class LayerShapes {
         for (const auto& [end, other] : ends)
             for (const AtomIndex next : {one_[end], another_[end]}) {
                 if (next == end || next == other) continue;
-                const Vec3d way = core::convert<double>(all.positions[next]) -
-                                  core::convert<double>(all.positions[end]);
+                const Vec3d way = core::convert<double>(structure.positions[next]) -
+                                  core::convert<double>(structure.positions[end]);
                 if (const Vec3d side = across(way); side != Vec3d(0.0)) return side;
             }
         const Vec3d side = across({1, 0, 0});

@@ -71,8 +71,8 @@ struct DrawnAtoms {
                 visit(atom, structure.positions[atom] + image);
     }
     bool shows_bonds_of(AtomIndex atom) const {
-        const std::uint16_t of = representations[atom];
-        return of != hidden && shows_bonds[of] != 0;
+        const std::uint16_t representation = representations[atom];
+        return representation != hidden && shows_bonds[representation] != 0;
     }
 };
 
@@ -88,10 +88,10 @@ class SharedSolids {
         one.solid.parts.push_back(std::move(part));
     }
     /// Adds an opaque shape that planes cut.
-    void add_cut(core::Solid whole, const AtomPair& atoms) {
-        One& one = cut_[whole.material];
+    void add_cut(core::Solid solid, const AtomPair& atoms) {
+        One& one = cut_[solid.material];
         one.atoms.push_back(atoms);
-        one.solid.parts.push_back(std::move(whole));
+        one.solid.parts.push_back(std::move(solid));
     }
     /// Moves the solids into a builder. `cuts`: the planes. `atoms_of_shape`, unless null, receives
     /// their atoms.
@@ -116,12 +116,12 @@ void add_drawn(const Shape& shape, core::MaterialIndex material, const AtomPair&
     if (!through) return;
     // Triangles enclose nothing by themselves, so they are not parts of solids.
     if constexpr (!core::AnyTriangle<Shape>) {
-        core::Solid whole{.shape = core::to_doubles(shape), .material = material};
+        core::Solid solid{.shape = core::to_doubles(shape), .material = material};
         if (*layer.look.opacity < 1.0F)
             return shared.add(
                 *layer.look.style, *layer.look.opacity,
-                through->empty() ? std::move(whole) : cut_by(std::move(whole), *through), atoms);
-        if (!through->empty()) return shared.add_cut(std::move(whole), atoms);
+                through->empty() ? std::move(solid) : cut_by(std::move(solid), *through), atoms);
+        if (!through->empty()) return shared.add_cut(std::move(solid), atoms);
     }
     builder.add(shape, material);
     if (atoms_of_shape != nullptr) atoms_of_shape->push_back(atoms);

@@ -15,11 +15,11 @@ constexpr float water_radius = 1.4F; // the probe of Lee and Richards, J. Mol. B
 std::vector<float> by_kind(const Structure& structure, const SizeWords& words, float usual,
                            std::vector<std::string>& unmatched) {
     std::vector<float> sizes(structure.of_kind.size(), words.of_all.value_or(usual));
-    for (const OfKind<float>& of : words.of_kinds) {
-        const std::vector<std::size_t> kinds = kinds_named(structure.of_kind, of.kind);
-        if (kinds.empty()) unmatched.push_back(matches_no_kind(words.option, of.kind));
+    for (const OfKind<float>& words_of_kind : words.of_kinds) {
+        const std::vector<std::size_t> kinds = kinds_named(structure.of_kind, words_of_kind.kind);
+        if (kinds.empty()) unmatched.push_back(matches_no_kind(words.option, words_of_kind.kind));
         for (const std::size_t kind : kinds)
-            sizes[kind] = of.value;
+            sizes[kind] = words_of_kind.value;
     }
     return sizes;
 }

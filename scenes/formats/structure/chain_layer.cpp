@@ -37,8 +37,8 @@ std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
                 palette.of(layer.colors.of(atom), [&] { return layer.colors.meaning_of(atom); });
             for (const core::Vec3f& image : atoms.images)
                 std::visit(
-                    [&](const auto& of) {
-                        add(moved(of, image), material, {atom, atom});
+                    [&](const auto& piece) {
+                        add(moved(piece, image), material, {atom, atom});
                     },
                     shape);
         });

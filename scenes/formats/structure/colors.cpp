@@ -86,7 +86,7 @@ std::uint32_t color_between(std::span<const std::uint32_t> ramp, double share) {
 
 std::uint32_t ramp_at(double share, std::string_view palette) {
     const auto* const named = std::find_if(ramps.begin(), ramps.end(),
-                                           [&](const Ramp& of) { return of.name == palette; });
+                                           [&](const Ramp& ramp) { return ramp.name == palette; });
     const auto& ramp = (named != ramps.end() ? *named : ramps.front()).colors;
     // 64 colours are enough for the eye, and need few materials.
     return color_between(ramp, std::round(std::clamp(share, 0.0, 1.0) * 64.0) / 64.0);
@@ -120,10 +120,10 @@ std::vector<std::string_view> color_names() {
     return names;
 }
 
-std::uint32_t color_of_one(std::size_t place, std::size_t of) {
-    if (of <= apart_from_each_other.size()) return apart_from_each_other[place];
-    if (of <= many_apart.size()) return many_apart[place];
-    return ramp_at(static_cast<double>(place) / static_cast<double>(of - 1));
+std::uint32_t color_of_one(std::size_t place, std::size_t count) {
+    if (count <= apart_from_each_other.size()) return apart_from_each_other[place];
+    if (count <= many_apart.size()) return many_apart[place];
+    return ramp_at(static_cast<double>(place) / static_cast<double>(count - 1));
 }
 
 std::uint32_t color_of_type(std::size_t number) {

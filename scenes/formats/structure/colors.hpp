@@ -35,8 +35,8 @@ std::optional<std::uint32_t> color_named(std::string_view word);
 /// Returns the names that color_named() knows.
 std::vector<std::string_view> color_names();
 
-/// Returns the colour at `place` among `of` colours that have no order.
-std::uint32_t color_of_one(std::size_t place, std::size_t of);
+/// Returns the colour at `place` among `count` colours that have no order.
+std::uint32_t color_of_one(std::size_t place, std::size_t count);
 
 /// Returns the colour of a type that is not an element, by its number. Colours repeat.
 std::uint32_t color_of_type(std::size_t number);

@@ -54,12 +54,12 @@ std::optional<Cluster> cluster_of(const Structure& structure, const Rows& rows) 
     const std::size_t count = structure.size();
     Cells cells{};
     double images = static_cast<double>(count);
-    const double most_images = 30.0 * images + 20'000.0; // 27 each in all but tiny or flat cells
+    const double max_images = 30.0 * images + 20'000.0; // 27 each in all but tiny or flat cells
     for (std::size_t k = 0; k < 3; ++k) {
         if (!structure.cell.periodic[k]) continue;
         const double along = std::ceil(reach * core::length(rows[k]));
         images *= 2.0 * along + 1.0;
-        if (!(images <= most_images)) return std::nullopt;
+        if (!(images <= max_images)) return std::nullopt;
         cells[k] = static_cast<int>(along);
     }
     Cluster cluster;

@@ -218,23 +218,24 @@ class SceneFromAtoms {
     /// Finds the last representation of each atom.
     void select() {
         const bool is_first_frame = !drawing_.scale;
-        std::vector<std::uint16_t>& of = atoms_.representations;
-        of.assign(structure_.size(), drawing_.show.empty() ? 0 : DrawnAtoms::hidden);
+        std::vector<std::uint16_t>& representations = atoms_.representations;
+        representations.assign(structure_.size(), drawing_.show.empty() ? 0 : DrawnAtoms::hidden);
         for (std::size_t k = 0; k < drawing_.show.size(); ++k) {
             const std::vector<char> is_shown =
                 selected(shown_[k].option, shown_[k].what.select, !is_first_frame);
-            for (std::size_t i = 0; i < of.size(); ++i)
-                if (is_shown[i] != 0) of[i] = static_cast<std::uint16_t>(k);
+            for (std::size_t i = 0; i < representations.size(); ++i)
+                if (is_shown[i] != 0) representations[i] = static_cast<std::uint16_t>(k);
         }
         const auto hide_if = [&](const std::vector<char>& is_selected, char value) {
-            for (std::size_t i = 0; i < of.size(); ++i)
-                if (is_selected[i] == value) of[i] = DrawnAtoms::hidden;
+            for (std::size_t i = 0; i < representations.size(); ++i)
+                if (is_selected[i] == value) representations[i] = DrawnAtoms::hidden;
         };
         if (drawing_.select != "all") hide_if(selected("--select", drawing_.select, false), 0);
         for (const std::string& hidden : drawing_.hide)
             hide_if(selected("--hide", hidden, true), 1);
-        count_ = of.size() -
-                 static_cast<std::size_t>(std::count(of.begin(), of.end(), DrawnAtoms::hidden));
+        count_ = representations.size() -
+                 static_cast<std::size_t>(std::count(representations.begin(), representations.end(),
+                                                     DrawnAtoms::hidden));
         if (count_ == 0)
             throw BadInput(drawing_.hide.empty() ? "--show" : "--hide", "",
                            "must leave an atom to show, got none of " +
@@ -340,10 +341,10 @@ class SceneFromAtoms {
         std::vector<AtomCopy> copies = fill_cells(structure_, *bonds, look);
         atoms_.complete = copies.size();
         add_neighbours(*bonds, centers(), copies);
-        CrystalAtoms all = atoms_of(structure_, *bonds, copies);
-        atoms_.repeated = std::move(all.structure);
-        atoms_.originals = std::move(all.originals);
-        atoms_.bonds = std::move(all.bonds);
+        CrystalAtoms crystal = atoms_of(structure_, *bonds, copies);
+        atoms_.repeated = std::move(crystal.structure);
+        atoms_.originals = std::move(crystal.originals);
+        atoms_.bonds = std::move(crystal.bonds);
         return true;
     }
 

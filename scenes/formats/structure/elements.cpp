@@ -149,8 +149,8 @@ Element element_of_mass(double mass) {
     if (is_whole(mass)) return element_of_whole_mass(mass);
     for (const auto& [of_isotope, element] : isotopes)
         if (std::abs(of_isotope - mass) <= 0.003) return element;
-    const auto off = [&](const ElementData& of) {
-        return std::abs(static_cast<double>(of.mass) - mass);
+    const auto off = [&](const ElementData& element) {
+        return std::abs(static_cast<double>(element.mass) - mass);
     };
     const auto* const nearest = std::min_element(
         elements.begin() + 1, elements.begin() + heaviest + 1,

@@ -148,7 +148,7 @@ Model model_of(const gemmi::SmallStructure& structure) {
         return gemmi::Fractional(operations[operation].apply(sites[i].fract) - cells);
     };
     const auto left_out = images_left_out(structure, molecule, operations.size(), place);
-    Residue all;
+    Residue residue;
     for (std::size_t i = 0; i < sites.size(); ++i) {
         std::vector<gemmi::Fractional> places;
         for (std::size_t operation = 0; operation < operations.size(); ++operation) {
@@ -159,11 +159,11 @@ Model model_of(const gemmi::SmallStructure& structure) {
             };
             if (std::any_of(places.begin(), places.end(), is_here)) continue;
             places.push_back(at);
-            all.atoms.push_back(image_of(sites[i], cell, at, operations[operation].mat));
-            all.atoms.back().serial = static_cast<int>(operation) + 1;
+            residue.atoms.push_back(image_of(sites[i], cell, at, operations[operation].mat));
+            residue.atoms.back().serial = static_cast<int>(operation) + 1;
         }
     }
-    model.chains.push_back({"", {std::move(all)}});
+    model.chains.push_back({"", {std::move(residue)}});
     return model;
 }
 
@@ -288,7 +288,7 @@ void read_aniso_b(gemmi::cif::Block& block, Sites& sites) {
     for (auto row : block.find("_atom_site_aniso_",
                                {"label", "B_11", "B_22", "B_33", "B_12", "B_13", "B_23"})) {
         const auto site = std::find_if(sites.begin(), sites.end(),
-                                       [&](const auto& of) { return of.label == row.str(0); });
+                                       [&](const auto& each) { return each.label == row.str(0); });
         if (site == sites.end() || site->aniso.nonzero()) continue;
         const auto u = [&](std::size_t column) {
             return gemmi::cif::as_number(row[column], 0.0) / gemmi::u_to_b();
@@ -336,19 +336,19 @@ gemmi::SmallStructure crystal_of(gemmi::cif::Block& block, std::vector<std::stri
         group_of_assembly; // the first of those that exclude each other
     for (auto row : block.find("_atom_site_", {"label", "fract_x", "fract_y", "fract_z",
                                                "?disorder_assembly", "?disorder_group"})) {
-        const gemmi::SmallStructure::Site& of = structure.sites.at(site++);
+        const gemmi::SmallStructure::Site& site_data = structure.sites.at(site++);
         bool lacks = false;
         for (std::size_t axis = 1; axis < 4; ++axis)
             if (gemmi::cif::is_null(row[axis]))
                 lacks = true;
             else
-                require_coordinate(row[axis], of.label);
+                require_coordinate(row[axis], site_data.label);
         if (row.has(5) && !gemmi::cif::is_null(row[5])) {
             const std::string assembly = row.has(4) ? row.str(4) : std::string();
             if (group_of_assembly.emplace(assembly, row.str(5)).first->second != row.str(5))
                 continue;
         }
-        if (!lacks) placed.push_back(of);
+        if (!lacks) placed.push_back(site_data);
     }
     keep_one_of_each_site(placed, remarks);
     structure.sites = std::move(placed);

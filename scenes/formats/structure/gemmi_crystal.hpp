@@ -36,9 +36,9 @@ inline int number_of(const gemmi::Element& element) {
     return element.is_hydrogen() ? 1 : element.atomic_number();
 }
 
-inline void require_coordinate(const std::string& text, const std::string& of) {
+inline void require_coordinate(const std::string& text, const std::string& owner) {
     if (!std::isfinite(gemmi::cif::as_number(text)))
-        throw std::runtime_error("the coordinates of " + of + " must be numbers, got \"" + text +
+        throw std::runtime_error("the coordinates of " + owner + " must be numbers, got \"" + text +
                                  "\"");
 }
 

@@ -44,12 +44,12 @@ Residue residue_of(const gemmi::Residue& residue) {
 
 std::vector<Model> models_of(const gemmi::Structure& structure) {
     std::vector<Model> models;
-    for (const gemmi::Model& of : structure.models) {
+    for (const gemmi::Model& source : structure.models) {
         Model model;
         if (models.empty()) model.title = structure.get_info("_struct.title");
         take_cell(structure.cell, model);
         bool any = false;
-        for (const gemmi::Chain& chain : of.chains) {
+        for (const gemmi::Chain& chain : source.chains) {
             model.chains.push_back({chain.name, {}});
             for (const gemmi::Residue& residue : chain.residues) {
                 model.chains.back().residues.push_back(residue_of(residue));
@@ -206,7 +206,7 @@ std::vector<Model> models_of(gemmi::cif::Block& block) {
         };
         added.b_factor = value(b_factor, 0.0);
         added.occupancy = value(occupancy, 1.0);
-        if (const std::string of = text(conformer); !of.empty()) added.conformer = of[0];
+        if (const std::string word = text(conformer); !word.empty()) added.conformer = word[0];
         const auto tensor = tensors.find(number_of_row);
         added.has_u = tensor != tensors.end() && tensor->second != std::array<float, 6>{};
         if (added.has_u) std::copy(tensor->second.begin(), tensor->second.end(), added.u);

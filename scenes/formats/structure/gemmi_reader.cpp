@@ -122,8 +122,8 @@ class ModelReader : public FrameReader {
         constexpr float b_of_u = 78.956835F; // 8 pi^2
         for (const float b : frame.properties[0].values)
             frame.isotropies.push_back(b / b_of_u);
-        for (const Anisotropy& of : frame.anisotropies)
-            frame.isotropies[of.atom] = 0.0F;
+        for (const Anisotropy& anisotropy : frame.anisotropies)
+            frame.isotropies[anisotropy.atom] = 0.0F;
     }
 
     /// Adds a residue's atoms. If atoms have alternative places, adds only those of the first
@@ -211,9 +211,10 @@ class ShiftedResidues {
     /// Returns true if the line's residue is shifted. If the names in the residue do not decide
     /// this, the names in all polymer residues do.
     bool has(std::string_view line) const {
-        const auto of = columns_.find(residue_of(line)), of_polymers = columns_.find(polymers);
-        if (of != columns_.end() && of->second.has_14) return false;
-        return (of != columns_.end() && of->second.has_early_13) ||
+        const auto residues = columns_.find(residue_of(line)),
+                   of_polymers = columns_.find(polymers);
+        if (residues != columns_.end() && residues->second.has_14) return false;
+        return (residues != columns_.end() && residues->second.has_early_13) ||
                (of_polymers != columns_.end() && of_polymers->second.is_shifted());
     }
 
@@ -417,15 +418,15 @@ std::string with_line_of(const ModelText& model, const std::string& file, std::s
 } // namespace
 
 std::unique_ptr<FrameReader> open_pdb(InputFile& file) {
-    const std::string whole = file.read_all();
-    const PdbModels texts(file, whole);
+    const std::string text = file.read_all();
+    const PdbModels texts(file, text);
     std::vector<ModelAndBonds> models;
-    for (const ModelText& of : texts.models()) {
+    for (const ModelText& model_text : texts.models()) {
         try {
-            for (gemmi_files::Model& model : gemmi_files::read_pdb(of.text, file.name()))
-                models.push_back({std::move(model), of.bonds, of.entry});
+            for (gemmi_files::Model& model : gemmi_files::read_pdb(model_text.text, file.name()))
+                models.push_back({std::move(model), model_text.bonds, model_text.entry});
         } catch (const gemmi_files::Refused& refused) {
-            fail(file.name(), with_line_of(of, file.name(), refused.what()));
+            fail(file.name(), with_line_of(model_text, file.name(), refused.what()));
         }
     }
     if (models.empty())

@@ -95,28 +95,28 @@ class Search {
                (near.empty() || distance(atom, near[0]) > longest_carbonyl);
     }
     bool may_accept(AtomIndex atom) const {
-        const auto heavy = static_cast<std::size_t>(
-            std::count_if(neighbours_[atom].begin(), neighbours_[atom].end(),
-                          [&](AtomIndex of) { return structure_.element(of) != hydrogen; }));
+        const auto heavy = static_cast<std::size_t>(std::count_if(
+            neighbours_[atom].begin(), neighbours_[atom].end(),
+            [&](AtomIndex bonded) { return structure_.element(bonded) != hydrogen; }));
         return structure_.element(atom) != nitrogen || heavy <= 2;
     }
     /// Returns true if the atoms are bonded, or bonded to the same atom.
     bool are_near(AtomIndex a, AtomIndex b) const {
-        for (const AtomIndex of : neighbours_[a])
-            if (of == b ||
-                std::find(neighbours_[b].begin(), neighbours_[b].end(), of) != neighbours_[b].end())
+        for (const AtomIndex neighbour : neighbours_[a])
+            if (neighbour == b || std::find(neighbours_[b].begin(), neighbours_[b].end(),
+                                            neighbour) != neighbours_[b].end())
                 return true;
         return false;
     }
-    bool fits(AtomIndex of, AtomIndex acceptor) const {
-        const AtomIndex donor = donor_of(of);
+    bool fits(AtomIndex hydrogen_atom, AtomIndex acceptor) const {
+        const AtomIndex donor = donor_of(hydrogen_atom);
         return donor != acceptor && !are_near(donor, acceptor) &&
-               cosine(donor, of, acceptor) < -0.5;
+               cosine(donor, hydrogen_atom, acceptor) < -0.5;
     }
     bool fits_without(AtomIndex donor, AtomIndex acceptor) const {
         const auto is_behind = [&](AtomIndex end, AtomIndex other) {
             return std::all_of(neighbours_[end].begin(), neighbours_[end].end(),
-                               [&](AtomIndex of) { return cosine(of, end, other) < 0.0; });
+                               [&](AtomIndex atom) { return cosine(atom, end, other) < 0.0; });
         };
         return !are_near(donor, acceptor) && is_behind(donor, acceptor) &&
                is_behind(acceptor, donor);

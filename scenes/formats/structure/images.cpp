@@ -62,14 +62,14 @@ std::vector<Vec3d> offsets_of_images(const Cell& cell, const std::array<int, 3>&
 }
 
 Structure with_images(const Structure& structure, const std::array<int, 3>& repeat) {
-    Structure all;
-    all.of_kind = structure.of_kind;
-    all.has_all_bonds = structure.has_all_bonds;
+    Structure repeated;
+    repeated.of_kind = structure.of_kind;
+    repeated.has_all_bonds = structure.has_all_bonds;
     for (const Vec3d& offset : offsets_of_images(structure.cell, repeat)) {
         const auto by = core::convert<float>(offset);
         for (const core::Vec3f& at : structure.positions)
-            all.positions.push_back(at + by);
-        all.kinds.insert(all.kinds.end(), structure.kinds.begin(), structure.kinds.end());
+            repeated.positions.push_back(at + by);
+        repeated.kinds.insert(repeated.kinds.end(), structure.kinds.begin(), structure.kinds.end());
     }
     const auto count = static_cast<AtomIndex>(structure.size());
     const auto index_of = [&](const std::array<int, 3>& image) {
@@ -94,10 +94,10 @@ Structure with_images(const Structure& structure, const std::array<int, 3>& repe
                     if (!is_there) continue;
                     const AtomIndex a = index_of(image) * count + bond.a;
                     const AtomIndex b = index_of(other) * count + bond.b;
-                    all.bonds.push_back({std::min(a, b), std::max(a, b), bond.order});
+                    repeated.bonds.push_back({std::min(a, b), std::max(a, b), bond.order});
                 }
     }
-    return all;
+    return repeated;
 }
 
 } // namespace raylane::scenes

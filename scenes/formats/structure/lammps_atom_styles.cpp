@@ -111,7 +111,7 @@ bool is_same_field(std::string_view a, std::string_view b) {
 /// Returns the layout of sub-styles with their arguments: the five columns that all of them have,
 /// and then the others of each one. Returns nothing for an unknown sub-style.
 std::vector<AtomLayout> hybrid_of(const std::vector<std::string_view>& words) {
-    AtomLayout all{"hybrid", {"type", "x", "y", "z"}, words.size() == 1, words.size() == 1};
+    AtomLayout layout{"hybrid", {"type", "x", "y", "z"}, words.size() == 1, words.size() == 1};
     std::string_view sub_style;
     for (std::size_t i = 1; i < words.size(); ++i) {
         if (!is_style(words[i])) {
@@ -119,18 +119,18 @@ std::vector<AtomLayout> hybrid_of(const std::vector<std::string_view>& words) {
             continue;
         }
         sub_style = without_suffix(words[i]);
-        all.style.append(" ").append(sub_style);
+        layout.style.append(" ").append(sub_style);
         AtomLayout one = layouts_of(sub_style)[0];
         if (sub_style == "tdpd") add_species(one, i + 1 < words.size() ? words[i + 1] : "");
-        all.allows_bonds = all.allows_bonds || one.allows_bonds;
-        if (all.is_open) continue; // its columns follow an unknown number of others
-        all.is_open = one.is_open;
+        layout.allows_bonds = layout.allows_bonds || one.allows_bonds;
+        if (layout.is_open) continue; // its columns follow an unknown number of others
+        layout.is_open = one.is_open;
         for (const std::string_view column : one.columns)
-            if (std::none_of(all.columns.begin(), all.columns.end(),
-                             [&](std::string_view of) { return is_same_field(of, column); }))
-                all.columns.push_back(column);
+            if (std::none_of(layout.columns.begin(), layout.columns.end(),
+                             [&](std::string_view field) { return is_same_field(field, column); }))
+                layout.columns.push_back(column);
     }
-    return {all};
+    return {layout};
 }
 
 } // namespace

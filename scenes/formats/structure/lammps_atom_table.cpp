@@ -254,11 +254,11 @@ void AtomTable::add_word(const Lines& lines, const Words& words, std::string_vie
     }
     if (value < column.least) {
         column.least = value;
-        column.at_least = place;
+        column.min_position = place;
     }
     if (value > column.most) {
         column.most = value;
-        column.at_most = place;
+        column.max_position = place;
     }
 }
 
@@ -276,8 +276,9 @@ std::optional<Misfit> misfit_of_types(const AtomTable::Column& column, const Lam
                              std::to_string(static_cast<long long>(most));
     if (column.not_whole) return misfit(*column.not_whole, rule);
     if (column.least < 1.0F)
-        return Misfit{column.at_least, rule + ", got " + to_text(column.least)};
-    if (column.most > most) return Misfit{column.at_most, rule + ", got " + to_text(column.most)};
+        return Misfit{column.min_position, rule + ", got " + to_text(column.least)};
+    if (column.most > most)
+        return Misfit{column.max_position, rule + ", got " + to_text(column.most)};
     return std::nullopt;
 }
 
@@ -289,11 +290,12 @@ std::optional<Misfit> misfit_of_column(const AtomTable::Column& column, std::str
         constexpr float limit = core::coordinate_limit;
         if (column.not_finite) return misfit(*column.not_finite, named + " must be a number");
         if (column.least < -limit || column.most > limit)
-            return Misfit{column.least < -limit ? column.at_least : column.at_most,
+            return Misfit{column.least < -limit ? column.min_position : column.max_position,
                           named + " must be from -1e30 to 1e30"};
     }
-    const auto* const rule = std::find_if(std::begin(rules), std::end(rules),
-                                          [&](const auto& of) { return of.column == name; });
+    const auto* const rule =
+        std::find_if(std::begin(rules), std::end(rules),
+                     [&](const auto& alternative) { return alternative.column == name; });
     if (rule != std::end(rules) && rule->is_whole && column.not_whole)
         return misfit(*column.not_whole, named + " must be a whole number");
     return std::nullopt;

@@ -29,7 +29,7 @@ class AtomTable {
         std::vector<float> values;         ///< NaN if the word is not a finite number
         std::vector<std::uint16_t> labels; ///< 1 + index in texts(), or 0; empty: only numbers
         float least = std::numeric_limits<float>::infinity(), most = -least;
-        TextPosition at_least, at_most;
+        TextPosition min_position, max_position;
         /// The first word that is not a number, not a finite number, a number with decimals.
         std::optional<Word> text, not_finite, not_whole;
     };
@@ -67,8 +67,8 @@ struct LammpsHeader {
     Cell cell;
     bool has_masses = false; ///< true if a section Masses has come before the atoms
 
-    std::size_t count(std::string_view of) const {
-        const auto found = counts.find(of);
+    std::size_t count(std::string_view name) const {
+        const auto found = counts.find(name);
         return found == counts.end() ? 0 : found->second;
     }
 };

@@ -93,14 +93,14 @@ class DataReader : public FrameReader {
 
     /// Returns the line without its comment, and with one blank between words.
     std::string words_of_line() const {
-        std::string all;
+        std::string names;
         Words words(lines_);
         for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
             const std::size_t hash = word.find('#');
-            if (hash != 0) all.append(all.empty() ? "" : " ").append(word.substr(0, hash));
+            if (hash != 0) names.append(names.empty() ? "" : " ").append(word.substr(0, hash));
             if (hash != std::string_view::npos) break;
         }
-        return all;
+        return names;
     }
 
     void tell(std::size_t line, const std::string& message) const {

@@ -29,10 +29,10 @@ Selected ligands(const Structure& structure) {
     const std::size_t count = structure.of_residue.size();
     std::vector<char> has_carbon(count), is_like_amino_acid(count);
     for (AtomIndex i = 0; i < structure.size(); ++i) {
-        const std::uint32_t of = structure.residues[i];
-        if (structure.element(i) == 6) has_carbon[of] = 1;
+        const std::uint32_t residue = structure.residues[i];
+        if (structure.element(i) == 6) has_carbon[residue] = 1;
         if (!structure.names.empty() && structure.names[i] == "CA" && structure.element(i) == 6)
-            is_like_amino_acid[of] = 1;
+            is_like_amino_acid[residue] = 1;
     }
     // A modified amino acid is next to another residue of its chain.
     const auto is_linked = [&](std::size_t k, std::size_t other) {
@@ -60,9 +60,9 @@ Selected ions(const Structure& structure) {
     for (const std::uint32_t residue : structure.residues)
         ++atoms[residue];
     return where(structure, [&](AtomIndex i) {
-        const std::uint32_t of = structure.residues[i];
-        const Residue& residue = structure.of_residue[of];
-        return atoms[of] == 1 && !is_water(residue) && !is_amino_acid(residue) &&
+        const std::uint32_t residue_index = structure.residues[i];
+        const Residue& residue = structure.of_residue[residue_index];
+        return atoms[residue_index] == 1 && !is_water(residue) && !is_amino_acid(residue) &&
                !is_nucleotide(residue);
     });
 }

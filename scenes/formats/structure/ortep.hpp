@@ -12,11 +12,11 @@ core::Ellipsoid ellipsoid_at(const core::Vec3f& center, const std::array<core::V
 
 /// Returns the principal ellipses of an ellipsoid with perpendicular axes. Each is a flat ellipsoid
 /// of which a narrow rim stands out of the surface, by 2 % of the axes.
-std::array<core::Ellipsoid, 3> principal_ellipses(const core::Ellipsoid& whole);
+std::array<core::Ellipsoid, 3> principal_ellipses(const core::Ellipsoid& ellipsoid);
 
 /// Returns an ellipsoid with its principal ellipses, without the octant that faces the camera.
 /// `to_camera`: direction, of any length.
-core::Solid without_octant(const core::Ellipsoid& whole, const core::Vec3d& to_camera,
+core::Solid without_octant(const core::Ellipsoid& ellipsoid, const core::Vec3d& to_camera,
                            core::MaterialIndex material, core::MaterialIndex of_ellipses,
                            core::MaterialIndex of_cut);
 

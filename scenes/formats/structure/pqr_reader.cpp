@@ -103,17 +103,17 @@ class PqrReader : public FrameReader {
             chain = place.substr(0, 1);
             place.remove_prefix(1);
         }
-        Residue of{.name = std::string(residue), .is_hetero = words[0].starts_with("HETATM")};
-        std::from_chars(place.data(), place.data() + place.size(), of.number);
-        if (!place.empty() && is_letter(place.back())) of.insertion = place.back();
+        Residue parsed{.name = std::string(residue), .is_hetero = words[0].starts_with("HETATM")};
+        std::from_chars(place.data(), place.data() + place.size(), parsed.number);
+        if (!place.empty() && is_letter(place.back())) parsed.insertion = place.back();
         if (frame.chains.empty() || frame.chains.back() != chain) frame.chains.push_back(chain);
-        of.chain = static_cast<std::uint32_t>(frame.chains.size() - 1);
+        parsed.chain = static_cast<std::uint32_t>(frame.chains.size() - 1);
         const auto is_same = [&](const Residue& other) {
-            return other.number == of.number && other.insertion == of.insertion &&
-                   other.name == of.name && other.chain == of.chain;
+            return other.number == parsed.number && other.insertion == parsed.insertion &&
+                   other.name == parsed.name && other.chain == parsed.chain;
         };
         if (frame.of_residue.empty() || !is_same(frame.of_residue.back()))
-            frame.of_residue.push_back(std::move(of));
+            frame.of_residue.push_back(std::move(parsed));
         const Element element = element_of_atom(name, residue);
         frame.kinds.push_back(static_cast<std::uint16_t>(
             kinds.index_of(data_of(element).symbol, [&](std::string_view) { return element; })));

@@ -31,11 +31,12 @@ std::optional<int> number(std::string_view record, std::size_t column, std::size
 
 /// Reads a residue: its chain, two columns further its number, and its insertion code.
 std::optional<ResiduePlace> residue(std::string_view record, std::size_t chain) {
-    const std::optional<int> of = number(record, chain + (character(record, 1) == 'H' ? 2 : 1), 4);
-    if (!of) return std::nullopt;
+    const std::optional<int> sequence_number =
+        number(record, chain + (character(record, 1) == 'H' ? 2 : 1), 4);
+    if (!sequence_number) return std::nullopt;
     const char name = character(record, chain);
     const std::size_t insertion = chain + (character(record, 1) == 'H' ? 6 : 5);
-    return ResiduePlace{name == ' ' ? std::string() : std::string(1, name), *of,
+    return ResiduePlace{name == ' ' ? std::string() : std::string(1, name), *sequence_number,
                         character(record, insertion)};
 }
 
@@ -46,8 +47,8 @@ class MarkedResidues {
         : structure_(structure), starts_(structure.of_residue.size() + 1),
           starts_by_number_(starts_.size()) {
         for (std::uint32_t i = 0; i < structure.of_residue.size(); ++i) {
-            const Residue& of = structure.of_residue[i];
-            of_place_.try_emplace({chain_of(i), of.number, of.insertion}, i);
+            const Residue& residue = structure.of_residue[i];
+            of_place_.try_emplace({chain_of(i), residue.number, residue.insertion}, i);
             by_number_.push_back(i);
         }
         std::ranges::stable_sort(by_number_, {}, [&](std::uint32_t i) { return number_of(i); });

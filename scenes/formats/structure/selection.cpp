@@ -17,13 +17,13 @@ namespace raylane::scenes {
 
 namespace {
 
-Selected atoms_within(const Structure& structure, const Selected& of, float reach) {
+Selected atoms_within(const Structure& structure, const Selected& targets, float reach) {
     std::vector<AtomIndex> atoms;
-    for (AtomIndex i = 0; i < of.size(); ++i)
-        if (of[i] != 0) atoms.push_back(i);
+    for (AtomIndex i = 0; i < targets.size(); ++i)
+        if (targets[i] != 0) atoms.push_back(i);
     const AtomTree tree(structure.positions, atoms);
-    Selected result = of;
-    for (AtomIndex i = 0; i < of.size(); ++i)
+    Selected result = targets;
+    for (AtomIndex i = 0; i < targets.size(); ++i)
         if (result[i] == 0 && tree.has_within(structure.positions[i], reach)) result[i] = 1;
     return result;
 }
@@ -150,9 +150,9 @@ class Parser {
         if (take("within") || take("exwithin")) {
             const float reach = distance();
             require("of");
-            const Selected of = one();
-            Selected near = atoms_within(structure_, of, reach);
-            return excludes ? without(std::move(near), of) : near;
+            const Selected operand = one();
+            Selected near = atoms_within(structure_, operand, reach);
+            return excludes ? without(std::move(near), operand) : near;
         }
         if (is_same_word(keyword_of(word_), "byres")) {
             advance();
@@ -175,11 +175,11 @@ class Parser {
         return static_cast<float>(reach);
     }
     /// Adds the other atoms of residues of which atoms are selected.
-    Selected whole_residues(Selected of) const {
-        if (structure_.residues.empty()) return of;
+    Selected whole_residues(Selected selected) const {
+        if (structure_.residues.empty()) return selected;
         std::vector<char> has_any(structure_.of_residue.size());
-        for (AtomIndex i = 0; i < of.size(); ++i)
-            if (of[i] != 0) has_any[structure_.residues[i]] = 1;
+        for (AtomIndex i = 0; i < selected.size(); ++i)
+            if (selected[i] != 0) has_any[structure_.residues[i]] = 1;
         return where(structure_, [&](AtomIndex i) { return has_any[structure_.residues[i]] != 0; });
     }
 
@@ -396,10 +396,10 @@ class Parser {
         known.insert(known.end(), {"x", "y", "z"});
         for (const AtomProperty& property : structure_.properties)
             known.push_back(property.name);
-        std::string all;
+        std::string text;
         for (const std::string_view word : known)
-            all.append(all.empty() ? "" : ", ").append(word);
-        fail_at(name, "must be one of " + printable(all, 400) + ", got \"" + printable(name) +
+            text.append(text.empty() ? "" : ", ").append(word);
+        fail_at(name, "must be one of " + printable(text, 400) + ", got \"" + printable(name) +
                           "\"" + suggestion(name, known));
     }
 

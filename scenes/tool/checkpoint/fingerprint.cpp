@@ -52,15 +52,15 @@ void add_array(Hash& hash, const core::BigArray<T>& array) {
 }
 
 void add_materials(Hash& hash, const core::Scene& scene) {
-    std::vector<core::MaterialIndex> some;
+    std::vector<core::MaterialIndex> batch;
     constexpr std::size_t most = 4096;
     const auto add_some = [&] {
-        hash.add(some.data(), some.size() * sizeof(core::MaterialIndex));
-        some.clear();
+        hash.add(batch.data(), batch.size() * sizeof(core::MaterialIndex));
+        batch.clear();
     };
     scene.material_indices().for_each_material([&](core::MaterialIndex material) {
-        some.push_back(material);
-        if (some.size() == most) add_some();
+        batch.push_back(material);
+        if (batch.size() == most) add_some();
     });
     add_some();
 }

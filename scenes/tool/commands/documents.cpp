@@ -42,9 +42,9 @@ struct CompletionArguments : OptionTable {
 };
 
 void write_pages(const CLI::App& app, const std::filesystem::path& folder) {
-    std::vector<const CLI::App*> all = commands_of(app);
-    all.push_back(&app);
-    for (const CLI::App* command : all) {
+    std::vector<const CLI::App*> commands = commands_of(app);
+    commands.push_back(&app);
+    for (const CLI::App* command : commands) {
         const std::string name =
             command == &app ? "raylane.1" : "raylane-" + command->get_name() + ".1";
         AtomicFile file(folder / name);
@@ -58,8 +58,8 @@ int print_manual(const CLI::App& app, const ManualArguments& arguments) {
         write_pages(app, *arguments.folder);
         return 0;
     }
-    const CLI::App& of = arguments.command ? command_named(app, *arguments.command) : app;
-    std::fputs(manual_page(app, of).c_str(), stdout);
+    const CLI::App& command = arguments.command ? command_named(app, *arguments.command) : app;
+    std::fputs(manual_page(app, command).c_str(), stdout);
     return 0;
 }
 
@@ -112,13 +112,13 @@ Command add_manual_command(CLI::App& app) {
 }
 
 void name_commands(CLI::App& app) {
-    std::string all;
+    std::string text;
     for (const CLI::App* command : commands_of(app))
-        all.append(all.empty() ? "" : "|").append(command->get_name());
-    app.get_subcommand("manual")->get_option("COMMAND")->type_name(all);
+        text.append(text.empty() ? "" : "|").append(command->get_name());
+    app.get_subcommand("manual")->get_option("COMMAND")->type_name(text);
     for (const Page& page : documentation_pages())
-        all.append("|").append(page.topic);
-    app.get_subcommand("help")->get_option("TOPIC")->type_name(all);
+        text.append("|").append(page.topic);
+    app.get_subcommand("help")->get_option("TOPIC")->type_name(text);
 }
 
 Command add_completion_command(CLI::App& app) {

@@ -38,7 +38,7 @@ std::string_view isa_in_use(const simd::RenderOptions& options) {
 /// The plan of this process: the image or the sequence that it renders, and how.
 struct Plan {
     /// Joins the other ranks. Throws BadInput for options that are invalid with any scene.
-    explicit Plan(const RenderArguments& all);
+    explicit Plan(const RenderArguments& given);
 
     /// Returns true if a sequence has a single frame, which is rendered like a single scene.
     bool is_frame() const { return arguments.frames.is_one(); }
@@ -96,34 +96,35 @@ std::string checked_output(const RenderArguments& arguments) {
     return output;
 }
 
-Plan::Plan(const RenderArguments& all)
-    : arguments(all), options(all.render_options()), output(checked_output(all)),
-      load_options(all.scene_arguments.load_options()),
-      verbosity(job.is_first() ? all.scene_arguments.verbosity.verbosity() : Verbosity::quiet),
-      threads_to_load(options.threads), annotator(all), bits(all.image.encoding.bits.value_or(0)) {
+Plan::Plan(const RenderArguments& given)
+    : arguments(given), options(given.render_options()), output(checked_output(given)),
+      load_options(given.scene_arguments.load_options()),
+      verbosity(job.is_first() ? given.scene_arguments.verbosity.verbosity() : Verbosity::quiet),
+      threads_to_load(options.threads), annotator(given),
+      bits(given.image.encoding.bits.value_or(0)) {
     load_options.legend = annotator.legend();
-    if (!all.threads) options.threads = job.share_of_threads(options.threads);
-    if (is_frame() || all.part) annotator.require_single();
-    if (*all.scene == "-") job.share_standard_input();
+    if (!given.threads) options.threads = job.share_of_threads(options.threads);
+    if (is_frame() || given.part) annotator.require_single();
+    if (*given.scene == "-") job.share_standard_input();
     job.together([&] {
-        if (!is_frame()) sequence = requested_sequence(all, options.threads, verbosity);
+        if (!is_frame()) sequence = requested_sequence(given, options.threads, verbosity);
         if (!sequence) return;
         annotator.require_single();
-        if (all.stats)
+        if (given.stats)
             throw BadInput(
                 "--stats", "",
                 "goes with a single image, without --turn, ranges of --frames and sweeps of --set");
         const OutputFile writable(sequence->name(0),
                                   more_encoders); // throws at once if it cannot be written
-        all.image.require_fit(writable.format());
+        given.image.require_fit(writable.format());
     });
     if (sequence) {
         // The ranks of a part take turns, as the parts do.
-        const ImagePart part = all.part.value_or({1, 1});
+        const ImagePart part = given.part.value_or({1, 1});
         sequence->share = {part.number - 1 + part.count * static_cast<std::size_t>(job.rank()),
                            part.count * static_cast<std::size_t>(job.size())};
-    } else if (all.part) {
-        tiles = *all.part;
+    } else if (given.part) {
+        tiles = *given.part;
         if (bits == 0) bits = 32;
     }
 }

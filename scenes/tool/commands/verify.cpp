@@ -48,8 +48,8 @@ class Tolerance {
   public:
     explicit Tolerance(const Image& image) : is_float_(image.linear_float), bits_(image.bits) {}
 
-    bool is_near(float there, float expected) const {
-        return std::abs(there - expected) <= 1.5F * step(expected);
+    bool is_near(float found, float expected) const {
+        return std::abs(found - expected) <= 1.5F * step(expected);
     }
 
   private:
@@ -224,9 +224,9 @@ class Verifier {
         const bool has_lost_alpha = expected.alpha.size() > 0 && image_.alpha.size() == 0;
         for (const std::size_t pixel : pixels) {
             bool is_same = !has_lost_alpha, is_near = !has_lost_alpha;
-            const auto compare = [&](float there, float right) {
-                is_same = is_same && there == right;
-                is_near = is_near && tolerance.is_near(there, right);
+            const auto compare = [&](float found, float right) {
+                is_same = is_same && found == right;
+                is_near = is_near && tolerance.is_near(found, right);
             };
             for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
                 compare(image_.rgb[i], expected.rgb[i]);
@@ -296,10 +296,10 @@ class Verifier {
     std::vector<std::size_t> choose() const {
         std::vector<std::size_t> pixels = all_pixels();
         std::mt19937_64 random(seed_);
-        const std::size_t all = pixels.size();
-        const std::size_t count = std::min(all, static_cast<std::size_t>(count_));
+        const std::size_t total = pixels.size();
+        const std::size_t count = std::min(total, static_cast<std::size_t>(count_));
         for (std::size_t i = 0; i < count; ++i)
-            std::swap(pixels[i], pixels[i + random() % (all - i)]);
+            std::swap(pixels[i], pixels[i + random() % (total - i)]);
         pixels.resize(count);
         return pixels;
     }

@@ -20,7 +20,7 @@ CLI::Option* add(CLI::App& command, AnyOption& option) {
             .add_flag_callback(
                 names, [&option] { option.give({""}); }, option.help())
             ->disable_flag_override();
-    if (const int most = option.properties().most_words; most > 1)
+    if (const int most = option.properties().max_words; most > 1)
         return command
             .add_option_function<std::vector<std::string>>(
                 names,

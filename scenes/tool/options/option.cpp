@@ -57,14 +57,15 @@ std::string AnyOption::name() const {
 }
 
 std::string AnyOption::help() const {
-    const OptionProperties& of = properties();
+    const OptionProperties& option = properties();
     std::string text = help_;
-    if (!of.range.empty())
-        text += " Range: " + of.range + (of.unit.empty() ? "" : " " + of.unit) + ".";
-    if (!of.for_atoms.empty())
-        text += " Default for atoms: " + of.for_atoms + "; for scenes: " + of.standard + ".";
-    else if (!of.standard.empty())
-        text += " Default: " + of.standard + ".";
+    if (!option.range.empty())
+        text += " Range: " + option.range + (option.unit.empty() ? "" : " " + option.unit) + ".";
+    if (!option.for_atoms.empty())
+        text +=
+            " Default for atoms: " + option.for_atoms + "; for scenes: " + option.standard + ".";
+    else if (!option.standard.empty())
+        text += " Default: " + option.standard + ".";
     return text;
 }
 

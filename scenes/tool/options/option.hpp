@@ -32,7 +32,7 @@ struct OptionProperties {
     std::string standard = {};              ///< the default, in words
     std::string for_atoms = {};             ///< the default for files of atoms, if it is another
     std::vector<std::string> excluded = {}; ///< names of options that it goes without
-    int most_words = 1;                     ///< on the command line; they are joined by blanks
+    int max_words = 1;                      ///< on the command line; they are joined by blanks
     bool is_required = false;
     bool is_recorded = false; ///< an image records the option
 };
@@ -79,7 +79,7 @@ struct Values : OptionProperties {
         return std::move(*this);
     }
     Values of_words(int most) && {
-        most_words = most;
+        max_words = most;
         return std::move(*this);
     }
     Values required() && {
@@ -104,16 +104,16 @@ struct Values : OptionProperties {
         const core::Settings usual;
         for_atoms = text(std::invoke(field, usual));
         return std::move(*this).recorded(
-            [field](const Rendered& of) { return std::invoke(field, of.settings); },
+            [field](const Rendered& rendered) { return std::invoke(field, rendered.settings); },
             std::move(when_));
     }
     /// Does the same for a setting that images omit if they and their scenes have the default.
     template <class Field>
     Values replacing_rarely(Field field) && {
-        return std::move(*this).replacing(field, [field](const Rendered& of) {
+        return std::move(*this).replacing(field, [field](const Rendered& rendered) {
             const core::Settings usual;
-            return std::invoke(field, of.settings) != std::invoke(field, usual) ||
-                   std::invoke(field, of.own) != std::invoke(field, usual);
+            return std::invoke(field, rendered.settings) != std::invoke(field, usual) ||
+                   std::invoke(field, rendered.own) != std::invoke(field, usual);
         });
     }
 
@@ -164,7 +164,8 @@ class AnyOption {
 class OptionTable {
   public:
     explicit OptionTable(std::string group = "Options") : group_(std::move(group)) {}
-    OptionTable(OptionTable& whole, std::string group) : whole_(&whole), group_(std::move(group)) {}
+    OptionTable(OptionTable& parent, std::string group)
+        : whole_(&parent), group_(std::move(group)) {}
     OptionTable(const OptionTable&) = delete;
     OptionTable& operator=(const OptionTable&) = delete;
 

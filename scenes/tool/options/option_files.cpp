@@ -106,9 +106,9 @@ void OptionFiles::read(const std::string& file, const OptionTable& options,
     const std::string text = input.read_all();
     const std::size_t before = lines_.size();
     std::size_t number = 0;
-    for (const std::string_view whole : parts_of(text, '\n')) {
+    for (const std::string_view raw_line : parts_of(text, '\n')) {
         ++number;
-        const std::string_view line = trimmed(whole);
+        const std::string_view line = trimmed(raw_line);
         if (line.empty() || line.front() == '#') continue;
         const auto refuse = [&](const std::string& message) {
             throw BadInput({{file, {number, 0}, "", message}});

@@ -28,8 +28,8 @@ void require_writable(const std::string& option, ImageFormat format);
 
 /// Options for the encoding of an image's file.
 struct EncodingArguments : OptionTable {
-    EncodingArguments(OptionTable& whole, std::string default_bits)
-        : OptionTable(whole, whole.group()),
+    EncodingArguments(OptionTable& parent, std::string default_bits)
+        : OptionTable(parent, parent.group()),
           bits(*this, "--bits",
                choice<int>({{"8", 8}, {"16", 16}, {"32", 32}}).otherwise(std::move(default_bits)),
                "Bits per channel: 8 or 16 (PNG, TIFF), 16 (half) or 32 (float) (EXR).") {}
@@ -48,7 +48,7 @@ struct EncodingArguments : OptionTable {
 
 /// Options for the region of an image, its channels, and the lines over it.
 struct ImageArguments : OptionTable {
-    explicit ImageArguments(OptionTable& whole) : OptionTable(whole, "Images") {}
+    explicit ImageArguments(OptionTable& parent) : OptionTable(parent, "Images") {}
 
     /// Throws BadInput for options that the output's format does not support.
     void require_fit(ImageFormat format) const;
@@ -77,9 +77,9 @@ struct ImageArguments : OptionTable {
         colors().replacing(
             [](auto& settings) -> auto& { return settings.outline.color; },
             // The colour of a scene may lie between two codes.
-            [](const Rendered& of) {
-                return of.settings.outline.any() &&
-                       of.settings.outline.color != of.own.outline.color;
+            [](const Rendered& rendered) {
+                return rendered.settings.outline.any() &&
+                       rendered.settings.outline.color != rendered.own.outline.color;
             }),
         "Colour of the outlines."};
     Option<float> outline_creases = {
@@ -87,9 +87,9 @@ struct ImageArguments : OptionTable {
         number(0.0F, 180.0F, "DEGREES")
             .replacing(
                 [](auto& settings) -> auto& { return settings.outline.creases; },
-                [](const Rendered& of) {
-                    return of.settings.outline.any() &&
-                           of.settings.outline.creases != of.own.outline.creases;
+                [](const Rendered& rendered) {
+                    return rendered.settings.outline.any() &&
+                           rendered.settings.outline.creases != rendered.own.outline.creases;
                 }),
         "Draw outlines also between materials and where surfaces bend by more than "
         "DEGREES; 180 for none of these."};
@@ -102,8 +102,8 @@ Values<DistanceWords> distance_texts();
 
 /// Options for legends and labels.
 struct AnnotationArguments : OptionTable {
-    explicit AnnotationArguments(OptionTable& whole)
-        : OptionTable(whole, "Annotations (of atoms)") {}
+    explicit AnnotationArguments(OptionTable& parent)
+        : OptionTable(parent, "Annotations (of atoms)") {}
 
     Flag legend = {*this, "--legend", flag().recorded(),
                    "Explain the colours: a bar with numbers, or the names of elements or chains."};
@@ -167,18 +167,18 @@ struct RenderArguments : OptionTable {
     Option<ImageSize> size = {
         *this, "--size",
         image_size_on_paper().recorded(
-            [](const Rendered& of) {
-                return ImageSize{static_cast<double>(of.settings.width),
-                                 static_cast<double>(of.settings.height)};
+            [](const Rendered& rendered) {
+                return ImageSize{static_cast<double>(rendered.settings.width),
+                                 static_cast<double>(rendered.settings.height)};
             },
-            [](const Rendered& of) { return of.names_size; }),
+            [](const Rendered& rendered) { return rendered.names_size; }),
         "Image width and height in pixels; or on paper: the width, or both, in cm, mm or in, such "
         "as 8.5cm or 85x60mm, at the resolution of --dpi."};
     Option<int> samples = {
         *this, "--spp",
         square_of(core::Settings::max_grid)
             .replacing(&core::Settings::grid,
-                       [](const Rendered& of) { return of.settings.quality == 0.0F; })
+                       [](const Rendered& rendered) { return rendered.settings.quality == 0.0F; })
             .otherwise(as_in_file, "see --quality"),
         "Samples per pixel, a square number."};
     Option<float> quality = {
@@ -186,7 +186,7 @@ struct RenderArguments : OptionTable {
         number(10.0F, 80.0F, "DB")
             .in("dB")
             .replacing(&core::Settings::quality,
-                       [](const Rendered& of) { return of.settings.quality != 0.0F; })
+                       [](const Rendered& rendered) { return rendered.settings.quality != 0.0F; })
             .otherwise(as_in_file, "46, or 40 for spheres and points")
             .without({"--spp"}),
         "Target PSNR against a converged image, instead of --spp; 40 suits print."};
@@ -230,29 +230,36 @@ struct RenderArguments : OptionTable {
         choice<simd::Engine>(
             {{"vector", simd::Engine::vector}, {"reference", simd::Engine::reference}})
             .initially(simd::Engine::vector)
-            .recorded([](const Rendered& of) { return of.options.engine; },
-                      [](const Rendered& of) { return of.options.engine != simd::Engine::vector; }),
+            .recorded([](const Rendered& rendered) { return rendered.options.engine; },
+                      [](const Rendered& rendered) {
+                          return rendered.options.engine != simd::Engine::vector;
+                      }),
         "Engine: vector, or reference, which is scalar and slow."};
-    Option<simd::Isa> isa = {*this, "--isa",
-                             instruction_sets()
-                                 .recorded([](const Rendered& of) { return of.options.isa; },
-                                           [](const Rendered& of) {
-                                               return is_inexact(of) &&
-                                                      of.options.engine == simd::Engine::vector;
-                                           })
-                                 .otherwise("the widest available one"),
-                             "Instruction set of the vector engine."};
+    Option<simd::Isa> isa = {
+        *this, "--isa",
+        instruction_sets()
+            .recorded([](const Rendered& rendered) { return rendered.options.isa; },
+                      [](const Rendered& rendered) {
+                          return is_inexact(rendered) &&
+                                 rendered.options.engine == simd::Engine::vector;
+                      })
+            .otherwise("the widest available one"),
+        "Instruction set of the vector engine."};
     Option<int> tile = {
         *this, "--tile",
         whole(8, 64).in("pixels").recorded(
-            [](const Rendered& of) { return simd::tile_of(of.settings, of.options); }, is_inexact),
+            [](const Rendered& rendered) {
+                return simd::tile_of(rendered.settings, rendered.options);
+            },
+            is_inexact),
         "Side of the tiles that threads render. Images of precision exact do not depend "
         "on it."};
     Option<core::Precision> precision = {
         *this, "--precision",
         precisions()
             .initially(core::Precision::exact)
-            .recorded([](const Rendered& of) { return of.options.precision; }, is_inexact),
+            .recorded([](const Rendered& rendered) { return rendered.options.precision; },
+                      is_inexact),
         "Arithmetic of intersections: fast (textbook formulas in float), robust (best "
         "formulas in float), exact (certified, with the results of real arithmetic) or "
         "double (formulas of robust in double)."};

@@ -259,8 +259,8 @@ Values<ParameterSweep> parameter_values(bool sweeps) {
             }};
 }
 
-ParameterArguments::ParameterArguments(OptionTable& whole, bool sweeps)
-    : OptionTable(whole, group_of_several),
+ParameterArguments::ParameterArguments(OptionTable& parent, bool sweeps)
+    : OptionTable(parent, group_of_several),
       set(*this, "--set", parameter_values(sweeps).recorded(),
           sweeps ? "Value of \"$NAME\" in a JSON scene: a number, or FIRST:LAST:COUNT for "
                    "a sequence of COUNT images. Several of these advance together."

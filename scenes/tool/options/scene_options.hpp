@@ -22,7 +22,7 @@ enum class Verbosity {
 };
 
 struct VerbosityArguments : OptionTable {
-    explicit VerbosityArguments(OptionTable& whole) : OptionTable(whole, whole.group()) {}
+    explicit VerbosityArguments(OptionTable& parent) : OptionTable(parent, parent.group()) {}
 
     Flag quiet = {*this, "-q,--quiet", flag().without({"--verbose"}),
                   "Print only errors on standard error."};
@@ -71,7 +71,7 @@ Values<ParameterSweep> parameter_values(bool sweeps);
 
 /// Options for several images.
 struct FrameArguments : OptionTable {
-    explicit FrameArguments(OptionTable& whole) : OptionTable(whole, group_of_several) {}
+    explicit FrameArguments(OptionTable& parent) : OptionTable(parent, group_of_several) {}
 
     Option<FrameRange> frames = {
         *this, "--frames", frame_ranges().otherwise("0").recorded(),
@@ -97,7 +97,7 @@ struct FrameArguments : OptionTable {
 
 /// Options for the parameters of a scene.
 struct ParameterArguments : OptionTable {
-    ParameterArguments(OptionTable& whole, bool sweeps);
+    ParameterArguments(OptionTable& parent, bool sweeps);
 
     /// Returns one value of each parameter for each image. There is one image if each parameter has
     /// one value. Throws BadInput if two parameters have different numbers of values above one.
@@ -144,7 +144,7 @@ Values<Background> backgrounds();
 Values<core::Vec3f> upward_directions();
 
 struct ViewArguments : OptionTable {
-    explicit ViewArguments(OptionTable& whole) : OptionTable(whole, "Camera") {}
+    explicit ViewArguments(OptionTable& parent) : OptionTable(parent, "Camera") {}
 
     Option<core::NamedView> view = {
         *this, "--view", views().otherwise(as_in_file, "front; crystals obliquely").recorded(),
@@ -191,8 +191,8 @@ inline constexpr const char* for_crystals = "on for crystals";
 /// Options for the look of atoms: types, help and defaults. Their meaning is in
 /// drawing_options.hpp.
 struct DrawingArguments : OptionTable {
-    explicit DrawingArguments(OptionTable& whole)
-        : OptionTable(whole, "Atoms (PDB, PQR, mmCIF, CIF, XYZ, GRO, MOL, SDF, MOL2, LAMMPS)") {}
+    explicit DrawingArguments(OptionTable& parent)
+        : OptionTable(parent, "Atoms (PDB, PQR, mmCIF, CIF, XYZ, GRO, MOL, SDF, MOL2, LAMMPS)") {}
 
     Option<Style> style = {
         *this, "--style",
@@ -305,8 +305,8 @@ struct DrawingArguments : OptionTable {
 
 struct SceneArguments {
     /// `sweeps`: whether parameters may have several values, for several images.
-    explicit SceneArguments(OptionTable& whole, bool sweeps = false)
-        : verbosity(whole), view(whole), parameters(whole, sweeps), drawing(whole) {}
+    explicit SceneArguments(OptionTable& parent, bool sweeps = false)
+        : verbosity(parent), view(parent), parameters(parent, sweeps), drawing(parent) {}
 
     /// Returns options with the first value of each parameter. Throws BadInput.
     LoadOptions load_options() const;

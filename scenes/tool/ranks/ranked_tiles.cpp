@@ -50,10 +50,10 @@ void RankedTiles::note(const simd::FinishedTile& tile) {
     if (ranks_.rank() == 0) return;
     std::string bytes;
     records_.append(tile, bytes);
-    const auto& all = tiles_.to_draw;
+    const auto& tiles = tiles_.to_draw;
     const auto place =
-        std::lower_bound(all.begin(), all.end(), records_.grid().number_of(tile.region));
-    work_.done(static_cast<std::size_t>(place - all.begin()), bytes);
+        std::lower_bound(tiles.begin(), tiles.end(), records_.grid().number_of(tile.region));
+    work_.done(static_cast<std::size_t>(place - tiles.begin()), bytes);
 }
 
 std::vector<std::pair<std::size_t, std::string>> RankedTiles::finish() {

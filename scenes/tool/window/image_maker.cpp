@@ -95,13 +95,13 @@ void ImageMaker::draw(const std::stop_token& stop, const core::Settings& setting
     constexpr std::array<Level, 7> levels = {
         {{16, 1}, {8, 1}, {4, 1}, {2, 1}, {1, 1}, {1, 2}, {1, 0}}};
     std::size_t level = 0;
-    const auto settings_of = [&](const Level& of) {
+    const auto settings_of = [&](const Level& chosen) {
         core::Settings result = settings;
-        if (of.grid == 0) return result;
+        if (chosen.grid == 0) return result;
         result.quality = 0.0F;
-        result.grid = std::min(of.grid, std::max(settings.grid, 1));
-        result.width = (settings.width + of.step - 1) / of.step;
-        result.height = (settings.height + of.step - 1) / of.step;
+        result.grid = std::min(chosen.grid, std::max(settings.grid, 1));
+        result.width = (settings.width + chosen.step - 1) / chosen.step;
+        result.height = (settings.height + chosen.step - 1) / chosen.step;
         return result;
     };
     // The first image is the finest one that is expected within this time limit.

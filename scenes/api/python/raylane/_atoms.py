@@ -15,7 +15,7 @@ from ._errors import InvalidValue
 from ._scene import Scene, _warn
 
 
-_MOST = 1e30  # maximum magnitude of a coordinate, as in all scenes
+_LIMIT = 1e30  # maximum magnitude of a coordinate, as in all scenes
 
 
 def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[np.float64]:
@@ -33,7 +33,7 @@ def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[n
     if array.shape != shape:
         raise InvalidValue(field, f"must have the shape {shape}, got {array.shape}")
     numbers = array.astype(np.float64)
-    wrong = np.argwhere(~(np.abs(numbers) <= _MOST))  # true for NaN as well
+    wrong = np.argwhere(~(np.abs(numbers) <= _LIMIT))  # true for NaN as well
     if len(wrong) > 0:
         row, column = wrong[0].tolist()
         got = float(numbers[row, column])

@@ -107,7 +107,7 @@ class Image(Fields):
 
     def _repr_png_(self) -> bytes:
         with tempfile.TemporaryDirectory(prefix="raylane-") as folder:
-            path = Path(folder) / "picture.png"
+            path = Path(folder) / "image.png"
             self.save(path)
             return path.read_bytes()
 
@@ -128,7 +128,7 @@ class Image(Fields):
             raise RuntimeError("no notebook and no desktop: use save()")
         folder = tempfile.mkdtemp(prefix="raylane-")
         atexit.register(shutil.rmtree, folder, ignore_errors=True)
-        path = Path(folder) / "picture.png"
+        path = Path(folder) / "image.png"
         self.save(path)
         subprocess.run([opener, str(path)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
 
@@ -197,15 +197,15 @@ def render(
     return Image(arrays["rgb"], arrays["alpha"], Aovs(arrays) if aovs else None, chosen.transfer)
 
 
-def imshow(picture: Union[Scene, Image], ax: Any = None, **options: Any) -> Any:
+def imshow(image: Union[Scene, Image], ax: Any = None, **options: Any) -> Any:
     """Shows an image in matplotlib's axes with unchanged colours. Renders a scene with ``options`` first."""
     if ax is None:
         import matplotlib.pyplot as plt
 
         ax = plt.gca()
-    if isinstance(picture, Scene):
-        picture = render(picture, **options)
+    if isinstance(image, Scene):
+        image = render(image, **options)
     elif options:
         raise TypeError("an existing image takes no options of render")
     ax.set_axis_off()
-    return ax.imshow(picture.to_bytes(), interpolation="nearest")
+    return ax.imshow(image.to_bytes(), interpolation="nearest")

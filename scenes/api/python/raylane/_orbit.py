@@ -50,14 +50,14 @@ def orbit(scene: Scene, width: int = 480, height: int = 360, **settings: Any) ->
     azimuth = ipywidgets.FloatSlider(min=-180, max=180, step=5, description="around")
     elevation = ipywidgets.FloatSlider(min=-90, max=90, step=5, description="above")
     distance = ipywidgets.FloatSlider(value=1, min=0.2, max=3, step=0.1, description="distance")
-    picture = ipywidgets.Image(format="png", width=width, height=height)
+    view = ipywidgets.Image(format="png", width=width, height=height)
 
-    def draw(_: Any = None) -> None:
+    def update(_: Any = None) -> None:
         camera = turned(scene.camera, azimuth.value, elevation.value, distance.value)
         image = render(scene, camera=camera, width=width, height=height, **settings)
-        picture.value = image._repr_png_()
+        view.value = image._repr_png_()
 
     for slider in (azimuth, elevation, distance):
-        slider.observe(draw, "value")
-    draw()
-    return ipywidgets.VBox([picture, azimuth, elevation, distance])
+        slider.observe(update, "value")
+    update()
+    return ipywidgets.VBox([view, azimuth, elevation, distance])

@@ -99,12 +99,12 @@ Backbone backbone_of(const Structure& structure) {
     std::vector<BackboneResidue> residues = residues_of(structure);
     for (std::uint32_t i = 0; i < residues.size(); ++i) {
         BackboneResidue& residue = residues[i];
-        const Residue& of = structure.of_residue[i];
+        const Residue& in_structure = structure.of_residue[i];
         residue.residue = i;
         if (residue.first == no_atom) continue;
-        residue.polymer = polymer_of(residue, of);
+        residue.polymer = polymer_of(residue, in_structure);
         if (residue.polymer == Polymer::none) {
-            if (!of.is_hetero && is_polymer_residue(of.name))
+            if (!in_structure.is_hetero && is_polymer_residue(in_structure.name))
                 backbone.without_path.push_back(residue);
             continue;
         }

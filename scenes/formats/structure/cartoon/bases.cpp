@@ -104,9 +104,9 @@ class Bases {
         along = 1.0 / size * along;
         const Vec3d aside = core::cross(normal, along);
         Vec3d least(0.0, 0.0, -half_thickness), most(0.0, 0.0, half_thickness);
-        const auto include = [&](AtomIndex of) {
-            if (of == no_atom) return;
-            const Vec3d way = place(of) - middle;
+        const auto include = [&](AtomIndex ring_atom) {
+            if (ring_atom == no_atom) return;
+            const Vec3d way = place(ring_atom) - middle;
             const double x = core::dot(way, along), y = core::dot(way, aside);
             least = {std::min(least.x, x), std::min(least.y, y), least.z};
             most = {std::max(most.x, x), std::max(most.y, y), most.z};

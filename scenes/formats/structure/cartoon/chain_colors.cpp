@@ -92,9 +92,10 @@ const char* usual_chain_color(const Structure& structure) {
         return structure.of_residue[segment.front().residue].chain;
     };
     const auto& segments = backbone.segments;
-    const bool is_single = std::all_of(segments.begin(), segments.end(), [&](const Segment& of) {
-        return chain_of(of) == chain_of(segments.front());
-    });
+    const bool is_single =
+        std::all_of(segments.begin(), segments.end(), [&](const Segment& segment) {
+            return chain_of(segment) == chain_of(segments.front());
+        });
     return is_single ? "secondary" : "chain";
 }
 

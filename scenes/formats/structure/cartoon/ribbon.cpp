@@ -228,8 +228,9 @@ class RibbonMesh {
     /// Returns true at the ends of coils that have a ball, and where coils and helices meet.
     bool is_seamless(double s) const {
         const auto is_round = [&](double at) {
-            const auto in = std::partition_point(sections_.begin(), sections_.end(),
-                                                 [&](const Section& of) { return of.end <= at; });
+            const auto in =
+                std::partition_point(sections_.begin(), sections_.end(),
+                                     [&](const Section& section) { return section.end <= at; });
             return in != sections_.end() && in->kind != Secondary::strand && is_drawn_at(at);
         };
         if (s == 0.0) return sections_.front().kind == Secondary::coil;

@@ -147,17 +147,17 @@ class AlphaCarbons {
     }
 
     /// Returns true if five residues from i on have the distances, or the angles, of a kind.
-    bool fits(std::size_t i, const AlphaCarbonRanges& of) const {
-        const bool are_near = is_near(distance(i, i + 2), of.to_third, of.to_third_by) &&
-                              is_near(distance(i, i + 3), of.to_fourth, of.to_fourth_by);
+    bool fits(std::size_t i, const AlphaCarbonRanges& ranges) const {
+        const bool are_near = is_near(distance(i, i + 2), ranges.to_third, ranges.to_third_by) &&
+                              is_near(distance(i, i + 3), ranges.to_fourth, ranges.to_fourth_by);
         const bool is_last = i + 4 >= points_.size();
         return (are_near &&
-                (is_last || is_near(distance(i, i + 4), of.to_fifth, of.to_fifth_by))) ||
-               (is_turned(i, of) && (is_last || is_turned(i + 1, of)));
+                (is_last || is_near(distance(i, i + 4), ranges.to_fifth, ranges.to_fifth_by))) ||
+               (is_turned(i, ranges) && (is_last || is_turned(i + 1, ranges)));
     }
 
     /// Compares the angle of three CA and the torsion of four.
-    bool is_turned(std::size_t i, const AlphaCarbonRanges& of) const {
+    bool is_turned(std::size_t i, const AlphaCarbonRanges& ranges) const {
         const Vec3d u = points_[i + 1] - points_[i], v = points_[i + 2] - points_[i + 1],
                     w = points_[i + 3] - points_[i + 2];
         const Vec3d a = core::cross(u, v), b = core::cross(v, w);
@@ -169,18 +169,18 @@ class AlphaCarbons {
         const double cosine = core::dot(a, b) / sizes;
         const double sine = core::dot(core::cross(a, b), v) / (sizes * core::length(v));
         const double torsion_fits =
-            cosine * core::cos(of.torsion * degree) + sine * core::sin(of.torsion * degree);
+            cosine * core::cos(ranges.torsion * degree) + sine * core::sin(ranges.torsion * degree);
         const double angle = -core::dot(u, v) / sides;
-        return torsion_fits >= core::cos(of.torsion_by * degree) &&
-               angle <= core::cos((of.angle - of.angle_by) * degree) &&
-               angle >= core::cos((of.angle + of.angle_by) * degree);
+        return torsion_fits >= core::cos(ranges.torsion_by * degree) &&
+               angle <= core::cos((ranges.angle - ranges.angle_by) * degree) &&
+               angle >= core::cos((ranges.angle + ranges.angle_by) * degree);
     }
 
     /// Assigns a kind to runs of at least `least` residues.
-    void assign(Secondary kind, const AlphaCarbonRanges& of, std::size_t least) {
+    void assign(Secondary kind, const AlphaCarbonRanges& ranges, std::size_t least) {
         for (std::size_t i = 0; i + 3 < points_.size();) {
             std::size_t end = i;
-            while (end + 3 < points_.size() && fits(end, of))
+            while (end + 3 < points_.size() && fits(end, ranges))
                 ++end;
             const std::size_t count = end == i ? 0 : end + 3 - i;
             if (count >= least)
