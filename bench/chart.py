@@ -410,11 +410,14 @@ def errors_figure(source):
           "%d,2" % ((len(scenes) + 1) // 2), "wall-clock time [s]", "PSNR [dB]")
     print("unset logscale y\nset logscale x\nset format '%g'\nset yrange [25:60]\nset xrange [0.01:100]")
     print("set lmargin 10\nset ylabel offset 0\nset key top left Left reverse samplen 2 spacing 1.2 font ',9'")
-    names = {"raylane": ("raylane, fixed samples per pixel", COLORS["raylane"], "pt 7"),
-             "raylane --quality": ("raylane --quality", "#cc79a7", "pt 5")}
-    for name, (title, color, mark) in list(names.items()):
-        for isa in isas[1:]:
-            names[name + " --isa " + isa] = (title + ", " + machine.ISA_NAMES[isa], color, mark + " dt 3")
+    names = {}
+    for name, title, color, marks in (("raylane", "raylane, fixed samples per pixel", COLORS["raylane"], (7, 6)),
+                                      ("raylane --quality", "raylane --quality", "#cc79a7", (5, 4))):
+        for isa in isas or [""]:
+            is_first = isa in isas[:1] or not isas
+            names[name if is_first else name + " --isa " + isa] = (
+                title + (", " + machine.ISA_NAMES[isa] if len(isas) > 1 else ""), color,
+                "pt %d" % marks[0] if is_first else "pt %d dt 3" % marks[1])
     names["povray"] = ("POV-Ray, +A +AM2 +R", COLORS["Embree"], "pt 9")
     names["tachyon"] = ("Tachyon, -aasamples", COLORS["robust"], "pt 11")
     present = {row["by"] for row in data["rows"]}
