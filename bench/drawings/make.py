@@ -566,7 +566,7 @@ def stages(tool):
             drawing.arrow([(8, y + 18), (8, y + 56)], LINE)
     drawing.lines(16, 402, [
         "Bounds alone decide most shadow rays. All other rays count at “solve, certify”, and so do those that",
-        "hit nothing. A shadow ray that walks has a search for each step, and each one may be refined.",
+        "hit nothing. A shadow ray through transparent surfaces has a search for each step; each may be refined.",
         "Comparisons of two crossings, in more than double or exact, have no counter.",
     ])
     return drawing
@@ -663,7 +663,10 @@ def packet():
     for lane in range(size):
         fill = PALE_GREEN if certain[lane] else PALE_ORANGE if possible[lane] else PALE_GREY
         drawing.rect(x0 + unit * across[lane], y0 + unit * down[lane], unit, unit, fill)
-        drawing.text(x0 + unit * across[lane] + unit - 4, y0 + unit * down[lane] + 12, str(lane), anchor="end")
+        if possible[lane]:  # below the outline, which passes above the pixel's middle
+            drawing.text(x0 + unit * across[lane] + 4, y0 + unit * (down[lane] + 1) - 4, str(lane))
+        else:
+            drawing.text(x0 + unit * across[lane] + unit - 4, y0 + unit * down[lane] + 12, str(lane), anchor="end")
         drawing.circle(x0 + unit * (across[lane] + 0.5), y0 + unit * (down[lane] + 0.5), 2.5, TEXT, TEXT)
     points = []
     for k in range(201):
@@ -686,8 +689,8 @@ def packet():
     drawing.text(224, 176, "certain")
     drawing.rect(290, 166, 12, 12, PALE_ORANGE)
     drawing.text(308, 176, "possible, not certain")
-    drawing.rect(466, 166, 12, 12, PALE_GREY)
-    drawing.text(484, 176, "certainly missed")
+    drawing.rect(446, 166, 12, 12, PALE_GREY)
+    drawing.text(464, 176, "certainly missed")
 
     # The packet's lanes, then its queues.
     left, top = 150, 250
