@@ -83,7 +83,7 @@ void check_shared(const std::string& name) {
 
 } // namespace
 
-TEST_CASE("the vector engine draws the shipped scenes as the reference does", "[native]") {
+TEST_CASE("the vector engine renders the shipped scenes as the reference does", "[native]") {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(RAYLANE_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".json" ||
@@ -95,14 +95,14 @@ TEST_CASE("the vector engine draws the shipped scenes as the reference does", "[
     CHECK(scenes >= 14);
 }
 
-TEST_CASE("the vector engine draws the databases' balls as the reference does") {
+TEST_CASE("the vector engine renders the databases' balls as the reference does") {
     check_shared("balls.nff");
 }
 
-TEST_CASE("the vector engine draws the databases' rings as the reference does") {
+TEST_CASE("the vector engine renders the databases' rings as the reference does") {
     check_shared("rings.nff");
 }
 
-TEST_CASE("the vector engine draws the databases' tree as the reference does") {
+TEST_CASE("the vector engine renders the databases' tree as the reference does") {
     check_shared("tree.nff");
 }

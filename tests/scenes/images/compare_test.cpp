@@ -26,7 +26,7 @@ Image image_of(std::vector<float> rgb, int width, std::vector<float> alpha = {})
 
 } // namespace
 
-TEST_CASE("equal pictures have no difference") {
+TEST_CASE("equal images have no difference") {
     const Image image = image_of({0.0F, 0.5F, not_a_number, infinity, -infinity, 1.0F}, 2);
     const Comparison result = scenes::compare(image, image, 0.0F);
     CHECK(result.rmse == 0.0);
@@ -103,7 +103,7 @@ TEST_CASE("NaN and infinity differ from other values beyond any tolerance") {
     CHECK(film.at(2, 0) == core::Color(1.0F, 0.0F, 0.0F));
 }
 
-TEST_CASE("pictures of different sizes or kinds are not compared") {
+TEST_CASE("images of different sizes or kinds are not compared") {
     const Image a = image_of({0, 0, 0, 0, 0, 0}, 2);
     Image b = image_of({0, 0, 0, 0, 0, 0}, 1);
     b.name = "b.pfm";

@@ -44,7 +44,7 @@ const Options small = {"--size", "16x12", "--spp", "1"};
 
 } // namespace
 
-TEST_CASE("the frames of a range are drawn with their numbers") {
+TEST_CASE("the frames of a range are rendered with their numbers") {
     const ToolFixture fixture;
     fixture.write("move.xyz", trajectory(7));
     const auto drawn = [&](const std::string& frames) {
@@ -220,7 +220,7 @@ TEST_CASE("existing images are kept unless --overwrite is given") {
     CHECK(image(fixture, "s0.pfm") == first);
 }
 
-TEST_CASE("a film that was interrupted goes on where it was") {
+TEST_CASE("an interrupted frame sequence resumes where it was") {
     const ToolFixture fixture(growing);
     fixture.write("out/f0.pfm", "drawn");
     const Options film = {"render", "scene.json", "-o", "out/f%d.pfm", "--set", "r=1:2:3"};

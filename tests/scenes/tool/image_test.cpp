@@ -48,7 +48,7 @@ TEST_CASE("an image records how it was made but not where or when") {
     CHECK(content.find(fixture.path().string()) == std::string::npos);
 }
 
-TEST_CASE("outlines are drawn by the scene's settings or the command line's") {
+TEST_CASE("outlines are rendered by the scene's settings or the command line's") {
     std::string outlined = ball;
     outlined.insert(1, R"("outline": {"width": 2, "color": "#00ff00"}, )");
     const ToolFixture plain, with_outline(outlined);

@@ -170,7 +170,7 @@ TEST_CASE("parts with and without AOVs are not merged") {
     CHECK(fixture.is_output_empty());
 }
 
-TEST_CASE("one frame of several can be drawn in parts") {
+TEST_CASE("one frame of several can be rendered in parts") {
     if (!scenes::has_exr()) return;
     const ToolFixture fixture;
     fixture.write("move.xyz", "2\n\nC 0 0 0\nO 0 0 1\n2\n\nC 0 0 0\nO 0 1 1\n"

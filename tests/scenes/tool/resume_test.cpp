@@ -271,7 +271,7 @@ TEST_CASE("a foreign file and a checkpoint in use are left alone") {
     CHECK((image_of(fixture) == expected));
 }
 
-TEST_CASE("an image is drawn even if the disk has no space for a checkpoint") {
+TEST_CASE("an image is rendered even if the disk has no space for a checkpoint") {
     const ToolFixture fixture;
     const std::string expected = whole(fixture);
     static_cast<void>(interrupt(fixture));
@@ -350,7 +350,7 @@ TEST_CASE("The same command with another option leaves the tiles of the first") 
     }
 }
 
-TEST_CASE("an empty image of a sequence is drawn again") {
+TEST_CASE("an empty image of a sequence is rendered again") {
     const ToolFixture fixture;
     const Options film = {"render", "scene.json", "-o", "out/f%d.png", "--turn", "90/3"};
     REQUIRE(fixture.run(film).code == 0);

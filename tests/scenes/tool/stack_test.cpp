@@ -75,7 +75,7 @@ const std::string pov = "camera { location <0, 0, -6> look_at 0 }\nlight_source 
 
 } // namespace
 
-TEST_CASE("the deepest scenes are drawn with the documented stack") {
+TEST_CASE("the deepest scenes are rendered with the documented stack") {
     check_drawn("csg.json", json(nested(127)));
     std::string definitions =
         R"("definitions": {"d0": {"type": "sphere", "center": [0, 0, 0], "radius": 1})";

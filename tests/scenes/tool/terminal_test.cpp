@@ -32,7 +32,7 @@ const std::string nff_line = "s 0 0 0 1\n";
 
 } // namespace
 
-TEST_CASE("a successful rendering draws no progress bar in a pipe") {
+TEST_CASE("a successful rendering prints no progress bar in a pipe") {
     const ToolFixture fixture;
     // Long enough for several drawings of a progress bar.
     const Outcome outcome =

@@ -195,7 +195,7 @@ TEST_CASE("POV-Ray: maps of colours and layers and skies and functions can be de
               .scene.shape_count() == 1);
 }
 
-TEST_CASE("POV-Ray: a scene that writes files is drawn and one that reads them is refused") {
+TEST_CASE("POV-Ray: a scene that writes files is rendered and one that reads them is refused") {
     const Read of = read("#fopen F \"none.txt\" write\n#write (F, \"a\", (1 + 2) * 3, x, \"\\n\")\n"
                          "#fclose F\nsphere { 0, 1 }");
     CHECK(of.scene.shape_count() == 1);

@@ -390,7 +390,7 @@ TEST_CASE("camera and lights and fog and settings are read as in POV-Ray") {
     CHECK(moved.scene.camera().at == core::Vec3f(1, 0, 0));
 }
 
-TEST_CASE("each feature that is drawn in another way gets one remark") {
+TEST_CASE("each feature that is rendered in another way gets one remark") {
     const Read one = read("sphere { 0, 1 no_shadow } sphere { 3*x, 1 no_shadow }\n"
                           "light_source { <9, 9, 9> rgb 1 spotlight radius 3 }");
     REQUIRE(one.remarks.size() == 2);

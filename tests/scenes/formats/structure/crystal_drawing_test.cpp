@@ -193,7 +193,7 @@ TEST_CASE("bonds to other cells are those of a block of cells") {
     }
 }
 
-TEST_CASE("a cell too small for its bonds is drawn as it is") {
+TEST_CASE("a cell too small for its bonds is rendered as it is") {
     CHECK(drawn(cubic("0.01", "Na 0 0 0\n")).balls() == "Na1 ");
     CHECK(drawn(cubic("1e-30", "Na 0 0 0\n")).balls() == "Na1 ");
 }

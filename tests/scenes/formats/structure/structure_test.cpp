@@ -365,7 +365,7 @@ TEST_CASE("atoms that are not balls are ellipsoids in the proportions of the sty
     CHECK(std::get<Table<Ellipsoid>>(drawn(Style::points).shapes()).size() == 0);
 }
 
-TEST_CASE("options that cannot be drawn give an error of one line") {
+TEST_CASE("options that cannot be rendered give an error of one line") {
     const auto error = [](const std::string& name, const std::string& text, const auto& change) {
         LoadOptions options;
         change(options);
@@ -396,7 +396,7 @@ TEST_CASE("options that cannot be drawn give an error of one line") {
           "--style: goes with a file of atoms, but a.json is a scene");
 }
 
-TEST_CASE("one atom and atoms at one point can be drawn") {
+TEST_CASE("one atom and atoms at one point can be rendered") {
     for (const char* text : {"1\n\nC 5 5 5\n", "2\n\nC 1e4 0 0\nN 1e4 0 0\n", "1\n\nXx 0 0 0\n"})
         for (const auto projection :
              {raylane::core::Projection::perspective, raylane::core::Projection::orthographic}) {
@@ -422,7 +422,7 @@ TEST_CASE("files that gzip has compressed are read") {
           path.string() + ": must be complete, got truncated gzip data");
 }
 
-TEST_CASE("Atoms on top of each other are drawn without bonds and quickly") {
+TEST_CASE("Atoms on top of each other are rendered without bonds and quickly") {
     Structure structure = of_atoms({{"C", {0, 0, 0}}, {"O", {1.2F, 0, 0}}});
     constexpr int crowd = 300'000;
     for (int i = 0; i < crowd; ++i) {

@@ -221,7 +221,7 @@ TEST_CASE("half of a chain has the shape that it has in the whole chain") {
     CHECK(open_edges(first.triangles) <= 48 * first.spheres.size());
 }
 
-TEST_CASE("residues that cannot be drawn are counted and named") {
+TEST_CASE("residues that cannot be rendered are counted and named") {
     Structure structure = peptide_of(chain_of(alpha(12)));
     remove_atoms(structure, [](const std::string& name, int number) {
         return (number == 5 || number == 3) && name == "CA";
