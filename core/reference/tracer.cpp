@@ -416,6 +416,7 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
                                                     const OriginSurfaces<Real>& origins,
                                                     Media media, Real distance) {
     if (!find_crossings(ray, origins, distance)) return Vector(0);
+    if (!settings_.transparent_shadows) return Vector(1);
 
     Vector share(1);
     Real reached = 0;

@@ -405,6 +405,10 @@ constexpr void for_each_field(const Visit& visit, Of&... of) {
     visit(Field("quality", between(10.0, 80.0, "decibels", Rule::number_or_0),
                 "PSNR of the image against a converged one, in decibels;", in("sampling", true)),
           of.quality...);
+    visit(Field("transparent_shadows", flag,
+                "False: surfaces of opacity below 1 and glass cast no shadows",
+                in("sampling", true)),
+          of.transparent_shadows...);
     visit(Field("max_depth", count(0, 1000), "Maximum number of reflections and refractions",
                 in("limits")),
           of.max_depth...);

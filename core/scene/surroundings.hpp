@@ -84,6 +84,8 @@ struct Settings {
     /// Rays to each light with a size, from each point that a sample sees. 0: see light_rays().
     /// hard_light: one ray to the light's middle, and a sky without shadows.
     int light_samples = 0;
+    /// False: rays to lights ignore surfaces and media that let light pass.
+    bool transparent_shadows = true;
     Transfer transfer = Transfer::srgb; ///< from linear RGB to 8 bits
     /// Gives the film an alpha: where the camera sees the background, past everything or straight
     /// through transparent surfaces, the background and the fog before it are left out. Mirrors and

@@ -81,6 +81,8 @@ class PovWriter {
             differences_.insert("the spectrum (glass has one index)");
         if (scene_.settings().outline.any()) differences_.insert("the outline");
         if (scene_.settings().alpha) differences_.insert("alpha (use +ua)");
+        if (!scene_.settings().transparent_shadows)
+            differences_.insert("transparent_shadows (all shadows are there)");
         if (!scene_.polygons().empty()) differences_.insert(lost_polygons);
         write_camera();
         write_fog();

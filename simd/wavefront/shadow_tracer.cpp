@@ -34,8 +34,8 @@ void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity) {
 }
 
 ShadowTracer::ShadowTracer(const SceneData& scene, const Tracing& tracing,
-                           core::ReferenceTracer<double>& reference)
-    : scene_(scene), reference_(reference), walker_(scene, tracing) {}
+                           core::ReferenceTracer<double>& reference, bool dims)
+    : scene_(scene), reference_(reference), dims_(dims), walker_(scene, tracing) {}
 
 void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media) {
     leave_first_ = arena.take<std::uint32_t>(capacity);
@@ -194,9 +194,11 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
     double cos = 0.0;
     for (int axis = 0; axis < 3; ++axis)
         cos += walk_.direction[axis][lane] * found.normal[axis][lane];
-    const double share = core::let_straight_through(material, std::min(std::abs(cos), 1.0),
-                                                    scene_.medium(before).index,
-                                                    scene_.medium(stacks.top(media_behind)).index);
+    const double share =
+        !dims_ ? 1.0
+               : core::let_straight_through(material, std::min(std::abs(cos), 1.0),
+                                            scene_.medium(before).index,
+                                            scene_.medium(stacks.top(media_behind)).index);
     absorb(before, t, lane);
     for (int channel = 0; channel < 3; ++channel)
         walk_.throughput[channel][lane] *= share;
@@ -208,7 +210,7 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
 }
 
 void ShadowTracer::absorb(core::MaterialIndex medium, double distance, std::size_t lane) {
-    if (medium == core::no_medium) return;
+    if (!dims_ || medium == core::no_medium) return;
     const core::Vec3d share =
         core::let_through_medium(scene_.scene().materials()[medium], distance);
     for (int channel = 0; channel < 3; ++channel)

@@ -13,8 +13,9 @@ void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity);
 /// Finds the light that reaches the surfaces of a wave.
 class ShadowTracer {
   public:
+    /// `dims`: surfaces and media that let light pass dim it.
     ShadowTracer(const SceneData& scene, const Tracing& tracing,
-                 core::ReferenceTracer<double>& reference);
+                 core::ReferenceTracer<double>& reference, bool dims);
 
     void take_from(Arena& arena, std::size_t capacity, bool with_media);
 
@@ -54,6 +55,7 @@ class ShadowTracer {
 
     const SceneData& scene_;
     core::ReferenceTracer<double>& reference_;
+    bool dims_;
 
     std::optional<Wave> wave_;
     // The shapes that rays from each position leave, and the state that is known before a search.

@@ -25,8 +25,8 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       shade_(tracing.kernels
                  ->shade[with_media_ ? 1 : 0][scene.fog().kind != core::FogKind::none ? 1 : 0]),
       reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
-      finder_(scene, tracing), shadows_(scene, tracing, reference_), survey_(survey),
-      light_rays_(core::light_rays_of(scene.scene(), settings)), sorted_(scene) {
+      finder_(scene, tracing), shadows_(scene, tracing, reference_, settings.transparent_shadows),
+      survey_(survey), light_rays_(core::light_rays_of(scene.scene(), settings)), sorted_(scene) {
     arena_ = arena_for([this](Arena& arena) { take_from(arena); });
     samples_.reserve(chunk_samples);
     names_.resize(chunk_samples);

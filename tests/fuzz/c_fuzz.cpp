@@ -499,6 +499,7 @@ raylane_settings any_settings(Bytes& bytes) {
     settings.max_depth = bytes.below(4);
     settings.light_samples = 1 + bytes.below(2);
     settings.max_transparent = 1 + bytes.below(4);
+    settings.transparent_shadows = static_cast<std::uint8_t>(bytes.below(3));
     if (bytes.below(8) == 0) settings.grid = any_of(1);
     if (bytes.below(8) == 0) settings.quality = bytes.flag() ? 25.0F : bytes.any_float();
     if (settings.quality > 30.0F) settings.quality = 30.0F;

@@ -60,6 +60,7 @@ std::optional<core::Scene> any_scene(Bytes& bytes, bool plain) {
     settings.grid = 1 + bytes.below(2);
     settings.max_depth = plain ? 0 : bytes.below(6);
     settings.max_transparent = 1 + bytes.below(8);
+    settings.transparent_shadows = bytes.below(4) != 0;
     settings.light_samples = 1 + bytes.below(3);
     builder.camera.projection = static_cast<core::Projection>(bytes.below(2));
     builder.camera.from = bytes.vector<float>();

@@ -52,7 +52,8 @@ def test_what_is_set_is_there():
     builder.camera = raylane.Camera("orthographic", (0.0, 1.0, 8.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), height=3.0)
     builder.background = (0.25, 0.5, 0.75)
     builder.settings = raylane.Settings(
-        320, 200, 3, "stratified", 0.0, "gaussian", 4, "linear", True, 5, 0.5, 7, raylane.Outline(2.0, (1.0, 0.0, 0.0), 30.0)
+        320, 200, 3, "stratified", 0.0, "gaussian", 4, "linear", True, 5, 0.5, 7, raylane.Outline(2.0, (1.0, 0.0, 0.0), 30.0),
+        False,
     )
     ids = builder.add_spheres([0, 0, 0], 1, material=0)
     fog, camera, background, settings = builder.fog, builder.camera, builder.background, builder.settings

@@ -15,7 +15,8 @@ template <class From, class To>
 void copy(const From& from, To& to) {
     if constexpr (std::is_same_v<From, To>)
         to = from;
-    else if constexpr (std::is_enum_v<From> || std::is_enum_v<To>)
+    else if constexpr (std::is_enum_v<From> || std::is_enum_v<To> || std::is_same_v<From, bool> ||
+                       std::is_same_v<To, bool>)
         to = static_cast<To>(from);
     else if constexpr (std::is_same_v<From, const char*>)
         to = from != nullptr ? from : "";

@@ -205,6 +205,13 @@ struct RenderArguments : OptionTable {
         "Shadow rays to each area or sky light, from each shaded point. 0: 4 with one "
         "sample per pixel, 1 with more. -1: hard shadows, with one ray to the centre of "
         "each light, and an unshadowed sky."};
+    Option<bool> transparent_shadows = {
+        *this, "--transparent-shadows",
+        choice<bool>({{"on", true}, {"off", false}})
+            .replacing_rarely(&core::Settings::transparent_shadows)
+            .otherwise(as_in_file, "on"),
+        "Shadows of transparent surfaces and glass. off: an envelope leaves its contents as bright "
+        "as they are without it."};
     Flag draft = {*this, "--draft",
                   flag().without({"--print", "--spp", "--quality", "--light-samples"}),
                   "Fast preview, same as --spp 1 --light-samples -1."};

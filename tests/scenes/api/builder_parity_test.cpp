@@ -565,7 +565,8 @@ std::vector<Case> images() {
     return {
         {"settings", R"({"image": {"width": 24, "height": 18, "transfer": "linear", "alpha": true},
             "sampling": {"grid": 2, "pattern": "stratified", "filter": "gaussian",
-            "light_samples": 2}, "limits": {"max_depth": 3, "min_weight": 0.1,
+            "light_samples": 2, "transparent_shadows": false},
+            "limits": {"max_depth": 3, "min_weight": 0.1,
             "max_transparent": 5}, "outline": {"width": 1.5, "color": [1, 0, 0],
             "creases": 30}})",
          [](SceneBuilder& to) {
@@ -575,6 +576,7 @@ std::vector<Case> images() {
              to.settings.samples = SamplePattern::stratified;
              to.settings.filter = PixelFilter::gaussian;
              to.settings.light_samples = 2;
+             to.settings.transparent_shadows = false;
              to.settings.max_depth = 3;
              to.settings.min_weight = 0.1F;
              to.settings.max_transparent = 5;

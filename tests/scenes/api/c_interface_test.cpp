@@ -184,6 +184,7 @@ TEST_CASE("C has the defaults of C++") {
     CHECK(raylane_default_settings().light_samples == Settings{}.light_samples);
     CHECK(raylane_default_settings().max_depth == Settings{}.max_depth);
     CHECK(raylane_default_settings().max_transparent == Settings{}.max_transparent);
+    CHECK(raylane_default_settings().transparent_shadows == 1);
     CHECK(raylane_default_settings().outline.creases == Settings{}.outline.creases);
     CHECK(raylane_default_material().opacity == Material{}.opacity);
 }

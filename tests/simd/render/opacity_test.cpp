@@ -23,6 +23,7 @@ Scene cloud(Projection projection, bool in_fog, int most) {
     builder.settings.max_depth = 3;
     builder.settings.min_weight = 0.001F;
     builder.settings.max_transparent = most;
+    builder.settings.transparent_shadows = most == Settings::transparent_limit;
     builder.background = {0.2F, 0.4F, 0.8F};
     builder.camera = {.projection = projection, .from = {1, 2, 7}, .at = {0, 0, 0}, .height = 5};
     if (in_fog)
@@ -59,6 +60,34 @@ TEST_CASE("both engines and all instruction sets render the same transparent sur
         for (const bool in_fog : {false, true})
             for (const int most : {2, Settings::transparent_limit})
                 tests::check_engines_agree(cloud(projection, in_fog, most));
+}
+
+TEST_CASE("transparent surfaces and glass without shadows dim no light") {
+    enum class Above { nothing, panes, opaque };
+    const auto floor = [](Above above, bool shadows) {
+        Builder builder;
+        builder.settings.width = builder.settings.height = 24;
+        builder.settings.grid = 2;
+        builder.settings.transparent_shadows = shadows;
+        builder.camera = {.from = {0, 0.5F, 6}, .at = {0, -1, 0}};
+        builder.add_light({.kind = LightKind::sky, .color = {0.3F, 0.3F, 0.3F}});
+        builder.add_shape(Plane{{0, -1, 0}, {0, 1, 0}}, Material{});
+        Material pane = glass(1.5F, Reflection::dielectric), sheet;
+        pane.absorption = {1, 2, 3};
+        sheet.opacity = above == Above::opaque ? 1.0F : 0.5F;
+        for (int i = 0; i < 12 && above != Above::nothing; ++i) // out of view
+            builder.add_shape(
+                Box{{-9, 4.0F + static_cast<float>(i), -9}, {18, 0, 0}, {0, 0.5F, 0}, {0, 0, 18}},
+                above == Above::panes && i % 2 == 0 ? pane : sheet);
+        return builder.finish({.position = {1, 30, 2}});
+    };
+    for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
+        const std::vector<Color> bare = image(floor(Above::nothing, true), engine);
+        CHECK(image(floor(Above::panes, false), engine) == bare);
+        CHECK(image(floor(Above::panes, true), engine) != bare);
+        CHECK(image(floor(Above::opaque, false), engine) ==
+              image(floor(Above::opaque, true), engine));
+    }
 }
 
 TEST_CASE("transparent panes that reflect and transmit do not outgrow a queue") {

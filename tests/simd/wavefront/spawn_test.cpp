@@ -62,7 +62,7 @@ class Spawning {
         TransparencyWalk first(alone_data_, {kernels_});
         TransparencyWalk empty_space(alone_data_, {kernels_});
         TransparencyWalk next(*data_, {kernels_});
-        ShadowTracer shadows(*data_, {kernels_}, reference);
+        ShadowTracer shadows(*data_, {kernels_}, reference, true);
         const Arena arena = arena_for([&](Arena& a) {
             first.take_from(a, rays_per_nest);
             empty_space.take_from(a, 2 * rays_per_nest);

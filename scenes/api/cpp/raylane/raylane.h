@@ -239,6 +239,7 @@ typedef struct raylane_settings {
     uint8_t filter;
     int light_samples;
     int max_transparent;
+    uint8_t transparent_shadows; /**< 0 or 1 */
     raylane_outline outline;
 } raylane_settings;
 

@@ -131,6 +131,9 @@ struct Settings {
     /// four if a pixel has one sample, one otherwise. -1: hard light, that is, one ray to the
     /// centre of each such light, and an unshadowed sky.
     int light_samples = 0;
+    /// False: surfaces of opacity below 1 and glass cast no shadows, and absorb no light on its way
+    /// from the lights. An envelope then leaves its contents as bright as they are without it.
+    bool transparent_shadows = true;
     Transfer transfer = Transfer::srgb; ///< for write_image
     /// True: the image has an alpha channel. It omits the background, and the fog in front of it,
     /// where the camera sees the background directly or straight through surfaces of opacity below

@@ -262,3 +262,5 @@ class Settings(Fields):
     min_weight: float = 0.001
     max_transparent: int = 1_000_000
     outline: Outline = field(default_factory=Outline)
+    transparent_shadows: bool = True
+    """False: surfaces of opacity below 1 and glass cast no shadows, and absorb no light on its way from the lights."""
