@@ -974,12 +974,40 @@ void call(Handles& handles, Bytes& bytes) {
     }
 }
 
+/// Fills the first slots, so that few calls have NULL for a handle: a solid, a group, and a scene
+/// of shapes, copies or, if `has_solid`, a cut ball, with its tracer.
+void fill(Handles& handles, bool has_copies, bool has_solid) {
+    raylane_builder* const builder = handles.builders.front();
+    const raylane_double_sphere balls[] = {{{0, 0, 0}, 1}, {{2, 0, 0}, 1.5}};
+    const raylane_double_box box{{-4, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+    const raylane_material material = raylane_default_material();
+    check(raylane_add_material(builder, &material, nullptr));
+    check(raylane_transform_create(&handles.transforms.front()));
+    check(raylane_solid_sphere(&balls[0], 0, &handles.solids.front()));
+    check(raylane_solid_box(&box, 0, &handles.solids.back()));
+    check(raylane_group_create(&handles.groups.front()));
+    check(raylane_group_add_spheres(handles.groups.front(), balls, 2, 0));
+    check(raylane_add_boxes_doubles(builder, &box, 1, 0, nullptr));
+    raylane_placement placements[2] = {raylane_default_placement(), raylane_default_placement()};
+    placements[1].translate.y = 4;
+    check(raylane_set_keep_from(builder, has_copies ? 0 : 1000));
+    check(raylane_add_copies(builder, handles.groups.front(), placements, 2, 0, nullptr));
+    raylane_solid* cut = nullptr;
+    check(raylane_solid_difference(handles.solids.front(), &handles.solids.back(), 1, 0, &cut));
+    if (has_solid) check(raylane_add_solid(builder, cut, 0, nullptr));
+    raylane_solid_release(cut);
+    check(raylane_build(builder, &handles.scenes.front()));
+    check(
+        raylane_tracer_create(handles.scenes.front(), 1, RAYLANE_EXACT, &handles.tracers.front()));
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     Bytes bytes(data, size);
     Handles handles;
     check(raylane_builder_create(&handles.builders.front()));
+    if (const int how = bytes.byte(); how % 4 != 0) fill(handles, how % 4 == 1, how % 4 == 2);
     for (int calls = 0; calls < 60 && bytes.any(); ++calls)
         call(handles, bytes);
     return 0;
