@@ -106,6 +106,7 @@ void CopyWalk::enter(const Copies::Node& node, float t_limit) {
     for (auto left = static_cast<unsigned>(hits[0] | hits[1] | hits[2] | hits[3]); left != 0;
          left &= left - 1) {
         const int i = std::countr_zero(left);
+        if (node.children[i] == Copies::Node::none) break; // if all bounds are entered
         pending_.push_back({near[i], node.children[i]});
         for (std::size_t at = pending_.size() - 1;
              at > first && pending_[at - 1].t < pending_[at].t; --at)

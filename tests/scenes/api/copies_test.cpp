@@ -252,6 +252,9 @@ void expect_same_answers(const Contents& contents, int count, Random& random) {
         far.start_before(distance);
         expect_same(of_kept, of_shapes, far.span());
     }
+    DoubleRays farthest(rays, 2); // they search all shapes
+    farthest.start_before(1e200);
+    expect_same(of_kept, of_shapes, farthest.span());
     limit(rays, random);
     expect_same(of_kept, of_shapes, rays.span());
 }
