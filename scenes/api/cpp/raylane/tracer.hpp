@@ -24,8 +24,8 @@ namespace RAYLANE_API raylane {
 /// infinite or NaN, its direction is 0, or a limit is NaN. It then hits nothing, and
 /// QueryStatistics::refused counts it.
 ///
-/// Rays in double with numbers of unusual size take some microseconds each. A coordinate or a
-/// component of a direction that is 0 is usual, and so are the following ranges.
+/// Rays in double with numbers of unusual size take some microseconds each. 0 is usual, and so are
+/// the following ranges. Rays from 10^14 times the scene's size away search all of its shapes.
 /// - Coordinates: magnitudes from 2^-149 to below 2^128.
 /// - The largest component of a direction: from 2^-400 to below 2^400. The others: at least 2^-276
 ///   of it.

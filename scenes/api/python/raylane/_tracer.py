@@ -345,7 +345,7 @@ class Tracer:
     limit is NaN. It then hits nothing, and the call warns with a ``RuntimeWarning`` that has the number of such rays.
     Rays with numbers far outside of the range of float32 take some microseconds each: with coordinates from 2^128 on, or
     below 2^-149 but not 0; with directions shorter than 2^-400 or longer than 2^400; with components of a direction
-    below 2^-276 of the largest one.
+    below 2^-276 of the largest one. Rays from 10^14 times the scene's size away search all of its shapes.
 
     Pass many rays in one call: a ray alone takes ten times as long. Neighbours in the arrays should be neighbours in
     space: rays from one point, to one point, in one direction or close together are several times as fast as others.
