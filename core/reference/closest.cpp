@@ -123,7 +123,7 @@ DistanceBounds bounds_of(const Bounded<T>& squared) {
             std::nextafter(distance.value + distance.error, infinite)};
 }
 
-/// Returns bounds on the distance, or infinite ones if the numbers do not know it.
+/// Returns bounds on the distance; from 0 to infinity if errors of the numbers leave it open.
 template <class Real>
 DistanceBounds bounds_in(const Scene& scene, Kind kind, Place place, const Vec3d& point) {
     const auto closest = closest_in<Real>(scene, kind, place, point);
@@ -211,7 +211,7 @@ void ClosestSearcher::look_in(Kind kind, std::uint32_t block, const Vec3d& point
     });
 }
 
-/// `bounds`: of the shapes of a block. Shapes that are not in it are left out.
+/// Adds the candidates of a block, given bounds on the distances of its shapes.
 void ClosestSearcher::look_at(Kind kind, std::uint32_t block, const Vec3d& point,
                               const LaneBounds& bounds) {
     std::uint8_t lanes[block_size];

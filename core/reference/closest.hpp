@@ -11,7 +11,7 @@ namespace raylane::core {
 
 /// The point of a scene's shapes that is closest to another point.
 struct Closest {
-    /// The double nearest to the true distance, but 0 only for 0, and never infinite. Infinite if
+    /// The double nearest to the true distance, but 0 only if that is 0, and finite. Infinity if
     /// no shape is within the limit.
     double distance = std::numeric_limits<double>::infinity();
     /// Each component is the double nearest to the true one; NaN without a shape.

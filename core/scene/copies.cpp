@@ -105,9 +105,9 @@ Bounds Copies::bounds_of(const Copy& copy) const {
 
 namespace {
 
-/// Builds a hierarchy. Divides the items of a node into parts of 4^k items and a last one, by
-/// halving along the longest axis of their centres. So nodes are full, except for one of each
-/// level and above full ones, and each of n copies takes a third of a node.
+/// Builds a hierarchy. Divides the items of a node into parts of 4^k items, and a last part with
+/// the rest, by halving along the longest axis of their centres. So each part of 4^k items becomes
+/// a subtree of full nodes, and n copies take about n / 3 nodes.
 class TreeBuilder {
   public:
     struct Item {
@@ -150,7 +150,7 @@ class TreeBuilder {
                          });
     }
 
-    /// Divides items into parts of `size` items and a last one.
+    /// Divides items into parts of `size` items, and a last part with the rest.
     static void divide(Items items, std::size_t size, std::vector<Items>& parts) {
         const std::size_t count = (items.size() + size - 1) / size;
         if (count == 1) return parts.push_back(items);

@@ -19,9 +19,9 @@ class Scene;
 /// The blocks of a kind that belong to copies.
 template <class Shape>
 struct CopiedBlocks {
-    std::uint32_t first = 0;             ///< index of the first one in `all`
-    Blocks<Shape> all;                   ///< those of the table, too
-    mutable BigArray<std::uint8_t> made; ///< State of each one
+    std::uint32_t first = 0;             ///< index in `all` of the first block of a copy
+    Blocks<Shape> all;                   ///< those of the table, then those of copies
+    mutable BigArray<std::uint8_t> made; ///< State of each block of a copy
 
     enum State : std::uint8_t { unmade = 0, in_work, done };
     bool is_made(std::size_t i) const {
@@ -29,14 +29,14 @@ struct CopiedBlocks {
     }
 };
 
-/// Number of shapes of one call from which copies are kept. Fewer shapes take little memory, and
-/// rays find them sooner in one hierarchy.
+/// Copies with at least this many shapes in one call are kept as copies. Fewer shapes take little
+/// memory, and rays find them faster in one hierarchy.
 inline constexpr std::size_t kept_from = std::size_t{1} << 22;
 
 /// Copies of groups of shapes, each stored as a Placement. The numbers of a copy's shapes are
-/// computed when they are needed, a block at a time, and then kept: in memory behind the blocks of
-/// the scene's tables, which is reserved but takes no room before. So all code that reads a shape
-/// by its place reads the exact numbers of a copy, too. Searches for shapes are different: they
+/// computed when they are needed, a block at a time, and then kept in memory behind the blocks of
+/// the scene's tables. Address space is reserved for all of them beforehand. So code that reads a
+/// shape by its place reads the exact numbers of a copy, too. Only searches for shapes differ: they
 /// search the prototype, then make the blocks that they have found.
 ///
 /// The shapes of the copies of a group have consecutive ids, one copy after the other, in the order

@@ -347,9 +347,9 @@ void SceneBuilder::give_up_copies() {
     for (const KeptCopies& copies : kept_)
         count += copies.members.size() * copies.placements.size();
     if (count > max_given_up)
-        throw InvalidValue("", "must not be a constructed solid beside " + std::to_string(count) +
-                                   " shapes of kept copies, which it turns into shapes: at most " +
-                                   std::to_string(max_given_up) + " can be");
+        throw InvalidValue("", "must not be a constructed solid, as the scene's copies have " +
+                                   std::to_string(count) + " shapes, more than " +
+                                   std::to_string(max_given_up));
     scene_.material_of_ = scene_.material_of_.all_stored();
     for (const KeptCopies& copies : kept_) {
         ShapeId id = copies.first_id;
@@ -515,7 +515,7 @@ InvalidValue Scene::light_on(std::size_t light, const std::string& shape) {
 template <class Number>
 Scene Scene::with_positions(std::span<const Number> coordinates, Workers& workers) const {
     if (copies_ != nullptr)
-        throw InvalidValue("positions", "must be of a scene without kept copies of a group");
+        throw InvalidValue("positions", "must be for a scene without kept copies of groups");
     Scene scene = *this;
     move_spheres(coordinates,
                  {scene.shapes_, scene.hierarchy_,

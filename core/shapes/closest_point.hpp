@@ -87,9 +87,9 @@ struct AboutAxis {
         const Real difference = height - other_height;
         return difference * difference / axis_squared;
     }
-    /// Returns the point in the point's direction from the axis. A point on the axis has none: the
-    /// result is then in the direction of axis x e, where e is the coordinate axis along which
-    /// `axis` has the least component, the first of several.
+    /// Returns the point at a radius from the axis, on the side of the given point. If that is on
+    /// the axis, on the side of axis x e, where e is the coordinate axis along which `axis` has
+    /// its smallest component, the first of several.
     Vec3<Real> beside(const Real& share_of_axis, const Real& radius,
                       ErrorPredicate<Real>& predicate) const {
         using std::sqrt;
@@ -155,7 +155,7 @@ ClosestOfPolygon<Real> closest_on_edge(const Vec3<Real>& from, const Vec3<Real>&
     return {{squared_length(off), mul_add(share, edge, from)}, from_corner | to_corner};
 }
 
-/// Replaces `best` by a closer point. The same part of the surface is as close.
+/// Replaces `best` if another point is closer. Points of the same part are equally close.
 template <class Real>
 void keep_closer(ClosestOfPolygon<Real>& best, const ClosestOfPolygon<Real>& other,
                  ErrorPredicate<Real>& predicate) {

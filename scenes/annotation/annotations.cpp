@@ -27,7 +27,7 @@ using core::Vec3d;
 
 constexpr double rise = 0.36; // half of a capital letter's height, relative to the font's size
 
-/// Returns a number with so many decimals and a minus sign of typography.
+/// Returns a number with this many decimals, and with U+2212 as its minus sign.
 std::string decimal_text(double number, int decimals) {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f", decimals, std::abs(number));
@@ -74,7 +74,7 @@ void sort_entries(std::vector<std::pair<std::string, std::uint32_t>>& entries) {
     });
 }
 
-/// Returns a text whose {words} are those of an atom.
+/// Returns a text with an atom's values in place of its {words}.
 std::string text_of_atom(std::string text, const Structure& structure, AtomIndex atom) {
     const AtomKind& kind = structure.of_kind[structure.kinds[atom]];
     const Residue* const residue =
@@ -530,8 +530,8 @@ DistanceWords distance_words_of(const std::string& option, const std::string& te
 
 std::vector<double> round_numbers_in(double least, double most) {
     if (!(most > least)) return {least};
-    // Numbers that differ in their last digits alone, or by more than doubles can hold, stand as
-    // they are.
+    // Round numbers do not help if both ends differ only in their last digits. If their difference
+    // overflows, no step can be computed.
     if (!(most - least < std::numeric_limits<double>::max()) ||
         most - least < 1e-12 * std::max(std::abs(least), std::abs(most)))
         return {least, most};

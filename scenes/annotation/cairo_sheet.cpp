@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-/// A module of the program that renders sheets by cairo and pango, which shapes texts by HarfBuzz.
+/// A module of the tool. Renders sheets by cairo and by pango, which shapes texts with HarfBuzz.
 namespace {
 
 using namespace raylane::scenes;

@@ -8,7 +8,7 @@
 
 namespace raylane::scenes {
 
-/// Finds the places of points in an image, as core::CameraRays sees them.
+/// Projects points to an image, by the same camera model as core::CameraRays.
 class Projector {
   public:
     Projector(const core::Camera& camera, int width, int height)
@@ -25,7 +25,7 @@ class Projector {
         scale_ = 0.5 * height / half;
     }
 
-    /// Returns the place in pixels from the upper left corner, or nothing behind the camera.
+    /// Returns the position in pixels from the upper left corner; nothing if behind the camera.
     std::optional<Point> point_of(const core::Vec3d& point) const {
         const core::Vec3d to = point - from_;
         const double depth = core::dot(to, forward_);
@@ -34,8 +34,8 @@ class Projector {
         return Point{0.5 * width_ + scale * core::dot(to, right_),
                      0.5 * height_ - scale * core::dot(to, up_)};
     }
-    /// Returns the pixels of a unit of length across the view, at the point that the camera looks
-    /// at.
+    /// Returns the number of pixels in a unit of length across the view, at the point that the
+    /// camera looks at.
     double pixels_per_length() const { return is_orthographic_ ? scale_ : scale_ / distance_; }
 
     const core::Vec3d& right() const { return right_; }     ///< unit

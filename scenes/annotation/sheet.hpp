@@ -72,12 +72,12 @@ struct Sheet {
 /// The width of the line around letters, relative to their size.
 inline constexpr double halo_width = 0.2;
 
-/// Returns the sheet as an SVG document of the size of the image. Each group is one of the
-/// document. Texts stay texts.
+/// Returns the sheet as an SVG document of the size of the image. Each MarkGroup is a group of the
+/// document. Texts stay texts, and do not become outlines.
 std::string svg_of(const Sheet& sheet);
 
 /// The function of the module that renders sheets. `pixels`: width * height premultiplied sRGB
-/// codes 0xAARRGGBB, row by row, that are 0. Returns the reason of a failure, or null.
+/// codes 0xAARRGGBB, row by row, all 0 before the call. Returns the reason of a failure, or null.
 extern "C" using RenderSheet = const char * (*)(const Sheet* sheet, std::uint32_t* pixels);
 inline constexpr const char* render_sheet_name = "raylane_render_sheet";
 
@@ -86,8 +86,8 @@ inline constexpr const char* render_sheet_name = "raylane_render_sheet";
 extern "C" using ReplacedFont = const char * (*)(const char* name);
 inline constexpr const char* replaced_font_name = "raylane_replaced_font";
 
-/// Puts such pixels over a film, which shows this part of them. Blends the
-/// codes of an image with this transfer function.
+/// Composites pixels of a sheet over a film that covers `part` of the image. Blends the codes of
+/// an image with this transfer function, not the linear components.
 void blend(const std::vector<std::uint32_t>& pixels, int width, const core::Region& part,
            core::Transfer transfer, core::Film& film);
 

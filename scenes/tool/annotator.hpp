@@ -19,8 +19,8 @@ class Annotator {
     /// Throws SystemRefused if annotations are to be rendered, but raylane was built without pango.
     explicit Annotator(const RenderArguments& arguments);
 
-    /// Returns the place for the meaning of atoms and colours, which compose() needs, or null if
-    /// nothing needs it.
+    /// Returns the legend that loading the scene has to fill in for compose(); null if no
+    /// annotation needs it.
     Legend* legend() { return wants_legend_ ? &legend_ : nullptr; }
     /// Throws BadInput for annotations of a sequence.
     void require_single() const;
@@ -30,11 +30,11 @@ class Annotator {
                  const OnRemark& on_remark);
     /// Returns true if annotations belong over the image.
     bool covers_image() const { return annotations_.any() && file_.empty(); }
-    /// Puts them over the image, of which the film shows a part.
+    /// Puts the annotations over a film, which shows this part of the image.
     void cover(core::Film& film, const core::Region& part, core::Transfer transfer) const;
     /// Writes the file of annotations, if one is wanted. Throws SystemRefused.
     void write_file() const;
-    /// Returns the meanings of colours.
+    /// Returns the meanings of the colours, for --stats.
     nlohmann::ordered_json stats() const;
 
   private:

@@ -13,7 +13,7 @@ namespace raylane::simd {
 
 namespace {
 
-/// Copies whose places are kept ready for rays; a power of two.
+/// Number of copies whose transformations are cached; a power of two.
 constexpr std::size_t places = 1024;
 
 constexpr auto largest_float = double(std::numeric_limits<float>::max());

@@ -14,10 +14,10 @@
 
 namespace raylane::simd {
 
-/// Finds shapes of copies that rays may meet, by bounds in float. Each ray that enters a copy
-/// searches the copy's prototype, in whose space the ray is placed. The error of that place is a
-/// part of the ray's slack, like the distance between a copy's shapes and exact images of the
-/// prototype's, as the numbers of a copy are rounded. Rays go in waves: one call searches a
+/// Finds shapes of copies that rays may meet, by bounds in float. Each ray that enters a copy is
+/// transformed to the space of the copy's prototype, which it then searches. The ray's slack covers
+/// the error of that transformation. It also covers the rounding of a copy's numbers, by which the
+/// copy differs from an exact image of the prototype. Rays go in waves: one call searches a
 /// prototype for all rays of a wave that are in copies of it, each in its own. For use by one
 /// thread.
 class CopySearch {
@@ -26,11 +26,11 @@ class CopySearch {
 
     void take_from(Arena& arena);
 
-    /// Searches copies after all other shapes. `rays`: rounded, of which only the exact ones are
-    /// used. The t of candidates counts from `before`.
+    /// Searches copies, after the search of all other shapes. Reads only the exact rays in `rays`.
+    /// The t of candidates counts from `before`.
     void nearest(std::size_t count, const RoundedRays& rays, const Candidates& candidates,
                  EngineCounters& counters);
-    /// `distance`: limits of the exact rays.
+    /// The same for occlusion. `distance`: limits of the exact rays.
     void occluded(std::size_t count, const RoundedRays& rays, const double* distance,
                   std::uint8_t* state, EngineCounters& counters);
     /// Lists the shapes that ray i may cross, as RefineKernels::list_candidates does.
@@ -108,7 +108,7 @@ class CopySearch {
 
     const SceneData& scene_;
     Tracing tracing_;
-    std::vector<Placed> placed_; // by a part of the copy's number
+    std::vector<Placed> placed_; // a cache, by the low bits of the copy's number
     std::vector<Traveller> travellers_;
     std::unique_ptr<Columns> lanes_;
     RoundedRays rounded_{};

@@ -50,7 +50,7 @@ struct DrawnAtoms {
     /// atoms that fill a crystal's cells.
     std::optional<Structure> repeated = {};
     std::vector<AtomIndex> originals = {}; ///< of a crystal's atoms; empty: see original()
-    std::size_t complete = 0; ///< number of the first atoms of all() that have all of their bonds
+    std::size_t complete = 0;     ///< the first atoms of all(), this many, have all of their bonds
     std::vector<Bond> bonds = {}; ///< of all(); may be empty if no representation shows bonds
     std::vector<CutPlane> cuts = {};
 

@@ -9,7 +9,7 @@
 
 namespace raylane::scenes {
 
-/// Returns a direction of view that shows the edges of a cell: c upward, a to the viewer and
+/// Returns a direction of view that shows the edges of a cell: c upward, a towards the viewer and
 /// slightly to the left, from slightly above. The cell has a volume.
 core::NamedView view_of_cell(const Cell& cell);
 

@@ -47,7 +47,7 @@ struct AtomCopy {
 /// How the atoms of a crystal fill its cells.
 struct CrystalLook {
     std::array<int, 3> repeat = {1, 1, 1};
-    bool boundary = true; ///< atoms on faces, edges and corners are on all of them
+    bool boundary = true; ///< atoms on a face, edge or corner are on all equivalent ones
     bool whole = true;    ///< molecules are not cut at faces
 };
 

@@ -13,8 +13,8 @@ namespace raylane::scenes {
 double deviations_of(double probability);
 
 /// Returns the principal axes, in angstrom, of a displacement's surface at a number of standard
-/// deviations. They are perpendicular to each other. Returns nothing if the tensor is not an
-/// ellipsoid's.
+/// deviations. They are perpendicular to each other. Returns nothing if the tensor is not
+/// positive definite.
 std::optional<std::array<core::Vec3d, 3>> axes_of(const Anisotropy& displacement,
                                                   double deviations);
 

@@ -14,8 +14,8 @@
 /// stand for dashes.
 namespace raylane::scenes {
 
-/// Options with their values. Options of which several values are meant are there several times.
-/// The value of a flag is "on" or "off".
+/// Pairs of option and value. An option that has several values stands once for each of them. The
+/// value of a flag is "on" or "off".
 using DrawingOptions = std::vector<std::pair<std::string, std::string>>;
 
 /// Returns a drawing with these options. Throws BadInput, with the name of the option, for an

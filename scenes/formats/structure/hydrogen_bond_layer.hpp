@@ -7,8 +7,8 @@
 
 namespace raylane::scenes {
 
-/// Finds hydrogen bonds of N, O and F. Returns pairs of an atom, the hydrogen atom or without it
-/// the donor, and an acceptor.
+/// Finds hydrogen bonds of N, O and F. Returns pairs of atoms: the hydrogen atom, or the donor if
+/// the file has no hydrogen, and the acceptor.
 ///
 /// With a hydrogen atom H of a donor D: the distance of H and the acceptor is less than 2.5
 /// angstrom, and the angle at H is above 120 degrees (Baker and Hubbard, Prog. Biophys. Mol. Biol.
@@ -19,7 +19,7 @@ namespace raylane::scenes {
 /// with at most two bonds is a donor, and oxygen with at most one that is longer than 1.3 angstrom;
 /// oxygen, fluorine, and nitrogen with at most two bonds are acceptors.
 ///
-/// Atoms that are bonded to the same atom are no pair.
+/// Atoms that are bonded to the same atom are not a pair.
 std::vector<std::pair<AtomIndex, AtomIndex>> find_hydrogen_bonds(const Structure& structure,
                                                                  const std::vector<Bond>& bonds);
 

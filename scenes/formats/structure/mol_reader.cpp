@@ -128,7 +128,7 @@ class MolReader : public FrameReader {
         }
     }
 
-    /// Reads pairs of an atom and its charge. Ignores atoms that are not there.
+    /// Reads pairs of an atom and its charge. Ignores atoms that the record lacks.
     void read_charges(Structure& frame) {
         Words words(lines_);
         for (int i = 0; i < 3; ++i)

@@ -18,7 +18,7 @@ constexpr std::size_t min_neighbours = 4, max_neighbours = 64;
 
 using Face = std::vector<std::size_t>; // indices
 
-/// Returns the points on the plane through three of them, if no point is before it.
+/// Returns the points on the plane through three of them, if no point is in front of the plane.
 Face face_through(std::span<const Vec3d> points, const Vec3d& at, const Vec3d& normal) {
     Face face;
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -22,7 +22,7 @@ namespace raylane::scenes {
 ///   type 1 2               by its label in the file
 ///   index 1-100            by its place in the file, from 1
 ///   PROPERTY < 3           or <=, >, >=, =, by x, y, z or a column of numbers: b_factor, ...
-///   within 5 of ...        at most 5 angstrom from any atom that ... selects, with these atoms;
+///   within 5 of ...        at most 5 angstrom from any atom that ... selects, including these;
 ///                          exwithin: without them
 ///   byres ...              whole residues of which ... selects an atom
 ///   not ..., ... and ..., ... or ..., ( ... )

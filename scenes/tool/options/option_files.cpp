@@ -82,7 +82,7 @@ OptionFiles::OptionFiles(const std::vector<std::string>& arguments, const Option
                    argument.find('=') == std::string::npos;
         rest.push_back(argument);
     }
-    // An option of several words would take an argument behind it.
+    // Arguments come first: an option of several words would take an argument after it.
     std::vector<std::string> first, lists, last;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
         const auto& [file, number, option, value] = lines_[i];
@@ -158,7 +158,7 @@ bool OptionFiles::is_used(std::size_t line) const {
 
 BadInput OptionFiles::with_place(const BadInput& bad) const {
     const std::string_view text = bad.what();
-    // The message has the line's value, or a word of it.
+    // The message quotes the line's value, or a word of it.
     const auto fits = [&](const Line& line) {
         constexpr std::string_view before = "got \"";
         const std::size_t got = text.find(before);

@@ -105,8 +105,9 @@ struct AnnotationArguments : OptionTable {
     explicit AnnotationArguments(OptionTable& parent)
         : OptionTable(parent, "Annotations (of atoms)") {}
 
-    Flag legend = {*this, "--legend", flag().recorded(),
-                   "Explain the colours: a bar with numbers, or the names of elements or chains."};
+    Flag legend = {
+        *this, "--legend", flag().recorded(),
+        "Explain the colours by a bar with numbers, or by the names of elements or chains."};
     Option<std::string> legend_title = {*this, "--legend-title",
                                         word("TEXT").recorded().otherwise("the name of the number"),
                                         "Text above the bar of colours."};
@@ -120,10 +121,11 @@ struct AnnotationArguments : OptionTable {
                          "right beside the arrows of --axes."};
     ListOption<LabelWords> label = {
         *this, "--label", label_texts().recorded(),
-        "Label at the middle of atoms, as \"SELECTION: TEXT\". With {element}, {name} or {index} "
-        "in "
-        "the text, each copy of each atom has a label; with {resn} or {resi}, each residue; with "
-        "{chain}, each chain. Labels with fields are left out where other atoms hide them."};
+        "Label at the middle of the selected atoms, as \"SELECTION: TEXT\". With {element}, {name} "
+        "or "
+        "{index} in the text, each copy of each atom has a label; with {resn} or {resi}, each "
+        "residue; with {chain}, each chain. Labels with fields are left out where other atoms hide "
+        "them."};
     ListOption<DistanceWords> distance = {
         *this, "--distance", distance_texts().recorded(),
         "Dashed line with the distance between the middles of two selections, as \"SELECTION: "
@@ -138,7 +140,7 @@ struct AnnotationArguments : OptionTable {
         "remark tells if they are too small or too large for the image."};
     Option<std::string> annotations = {
         *this, "--annotations", file_name(),
-        "Write the annotations as an SVG of the image's size, and the image without them."};
+        "Write the annotations to an SVG file of the image's size, and leave them off the image."};
 };
 
 /// Options of render.

@@ -150,15 +150,15 @@ struct ViewArguments : OptionTable {
         *this, "--view", views().otherwise(as_in_file, "front; crystals obliquely").recorded(),
         "Frame all bounded shapes from front, back, left, right, top, bottom, x, y, z or "
         "corner, or looking in a direction such as 1,-1,-0.5. With a cell: a, b or c has this edge "
-        "towards the viewer, and c upward, or b for c. best has the largest extent across and the "
-        "least in depth; of a crystal, it is that of a, b and c with the shortest edge in depth, c "
-        "if all are equal."};
-    Option<core::Camera> camera = {*this, "--camera",
-                                   cameras().recorded().without({"--view", "--up"}),
-                                   "Camera in JSON, as the key c of view prints it."};
+        "towards the viewer, and c upward, or b for c. best shows the largest extent across the "
+        "image, and the smallest in depth; of a crystal, it is that of a, b and c with the "
+        "shortest edge in depth, c if all are equal."};
+    Option<core::Camera> camera = {
+        *this, "--camera", cameras().recorded().without({"--view", "--up"}),
+        "Camera as JSON, in the form that the key c of raylane view prints."};
     Option<Background> background = {
         *this, "--background", backgrounds().recorded().otherwise("white for atoms"),
-        "Background of atoms: a colour, such as black or #204060, or none. none goes with any "
+        "Background of atoms: a colour, such as black or #204060, or none. none works for any "
         "scene, and is the same as --alpha."};
     Option<core::Vec3f> up = {
         *this, "--up", upward_directions().otherwise("as in the view or the scene").recorded(),
@@ -222,8 +222,8 @@ struct DrawingArguments : OptionTable {
         "Numbers at the ends of the palette, such as 0 50 or 0:50."};
     Option<std::string> radius = {
         *this, "--radius", drawing_words("X").otherwise("that of the style").recorded(),
-        "Radius of atoms in angstrom, of sticks, too, in styles without balls. \"0.4 H=0.2\" is "
-        "for an element or type."};
+        "Radius of atoms in angstrom, and of sticks in styles without balls. \"0.4 H=0.2\" sets "
+        "another one for an element or type."};
     Option<std::string> scale = {*this, "--scale", drawing_words("X").otherwise("1").recorded(),
                                  "Factor for the radii, in the same form."};
     Option<std::string> select = {
@@ -235,13 +235,13 @@ struct DrawingArguments : OptionTable {
         "for these are known, too."};
     ListOption<std::string> show = {
         *this, "--show", drawing_words("WHICH:LOOK").recorded(),
-        "Show the atoms of a selection, and no others, as \"ligand: sticks orange\" or "
-        "\"protein: spheres white opacity 0.3 + sticks\". Words behind the colon: a style, a "
-        "colour as in --color, opacity A, radius R, scale X, palette NAME, range A:B. Other "
-        "options give the defaults. + shows two looks at once. Given again, the option "
-        "replaces the look of the atoms that it selects."};
+        "Show only the atoms of a selection, in a look: \"ligand: sticks orange\" or "
+        "\"protein: spheres white opacity 0.3 + sticks\". A look has a style, a colour as in "
+        "--color, opacity A, radius R, scale X, palette NAME and range A:B. Omitted words have the "
+        "values of the other options. + shows two looks at once. Several --show add up; the last "
+        "one that selects an atom decides its look."};
     ListOption<std::string> hide = {*this, "--hide", word("WHICH").recorded(),
-                                    "Atoms not to show, in the words of --select."};
+                                    "Atoms to leave out, in the words of --select."};
     Option<std::string> opacity = {
         *this, "--opacity", drawing_words("A", "above 0 and up to 1").otherwise("1").recorded(),
         "Opacity of atoms and bonds. Inner surfaces of overlapping shapes are hidden."};
@@ -262,27 +262,28 @@ struct DrawingArguments : OptionTable {
     ListOption<std::string> cut = {
         *this, "--cut", drawing_words("PLANE").recorded(),
         "Show only the part on one side of a plane, with closed faces: z<1.5, x>0, or A,B,C,D for "
-        "A x + B y + C z <= D, in angstrom. Several planes leave the part on the sides of all."};
+        "A x + B y + C z <= D, in angstrom. With several planes, the part that meets all "
+        "conditions."};
     Option<std::string> slab = {
         *this, "--slab", drawing_words("A B").of_words(2).recorded(),
-        "Show only the part between two depths in angstrom, from the middle of the atoms towards "
-        "the viewer, such as -2 2. It goes without --camera."};
+        "Show only the part between two depths in angstrom, such as -2 2. The middle of the atoms "
+        "has depth 0; depth grows towards the viewer. Works without --camera."};
     Flag cell = {*this, "--cell", flag().recorded(), "Show the edges of the unit cell."};
     Flag axes = {*this, "--axes", flag().recorded(),
                  "Show the directions of the cell's edges as arrows: a red, b green, c blue."};
     Option<std::string> boundary = {
         *this, "--boundary", drawing_words("on|off").otherwise(for_crystals).recorded(),
-        "Show atoms and molecules on faces, edges and corners of the cell on all of them. Crystals "
-        "are CIF files, and XYZ of up to 500 atoms in a periodic cell."};
+        "Repeat an atom or molecule on a face, edge or corner of the cell on all equivalent ones. "
+        "Crystals are CIF files, and XYZ of up to 500 atoms in a periodic cell."};
     Option<std::string> whole_molecules = {
         *this, "--whole", drawing_words("on|off").otherwise(for_crystals).recorded(),
-        "Move atoms into the cell, and molecules as a whole. A molecule is a finite set of bonded "
-        "atoms."};
+        "Move atoms into the cell, but do not cut molecules: each one moves as a whole. A molecule "
+        "is a finite set of bonded atoms."};
     ListOption<std::string> polyhedra = {
         *this, "--polyhedra", drawing_words("WHICH").recorded(),
-        "Show the polyhedra of neighbours that are bonded to atoms of elements or types, such as "
-        "Ti or \"Ti Zr opacity 0.6\", in words of --show. Atoms are balls without sticks, unless "
-        "--style is given."};
+        "Show coordination polyhedra, the hulls of the atoms bonded to each atom of an element or "
+        "type: Ti or \"Ti Zr opacity 0.6\", with the words of --show. Atoms are balls without "
+        "sticks, unless --style is given."};
     Flag hydrogen_bonds = {
         *this, "--hydrogen-bonds", flag().recorded(),
         "Show hydrogen bonds as dashed lines: N, O or F with a hydrogen atom that is less than 2.5 "

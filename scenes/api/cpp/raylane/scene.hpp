@@ -191,13 +191,13 @@ class SceneBuilder {
     /// - no coordinate exceeds 2^40, and the scale is from 2^-20 to 2^20;
     /// - the scene has no solids.
     ///
-    /// Answers and images have the bits of a scene of shapes, except that equal shapes of different
-    /// copies count each. Shapes that rays have hit take memory from then on, up to 1 kB for 16
-    /// spheres. Precision other than exact, contains(), cells(), closest(), with_positions() and
-    /// files that end in .rl need shapes: the first is ignored, the others throw.
+    /// Results and images have the bits of a scene with shapes in their place, except that equal
+    /// shapes of different copies count separately. Shapes that rays have hit take memory from then
+    /// on, up to 1 kB for 16 spheres. Rays always have Precision::exact. Tracer's contains(),
+    /// cells() and closest(), with_positions(), and save() to .rl throw.
     ShapeId add(const Group& group, std::span<const Placement> placements,
                 MaterialIndex material = no_material);
-    /// Number of shapes in one call from which copies are kept. Fewer are faster as shapes.
+    /// Number of shapes in one call from which copies are kept. Fewer are traced faster as shapes.
     std::size_t keep_from = std::size_t{1} << 22;
 
     /// Adds the shapes of a generator. Returns the first id. The struts of a lattice have the
@@ -255,16 +255,16 @@ using OnRemark = std::function<void(const std::string& remark)>;
 /// environment variable is invalid.
 RAYLANE_API Scene load(const std::filesystem::path& path, const OnRemark& on_remark = {});
 
-/// Options of scenes from atoms with their values, by name, in the words of the tool's options
-/// without dashes in front: {"style", "balls"}, {"polyhedra", "Ti opacity 0.5"}. The value of a
-/// flag is "on" or "off". Options of which several values are meant are there several times.
-/// {"representations", "ligand: sticks"} is {"show", ...}, whose messages count from 0:
-/// "representations/0: column 9: ...". {"cell", "on"} adds the edges of the unit cell.
+/// Options of scenes from atoms, as pairs of name and value, with the names and values of `raylane
+/// render`, but without leading dashes: {"style", "balls"}, {"polyhedra", "Ti opacity 0.5"}. The
+/// value of a flag is "on" or "off". An option that has several values stands once for each of
+/// them. {"representations", VALUE} is the same as {"show", VALUE}, but messages number the values
+/// from 0: "representations/0: column 9: ...". {"cell", "on"} adds the edges of the unit cell.
 using AtomOptions = std::vector<std::pair<std::string, std::string>>;
 
-/// Does the same for a file of atoms, with options. Throws BadInput also for an unknown option or a
-/// malformed value, with the option's name as the file, and if the file is not one of atoms but
-/// there are options.
+/// Reads a scene from a file of atoms, same as load(), with options. Also throws BadInput for an
+/// unknown option or a malformed value, with the option's name in place of the file's, and for
+/// options with a file that has no atoms.
 RAYLANE_API Scene load_atoms(const std::filesystem::path& path, const AtomOptions& options,
                              const OnRemark& on_remark = {});
 

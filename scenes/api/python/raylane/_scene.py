@@ -224,14 +224,14 @@ class Scene:
         Only versions of raylane with the same version of the format ``.rl`` read the former. Features that ``.json``
         cannot express (:meth:`save`), such as which triangles form a polygon, produce warnings.
         """
-        with tempfile.TemporaryDirectory() as room:
+        with tempfile.TemporaryDirectory() as folder:
             try:
                 name = "scene.rl"
-                self.save(os.path.join(room, name))
+                self.save(os.path.join(folder, name))
             except BadInput:
                 name = "scene.json"
-                self.save(os.path.join(room, name))
-            with open(os.path.join(room, name), "rb") as file:
+                self.save(os.path.join(folder, name))
+            with open(os.path.join(folder, name), "rb") as file:
                 return parse, (file.read(), name)
 
     def __repr__(self) -> str:
@@ -354,9 +354,10 @@ class SceneBuilder(Adding):
         members without one. The ids are those of the copies' shapes, one copy after the other.
 
         From :attr:`keep_from` shapes on, spheres and cylinders without transmission take less than 100 bytes a copy, if the scene
-        has no constructed solids. Shapes that rays have hit take memory from then on. Such a scene has the answers and
-        images of one with shapes; equal shapes of different copies count each. ``Tracer.contains``, ``Tracer.cells``,
-        ``Tracer.closest``, ``Scene.with_positions`` and files that end in .rl refuse it.
+        has no constructed solids. Shapes that rays have hit take memory from then on. Results and images have the bits
+        of a scene with shapes in place of the copies, except that equal shapes of different copies count separately.
+        For such a scene ``Tracer.contains``, ``Tracer.cells``, ``Tracer.closest``, ``with_positions`` and
+        :meth:`Scene.save` to ``.rl`` raise an exception. Rays always have the precision ``"exact"``.
         """
         return range(
             *self._builder.add_copies(inner_group(group), translate, rotate, scale, material, self.keep_from)

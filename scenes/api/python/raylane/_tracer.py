@@ -545,8 +545,9 @@ class Tracer:
         If several points of the shape are closest, the result is one of them:
 
         - for the centre of a sphere, the one with the largest z
-        - for a point on the axis of a disc, cylinder or cone, the one in the direction axis x e, where e is the
-          coordinate axis along which the axis has its smallest component, the first of several
+        - for a point on the axis of a disc, cylinder or cone, the one in the direction of the cross product of this
+          axis with x, y or z: with that coordinate axis along which this axis has the component of the smallest
+          magnitude. If several are equally small, the first counts
         - for a box, the one on the lowest face
         - for an ellipsoid or a quadric, any of them, but always the same one
 
