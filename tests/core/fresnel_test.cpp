@@ -188,3 +188,15 @@ TEST_CASE("both sides of a surface reflect alike along one path") {
                   Approx(reflectance_at(reflection, outside, 1.0, 1.5)).epsilon(1e-9));
         }
 }
+
+TEST_CASE("nothing is reflected between equal indices") {
+    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
+        for (const double sine : {0.0, 0.5, 0.999999, 1.0})
+            CHECK(reflectance_at(reflection, sine, 1.5, 1.5) == 0.0);
+    // Rounding makes the sine just larger than 1. Only a ray into the thinner medium is reflected
+    // totally.
+    const Vec3d grazing{1.0 + 1e-15, 0.0, 0.0};
+    CHECK_FALSE(refract(grazing, {0, 0, 1}, 1.5, 1.5).total);
+    CHECK_FALSE(refract(grazing, {0, 0, 1}, 1.0, 1.0).total);
+    CHECK(refract(grazing, {0, 0, 1}, 1.5, 1.0).total);
+}

@@ -231,18 +231,6 @@ TEST_CASE("a camera may stand inside of bodies") {
           Approx(std::exp(-3.5)).epsilon(exactly));
 }
 
-TEST_CASE("nothing is reflected between equal indices") {
-    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
-        for (const double sine : {0.0, 0.5, 0.999999, 1.0})
-            CHECK(reflectance_at(reflection, sine, 1.5, 1.5) == 0.0);
-    // Rounding makes the sine just larger than 1. Only a ray into the thinner medium is reflected
-    // totally.
-    const Vec3d grazing{1.0 + 1e-15, 0.0, 0.0};
-    CHECK_FALSE(refract(grazing, {0, 0, 1}, 1.5, 1.5).total);
-    CHECK_FALSE(refract(grazing, {0, 0, 1}, 1.0, 1.0).total);
-    CHECK(refract(grazing, {0, 0, 1}, 1.5, 1.0).total);
-}
-
 TEST_CASE("an apex is seen from every direction that hits it") {
     // Seen from below: the needle's axis, which replaces the normal at the apex, points away.
     Builder builder;
