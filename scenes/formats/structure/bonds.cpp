@@ -44,8 +44,28 @@ std::vector<char> metallic_elements(const Structure& structure, const std::vecto
     return is_metallic;
 }
 
-bool is_before(const Bond& x, const Bond& y) {
-    return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.order > y.order;
+float squared_distance(const Structure& structure, AtomIndex a, AtomIndex b) {
+    const core::Vec3f apart = structure.positions[a] - structure.positions[b];
+    return core::dot(apart, apart);
+}
+
+/// Returns the atoms whose bonds are found by distance.
+std::vector<AtomIndex> atoms_to_bond(const Structure& structure) {
+    std::vector<AtomIndex> atoms;
+    if (structure.has_all_bonds) return atoms;
+    for (AtomIndex atom = 0; atom < structure.size(); ++atom)
+        if (data_of(structure.element(atom)).covalent_radius > 0.0F) atoms.push_back(atom);
+    return atoms;
+}
+
+/// Sorts bonds by atoms. Of several between two atoms, that of the largest order stays.
+void sort_once_each(std::vector<Bond>& bonds) {
+    std::sort(bonds.begin(), bonds.end(), [](const Bond& x, const Bond& y) {
+        return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.order > y.order;
+    });
+    bonds.erase(std::unique(bonds.begin(), bonds.end(),
+                            [](const Bond& x, const Bond& y) { return x.a == y.a && x.b == y.b; }),
+                bonds.end());
 }
 
 } // namespace
@@ -66,25 +86,20 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
     const auto original = [&](AtomIndex atom) {
         return atom < count ? atom : originals[atom - count];
     };
-    std::vector<AtomIndex> atoms;
-    if (!structure.has_all_bonds)
-        for (AtomIndex atom = 0; atom < structure.size(); ++atom)
-            if (data_of(structure.element(atom)).covalent_radius > 0.0F) atoms.push_back(atom);
     // Atoms that would have too many bonds, and among them those of metals with each other.
     std::vector<char> is_crowded(structure.size()), is_dense_metal(structure.size());
     std::vector<std::size_t> near_others(element_count);
-    const AtomGrid grid(structure.positions, atoms, longest_bond(structure));
+    const AtomGrid grid(structure.positions, atoms_to_bond(structure), longest_bond(structure));
     grid.for_each([&](AtomIndex a, const AtomGrid::Near& others) {
         if (a >= count) return; // an image
         const Element of_a = structure.element(a);
         const std::size_t before = bonds.size();
         const float reach_of_metal = is_metal(of_a) ? reach_of(of_a, of_a) : 0.0F;
         std::size_t looked_at = 0, neighbours = 0, metals = 0;
-        const bool has_room = others.each([&](AtomIndex b) {
+        const auto add = [&](AtomIndex b) {
             if (b == a) return true;
             if (++looked_at > max_near) return false;
-            const core::Vec3f apart = structure.positions[a] - structure.positions[b];
-            const float squared = core::dot(apart, apart);
+            const float squared = squared_distance(structure, a, b);
             const Element of_b = structure.element(b);
             if (!is_metal(of_b) && squared <= reach_of_metal * reach_of_metal) ++near_others[of_a];
             const float most = reach_of(of_a, of_b);
@@ -97,8 +112,8 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
             }
             if (!is_too_near && a < b && a < count) bonds.push_back({a, b, 1});
             return true;
-        });
-        if (has_room) return;
+        };
+        if (others.each(add)) return;
         bonds.resize(before);
         is_crowded[a] = 1;
     });
@@ -121,10 +136,7 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
     if (crowded_atoms != nullptr)
         *crowded_atoms = static_cast<std::size_t>(std::count(
             is_crowded.begin(), is_crowded.begin() + static_cast<std::ptrdiff_t>(count), 1));
-    std::sort(bonds.begin(), bonds.end(), is_before);
-    bonds.erase(std::unique(bonds.begin(), bonds.end(),
-                            [](const Bond& x, const Bond& y) { return x.a == y.a && x.b == y.b; }),
-                bonds.end());
+    sort_once_each(bonds);
     return bonds;
 }
 
