@@ -146,6 +146,7 @@ EOF
         -DCMAKE_C_COMPILER="$c_compiler" -DCMAKE_C_FLAGS="$flags"
     quietly "$cmake" --build of_page
     [ "$(of_page/hits_in_c)" = "4 inf" ] || fail "wrong t in C"
+    ! nm of_page/hits_in_c | grep -i ' t .*raylane_closest' || fail "functions that it does not call are linked"
 fi
 if [ -n "$in_c" ] && command -v gfortran >/dev/null; then
     echo "a project in Fortran alone finds it, builds and runs"
