@@ -58,7 +58,7 @@ std::vector<AtomIndex> atoms_to_bond(const Structure& structure) {
     return atoms;
 }
 
-/// Sorts bonds by atoms. Of several between two atoms, that of the largest order stays.
+/// Sorts bonds by atoms. Between two atoms, only the bond of the largest order stays.
 void sort_once_each(std::vector<Bond>& bonds) {
     std::sort(bonds.begin(), bonds.end(), [](const Bond& x, const Bond& y) {
         return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.order > y.order;
