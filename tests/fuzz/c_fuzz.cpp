@@ -908,6 +908,15 @@ void write(Bytes& bytes) {
           which == 9);
 }
 
+void make_tracer(Handles& handles, Bytes& bytes) {
+    raylane_tracer*& slot = slot_of(handles.tracers, bytes);
+    const raylane_scene* const scene = slot_of(handles.scenes, bytes);
+    raylane_tracer_release(slot);
+    slot = nullptr;
+    const int precision = bytes.below(4) == 0 ? bytes.byte() - 2 : int(RAYLANE_EXACT);
+    check(raylane_tracer_create(scene, bytes.below(4) - 1, precision, &slot), scene == nullptr);
+}
+
 void call(Handles& handles, Bytes& bytes) {
     switch (bytes.below(24)) {
     case 16:
@@ -939,15 +948,8 @@ void call(Handles& handles, Bytes& bytes) {
     case 8:
     case 9:
         return make_scene(handles, bytes);
-    case 10: {
-        raylane_tracer*& slot = slot_of(handles.tracers, bytes);
-        const raylane_scene* const scene = slot_of(handles.scenes, bytes);
-        raylane_tracer_release(slot);
-        slot = nullptr;
-        const int precision = bytes.below(4) == 0 ? bytes.byte() - 2 : int(RAYLANE_EXACT);
-        return check(raylane_tracer_create(scene, bytes.below(4) - 1, precision, &slot),
-                     scene == nullptr);
-    }
+    case 10:
+        return make_tracer(handles, bytes);
     case 11:
         return ask<OfFloats>(slot_of(handles.tracers, bytes), bytes);
     case 12:

@@ -42,6 +42,20 @@ raylane_rays to_c(const Rays& rays, std::uint64_t& refused) {
             nullptr,        nullptr,        &refused};
 }
 
+/// Checks the counts of a query for all crossings, with one refused ray.
+void check_statistics(const Tracer& tracer, const Rays& rays,
+                      const raylane_crossing_statistics& counts) {
+    CrossingRows rows;
+    CrossingStatistics statistics;
+    tracer.crossings(rays.span(), rows, {}, &statistics);
+    CHECK(statistics.by_bounds > 0);
+    CHECK(counts.by_bounds == statistics.by_bounds);
+    CHECK(counts.by_digits == statistics.by_digits);
+    CHECK(counts.exactly == statistics.exactly);
+    CHECK(counts.beyond_double == statistics.beyond_double);
+    CHECK(counts.refused == 1);
+}
+
 } // namespace
 
 TEST_CASE("rows of float rays and points in C are those of C++") {
@@ -69,16 +83,8 @@ TEST_CASE("rows of float rays and points in C are those of C++") {
             refused = 77;
         }
     CHECK(crossings.t.size() > 50);
-    const raylane_crossing_statistics counts =
-        raylane_rows_statistics(crossings_in_c(asked, in_c, 0, 0).get());
-    CrossingStatistics statistics;
-    tracer.crossings(rays.span(), crossings, {}, &statistics);
-    CHECK(statistics.by_bounds > 0);
-    CHECK(counts.by_bounds == statistics.by_bounds);
-    CHECK(counts.by_digits == statistics.by_digits);
-    CHECK(counts.exactly == statistics.exactly);
-    CHECK(counts.beyond_double == statistics.beyond_double);
-    CHECK(counts.refused == 1);
+    check_statistics(tracer, rays,
+                     raylane_rows_statistics(crossings_in_c(asked, in_c, 0, 0).get()));
     LengthRows lengths;
     tracer.path_lengths(rays.span(), lengths);
     check_same(made<RowsHandle>(
