@@ -8,8 +8,7 @@
 #include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/system.hpp"
 #include "scenes/tool/window/image_maker.hpp"
-#include "scenes/tool/window/orbit.hpp"
-#include "scenes/tool/window/pick.hpp"
+#include "scenes/tool/window/mouse.hpp"
 #include "scenes/tool/window/window.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scenes/tool/window/pick.hpp"
+#include "scenes/tool/window/mouse.hpp"
 #include "tests/scenes/formats/json/json_scenes.hpp"
 #include "tests/scenes/tool/tool_fixture.hpp"
 #include "tests/support/catch.hpp"

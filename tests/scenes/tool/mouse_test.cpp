@@ -1,4 +1,4 @@
-#include "scenes/tool/window/orbit.hpp"
+#include "scenes/tool/window/mouse.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace raylane;
