@@ -121,7 +121,10 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
         {"octants", setter_of_ellipsoids(Ellipsoids::octants)},
         {"probability", setter_of(&Drawing::probability, probability_of)},
         {"view", setter_of(&Drawing::view, view_named)},
-        {"background", setter_of(&Drawing::background, background_of)},
+        {"background", setter_of(&Drawing::background,
+                                 [](const std::string& option, const std::string& text) {
+                                     return background_of(option, text);
+                                 })},
         {"perspective", setter_of(&Drawing::perspective, on_or_off_of)},
         {"orthographic",
          [](Drawing& drawing, const std::string& option, const std::string& text) {
@@ -179,12 +182,13 @@ std::vector<std::pair<std::string_view, Finish>> named_finishes() {
             {"print", Finish::print}};
 }
 
-core::Color background_of(const std::string& option, const std::string& text) {
+core::Color background_of(const std::string& option, const std::string& text,
+                          const std::string& others) {
     const std::optional<std::uint32_t> code = color_named(text);
     if (!code)
         throw BadInput(option, "",
-                       "must be a colour such as black or #204060, got \"" + printable(text) + '"' +
-                           suggestion(text, color_names()));
+                       "must be " + others + "a colour such as black or #204060, got \"" +
+                           printable(text) + '"' + suggestion(text, color_names()));
     return core::color_from_srgb(*code);
 }
 

@@ -36,7 +36,8 @@ inline constexpr std::string_view later_views[] = {core::best_view_name, "a", "b
 /// The name of a view, or a direction to look in, such as "1,-1,-0.5". later_views are returned
 /// without directions.
 core::NamedView view_named(const std::string& option, const std::string& text);
-/// A colour such as "black" or "#204060".
-core::Color background_of(const std::string& option, const std::string& text);
+/// A colour such as "black" or "#204060". `others`: words of other values, for messages.
+core::Color background_of(const std::string& option, const std::string& text,
+                          const std::string& others = "");
 
 } // namespace raylane::scenes
