@@ -127,11 +127,12 @@ TEST_CASE("bonds are those of all pairs of atoms that are near enough") {
     for (const double size : {10.0, 20.0, 4000.0}) {
         std::vector<std::pair<const char*, Vec3f>> atoms;
         const char* const symbols[] = {"C", "H", "O", "Fe", "Cu", "Xx"};
-        for (int i = 0; i < 400; ++i)
-            atoms.emplace_back(
-                symbols[random.integer(0, 5)],
-                raylane::core::convert<float>(random.cube(size) *
-                                              raylane::core::Vec3d(1, 1, i % 3 == 0 ? 0 : 1)));
+        for (int i = 0; i < 400; ++i) {
+            const char* const symbol = symbols[random.integer(0, 5)];
+            const raylane::core::Vec3d place = random.cube(size);
+            atoms.emplace_back(symbol, raylane::core::convert<float>(
+                                           place * raylane::core::Vec3d(1, 1, i % 3 == 0 ? 0 : 1)));
+        }
         // Atoms at the distance of a bond, and two at one point.
         atoms.emplace_back("O", Vec3f(0, 0, 0));
         atoms.emplace_back("H", Vec3f(0.96F, 0, 0));
