@@ -29,8 +29,8 @@ class CopyWalk {
     }
 
     enum class At { node, copy, end };
-    /// Visits one node of the hierarchy, or arrives at the next copy. Begins to load the data of the
-    /// next step, so the steps of several walks should alternate.
+    /// Visits one node of the hierarchy, or arrives at the next copy. Begins to load the data of
+    /// the next step, so the steps of several walks should alternate.
     At step(double t_limit, std::uint32_t& copy);
 
   private:

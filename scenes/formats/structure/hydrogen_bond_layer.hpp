@@ -19,8 +19,8 @@ namespace raylane::scenes {
 /// with at most two bonds is a donor, and oxygen with at most one that is longer than 1.3 angstrom;
 /// oxygen, fluorine, and nitrogen with at most two bonds are acceptors.
 ///
-/// Atoms that are bonded to the same atom are not a pair. Atoms with more than max_bonds bonds have no
-/// hydrogen bonds, so the time for a pair is bounded.
+/// Atoms that are bonded to the same atom are not a pair. Atoms with more than max_bonds bonds have
+/// no hydrogen bonds, so the time for a pair is bounded.
 std::vector<std::pair<AtomIndex, AtomIndex>> find_hydrogen_bonds(const Structure& structure,
                                                                  const std::vector<Bond>& bonds);
 
