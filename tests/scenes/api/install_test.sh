@@ -75,7 +75,7 @@ else
         readelf -dW "$shared" | grep -qF "Library soname: [lib$library.so.$abi]" || fail "no soname of version $abi"
         nm -DC --defined-only "$shared" | cut -d' ' -f3- >>exported
     done
-    others=$(grep -vE '^(((typeinfo|typeinfo name|vtable) for|unsigned int) )?raylane(_|::)' exported || true)
+    others=$(grep -vE '^(((typeinfo|typeinfo name|vtable) for|unsigned int|void) )?raylane(_|::)' exported || true)
     [ -z "$others" ] || fail "$others"
     inside=$(grep -E '^([a-z ]+ for )?raylane::(core|simd|scenes|library)::' exported || true)
     [ -z "$inside" ] || fail "$inside"
