@@ -530,6 +530,29 @@ class SceneFromAtoms {
         }
     }
 
+    /// Returns true if there is an atom for every eight pixels, and the mean atom is narrower than
+    /// two pixels. Such an image is noise: 40 dB would take ten times the samples of other images.
+    bool is_fine() const {
+        core::Bounds bounds;
+        double radii = 0.0, count = 0.0;
+        for (const AtomLayer& layer : layers_)
+            for (AtomIndex i = 0; i < structure_.size(); ++i)
+                if (layer.has(atoms_, i)) {
+                    bounds.include({structure_.positions[i], structure_.positions[i]});
+                    radii += static_cast<double>(layer.radii.of(i));
+                    ++count;
+                }
+        const core::Bounds of_one = bounds;
+        for (const Vec3f& offset : atoms_.images)
+            bounds.include({of_one.lower + offset, of_one.upper + offset});
+        const Vec3d size =
+            core::convert<double>(bounds.upper) - core::convert<double>(bounds.lower);
+        const double extent = std::max({size.x, size.y, size.z});
+        return 8.0 * count * static_cast<double>(atoms_.images.size()) >=
+                   double(drawing_.width) * double(drawing_.height) &&
+               2.0 * radii / count * double(drawing_.height) < 2.0 * extent;
+    }
+
     void set_up_view() {
         builder_.settings.width = drawing_.width;
         builder_.settings.height = drawing_.height;
@@ -538,7 +561,10 @@ class SceneFromAtoms {
             const Style style = *layer.look.style;
             return style == Style::touching || !(has_sticks(style) || shows_chains(style));
         });
-        builder_.settings.quality = is_filled ? 40.0F : 46.0F;
+        if (is_filled && is_fine())
+            builder_.settings.grid = 3;
+        else
+            builder_.settings.quality = is_filled ? 40.0F : 46.0F;
         builder_.background = drawing_.background;
         const bool is_print = drawing_.finish == Finish::print,
                    is_flat = drawing_.finish == Finish::flat;

@@ -189,7 +189,8 @@ struct RenderArguments : OptionTable {
             .in("dB")
             .replacing(&core::Settings::quality,
                        [](const Rendered& rendered) { return rendered.settings.quality != 0.0F; })
-            .otherwise(as_in_file, "46, or 40 for spheres and points")
+            .otherwise(as_in_file, "46, or 40 for spheres and points; --spp 9 if over 135,000 of "
+                                   "these are narrower than two pixels")
             .without({"--spp"}),
         "Target PSNR against a converged image, instead of --spp; 40 suits print."};
     Option<core::PixelFilter> filter = {

@@ -344,6 +344,30 @@ TEST_CASE("flat looks have no shading, of polyhedra, cells and arrows either") {
     CHECK(flat.scene.auto_camera().depth_cue == 0.0F);
 }
 
+TEST_CASE("very many atoms that are narrower than two pixels have nine samples a pixel") {
+    // A sheet in an image of 120 x 90 pixels, in which `apart` is the distance of atoms.
+    const auto settings_of = [](int side, double apart, Style style) {
+        std::string text = std::to_string(side * side) + "\n\n";
+        for (int x = 0; x < side; ++x)
+            for (int y = 0; y < side; ++y)
+                text += "C " + std::to_string(apart * x) + ' ' + std::to_string(apart * y) + " 0\n";
+        return drawn(text,
+                     [&](Drawing& d) {
+                         d.style = style;
+                         d.width = 120;
+                         d.height = 90;
+                     })
+            .scene.settings();
+    };
+    constexpr double radius = 1.7; // of carbon; 1.9 and 2.1 pixels
+    const auto apart = [](double pixels) { return 2.0 * radius * 90.0 / pixels / 36.0; };
+    CHECK(settings_of(37, apart(1.9), Style::spheres).quality == 0.0F);
+    CHECK(settings_of(37, apart(1.9), Style::spheres).grid == 3);
+    CHECK(settings_of(37, apart(2.1), Style::spheres).quality == 40.0F);
+    CHECK(settings_of(36, 2.0 * apart(1.9), Style::spheres).quality == 40.0F); // few
+    CHECK(settings_of(37, apart(1.9), Style::sticks).quality == 46.0F);
+}
+
 TEST_CASE("the edges of the cell are visible in the examples of the pages") {
     if (!has_gemmi()) return;
     const auto share_of_edges = [](const std::string& name, const auto& change) {
