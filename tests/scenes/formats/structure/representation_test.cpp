@@ -289,6 +289,8 @@ TEST_CASE("a palette or a range is reported if no colour stands for a number") {
 
 TEST_CASE("names of colours and palettes have their colours") {
     CHECK(color_named("Orange") == 0xffa500U);
+    CHECK(color_named("lightyellow") == 0xffffe0U);
+    CHECK(color_named("rebeccapurple") == 0x663399U);
     CHECK(color_named("#0A0b0c") == 0x0a0b0cU);
     for (const char* const wrong : {"", "#", "#12345", "#1234567", "#12345g", "#+12345", "orang"})
         CHECK_FALSE(color_named(wrong));
