@@ -88,6 +88,9 @@ std::string checked_output(const RenderArguments& arguments) {
         require_other_output("--stats", *arguments.stats, "--output", output);
     }
     if (const auto& file = arguments.annotation.annotations) {
+        if (!file->ends_with(".svg"))
+            throw BadInput("--annotations", "",
+                           "must end with .svg, got \"" + printable(*file) + '"');
         require_other_than_scene("--annotations", *file, scene);
         require_other_output("--annotations", *file, "--output", output);
         if (arguments.stats)

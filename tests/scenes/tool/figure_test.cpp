@@ -149,6 +149,8 @@ TEST_CASE("annotations in a file leave the image as it is") {
     CHECK(stats["legend"][0]["colors"].size() == 9);
     CHECK(has(fixture.error({"--font", "Arial"}), "--font: goes with --legend"));
     CHECK(has(fixture.error({"--legend", "--annotations", "water.xyz"}), "--annotations: must"));
+    CHECK(has(fixture.error({"--legend", "--annotations", "a.png"}),
+              "--annotations: must end with .svg, got \"a.png\""));
     CHECK(has(fixture.error({"--label", "all: {elemnt}"}), "did you mean \"{element}\"?"));
     CHECK(has(fixture.error({"--label", "element Fe: x", "--annotations", "b.svg"}),
               "--label: \"element Fe\" selects none of 3 atoms"));
