@@ -241,7 +241,7 @@ TEST_CASE("both engines see the same sky from cylinders along a coordinate") {
         builder.settings.height = 48;
         builder.camera.from = {2.3F, 2.1F, 3.7F};
         builder.camera.at = {0.1F, 0.2F, 0.3F};
-        Vec3f along;
+        Vec3f along(0.0F);
         along[axis] = 1.3F;
         builder.add_shape(CappedCylinder{{0.1F, 0.2F, -0.1F}, along, 0.4F}, white());
         builder.add_shape(Sphere{{0.3F, 1.1F, 0.65F}, 0.4F}, white());
