@@ -26,6 +26,23 @@ bool round(const DoubleDouble& sum, double size, double& nearest) {
            sum.high + (sum.low - error) == sum.high;
 }
 
+/// Computes the rows of a placement's linear map in this type. `rows`: zeros.
+template <class Number>
+void set_rows(const Placement& placement, Number (&rows)[3][3]) {
+    for (int axis = 0; axis < 3; ++axis)
+        rows[axis][axis] = placement.scale;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (placement.rotate[axis] == 0.0) continue;
+        const auto [sine, cosine] = turn_by_degrees(placement.rotate[axis]);
+        const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+        for (int column = 0; column < 3; ++column) {
+            const Number a = rows[j][column], b = rows[k][column];
+            rows[j][column] = Number(cosine) * a - Number(sine) * b;
+            rows[k][column] = Number(sine) * a + Number(cosine) * b;
+        }
+    }
+}
+
 void check_number(const std::string& field, double value) {
     if (!(std::abs(value) <= 1e30))
         throw InvalidValue(field, "must be from -1e30 to 1e30, got " + checks::text_of(value));
@@ -55,34 +72,18 @@ bool can_place(const PartShape& shape) {
            std::holds_alternative<CylinderOf<double, Ends::capped>>(shape);
 }
 
-Placer::Placer(const Placement& placement) : placement_(placement), turns_(false) {
-    for (int axis = 0; axis < 3; ++axis) {
-        rows_[axis][axis] = placement.scale;
-        turns_ = turns_ || placement.rotate[axis] != 0.0;
-    }
-    for (int axis = 0; turns_ && axis < 3; ++axis) {
-        const auto [sine, cosine] = turn_by_degrees(placement.rotate[axis]);
-        const int j = (axis + 1) % 3, k = (axis + 2) % 3;
-        for (int column = 0; column < 3; ++column) {
-            const DoubleDouble a = rows_[j][column], b = rows_[k][column];
-            rows_[j][column] = DoubleDouble(cosine) * a - DoubleDouble(sine) * b;
-            rows_[k][column] = DoubleDouble(sine) * a + DoubleDouble(cosine) * b;
-        }
-    }
+Placer::Placer(const Placement& placement)
+    : placement_(placement), turns_(placement.rotate != Vec3d(0.0)) {
+    set_rows(placement, rows_);
 }
 
 std::array<Vec3d, 3> rows_of(const Placement& placement) {
-    std::array<Vec3d, 3> rows{};
-    for (int axis = 0; axis < 3; ++axis)
-        rows[axis][axis] = placement.scale;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (placement.rotate[axis] == 0.0) continue;
-        const auto [sine, cosine] = turn_by_degrees(placement.rotate[axis]);
-        const Vec3d a = rows[(axis + 1) % 3], b = rows[(axis + 2) % 3];
-        rows[(axis + 1) % 3] = cosine * a - sine * b;
-        rows[(axis + 2) % 3] = sine * a + cosine * b;
-    }
-    return rows;
+    double rows[3][3]{};
+    set_rows(placement, rows);
+    std::array<Vec3d, 3> result{};
+    for (std::size_t i = 0; i < 3; ++i)
+        result[i] = {rows[i][0], rows[i][1], rows[i][2]};
+    return result;
 }
 
 bool Placer::place_point(const Vec3d& point, Vec3d& placed) const {

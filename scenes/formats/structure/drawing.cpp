@@ -476,15 +476,21 @@ class SceneFromAtoms {
             scale_.keys.push_back(std::move(key));
     }
 
+    /// Returns bounds of the centres of the atoms that are shown, in the file's cell.
+    core::Bounds bounds_of_shown() const {
+        core::Bounds bounds;
+        for (AtomIndex i = 0; i < structure_.size(); ++i)
+            if (atoms_.representations[i] != DrawnAtoms::hidden)
+                bounds.include({structure_.positions[i], structure_.positions[i]});
+        return bounds;
+    }
+
     void find_cuts() {
         atoms_.cuts = drawing_.cuts;
         if (!drawing_.slab) return;
         const Vec3d along = core::convert<double>(camera_.direction);
         const Vec3d back = -1.0 / core::length(along) * along;
-        core::Bounds bounds;
-        for (AtomIndex i = 0; i < structure_.size(); ++i)
-            if (atoms_.representations[i] != DrawnAtoms::hidden)
-                bounds.include({structure_.positions[i], structure_.positions[i]});
+        const core::Bounds bounds = bounds_of_shown();
         const double middle = 0.5 * core::dot(back, core::convert<double>(bounds.lower) +
                                                         core::convert<double>(bounds.upper));
         atoms_.cuts.push_back({back, middle + drawing_.slab->second});
@@ -533,16 +539,15 @@ class SceneFromAtoms {
     /// Returns true if there is an atom for every eight pixels, and the mean atom is narrower than
     /// two pixels. Such an image is noise: 40 dB would take ten times the samples of other images.
     bool is_fine() const {
-        core::Bounds bounds;
         double radii = 0.0, count = 0.0;
         for (const AtomLayer& layer : layers_)
             for (AtomIndex i = 0; i < structure_.size(); ++i)
                 if (layer.has(atoms_, i)) {
-                    bounds.include({structure_.positions[i], structure_.positions[i]});
                     radii += static_cast<double>(layer.radii.of(i));
                     ++count;
                 }
-        const core::Bounds of_one = bounds;
+        const core::Bounds of_one = bounds_of_shown();
+        core::Bounds bounds = of_one;
         for (const Vec3f& offset : atoms_.images)
             bounds.include({of_one.lower + offset, of_one.upper + offset});
         const Vec3d size =
