@@ -263,6 +263,18 @@ def test_old_names_warn(ball):
         with pytest.warns(DeprecationWarning, match="shape_id") as warned:
             assert np.array_equal(use(), expected)
         assert len(warned) == 1 and warned[0].filename == __file__
+    aovs = raylane.render(ball, width=4, height=3, aovs=True).aovs
+    for use, new in (
+        (lambda: raylane.render(ball, width=4, height=3, layers=True).aovs.depth, "aovs=..."),
+        (lambda: raylane.Image(np.zeros((3, 4, 3)), layers=aovs).aovs.depth, "Image(aovs=...)"),
+        (lambda: raylane.render(ball, width=4, height=3, aovs=True).layers.depth, "aovs"),
+        (lambda: raylane.Layers and aovs.depth, "Aovs"),
+        (lambda: raylane.Settings(max_see_through=2).max_transparent * aovs.depth / 2, "max_transparent"),
+        (lambda: raylane.render(ball, width=4, height=3, max_see_through=2, aovs=True).aovs.depth, "max_transparent"),
+    ):
+        with pytest.warns(DeprecationWarning) as warned:
+            assert np.array_equal(use(), aovs.depth)
+        assert len(warned) == 1 and new in str(warned[0].message)
     leaving = Leaving(ids, 0)
     with pytest.warns(DeprecationWarning, match="Leaving.shape is now shape_id"):
         leaving.shape = 7

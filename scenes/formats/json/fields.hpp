@@ -19,6 +19,11 @@ namespace raylane::scenes {
 std::size_t read_word(const JsonValue& value, const core::fields::Valid& valid,
                       const char* other = nullptr);
 
+/// Returns the former name of a key, which works for one version, or an empty text.
+constexpr std::string_view former_key(std::string_view key) {
+    return key == "max_transparent" ? "max_see_through" : "";
+}
+
 void read_field(const JsonValue& value, const core::fields::Field& field, float& to);
 void read_field(const JsonValue& value, const core::fields::Field& field, int& to);
 void read_field(const JsonValue& value, const core::fields::Field& field, bool& to);
@@ -51,7 +56,9 @@ void allow_fields(const JsonValue& value, const Of& object,
     std::vector<std::string_view> keys(others);
     core::fields::for_each_field(
         [&, kind = core::fields::kind_of(object)](const core::fields::Field& field, const auto&) {
-            if (field.is_in(group, kind)) keys.push_back(field.key());
+            if (!field.is_in(group, kind)) return;
+            keys.push_back(field.key());
+            if (!former_key(field.key()).empty()) keys.push_back(former_key(field.key()));
         },
         object);
     value.allow_only(keys);
@@ -69,6 +76,8 @@ void read_fields(const JsonValue& value, Of& object, std::string_view group = ""
                     read_field(value.at(field.key()), field, member);
                 else if (const auto found = value.find(field.key()))
                     read_field(*found, field, member);
+                else if (const auto former = value.find(former_key(field.key())))
+                    read_field(*former, field, member);
             }
         },
         object);

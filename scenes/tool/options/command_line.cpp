@@ -13,8 +13,7 @@ namespace raylane::scenes {
 
 namespace {
 
-CLI::Option* add(CLI::App& command, AnyOption& option) {
-    const std::string& names = option.names();
+CLI::Option* add(CLI::App& command, AnyOption& option, const std::string& names) {
     if (option.properties().type.empty() && names.starts_with('-'))
         return command
             .add_flag_callback(
@@ -48,9 +47,10 @@ CLI::Option* add(CLI::App& command, AnyOption& option) {
 void add_all(CLI::App& command, const OptionTable& table, bool recorded_ones) {
     for (AnyOption* option : table.options()) {
         if (recorded_ones && !option->properties().is_recorded) continue;
-        CLI::Option* const added = add(command, *option);
+        CLI::Option* const added = add(command, *option, option->names());
         if (added->get_items_expected_max() > 0) added->type_name(option->properties().type);
         added->group(option->group())->required(option->properties().is_required);
+        if (const char* former = option->former_name()) add(command, *option, former)->group("");
     }
 }
 

@@ -56,6 +56,14 @@ std::string AnyOption::name() const {
     return name.substr(0, name.find(','));
 }
 
+const char* AnyOption::former_name() const {
+    constexpr std::pair<std::string_view, const char*> former_names[] = {
+        {"--aovs", "--layers"}, {"--max-transparent", "--max-see-through"}};
+    for (const auto& [name, former] : former_names)
+        if (names_ == name) return former;
+    return nullptr;
+}
+
 std::string AnyOption::help() const {
     const OptionProperties& option = properties();
     std::string text = help_;

@@ -140,6 +140,8 @@ class AnyOption {
     virtual const OptionProperties& properties() const = 0;
     /// Returns the name in messages: "--output" for "-o,--output".
     std::string name() const;
+    /// Returns the name in the version before, which is not in the help, or null.
+    const char* former_name() const;
     std::string help() const;
     virtual bool is_list() const { return false; }
 

@@ -28,9 +28,12 @@ bool takes_value(const AnyOption& option) {
 
 /// Returns the option of a name such as "--size" or "-o", or null.
 const AnyOption* option_named(std::string_view name, const OptionTable& options) {
-    for (const AnyOption* option : options.options())
+    for (const AnyOption* option : options.options()) {
         for (const std::string_view known : parts_of(option->names(), ','))
             if (known == name) return option;
+        if (const char* former = option->former_name(); former != nullptr && former == name)
+            return option;
+    }
     return nullptr;
 }
 

@@ -631,7 +631,7 @@ void list_words_of_schema(const json& schema, Words& words) {
             words.insert(schema["const"].get<std::string>());
         const json properties = schema.value("properties", json::object());
         for (const auto& [key, child] : properties.items())
-            words.insert(key);
+            if (!child.value("deprecated", false)) words.insert(key);
     }
     if (schema.is_structured())
         for (const json& child : schema)

@@ -13,11 +13,17 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <type_traits>
 
 using namespace raylane;
 using tests::message_of;
 
 namespace {
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+static_assert(std::is_same_v<Layers, Aovs>, "the former name");
+#pragma GCC diagnostic pop
 
 Scene mirrored_ball() {
     SceneBuilder builder;

@@ -107,6 +107,10 @@ TEST_CASE("options that an image cannot have give an error of one line") {
           "raylane: --crop: must lie in the image of 16 x 12 pixels, got \"10,0,7x3\"\n");
     CHECK(error_of(fixture, "a.png", {"--aovs"}) ==
           "raylane: --aovs: goes with an output that ends in .exr\n");
+    CHECK(error_of(fixture, "a.png", {"--layers"}) == // the former name
+          "raylane: --aovs: goes with an output that ends in .exr\n");
+    CHECK(error_of(fixture, "a.png", {"--max-see-through", "0"}) ==
+          "raylane: --max-transparent: must be a whole number from 1 to 1000000, got \"0\"\n");
     CHECK(error_of(fixture, "a.pfm", {"--dpi", "300"}) ==
           "raylane: --dpi: goes with PNG, TIFF or EXR\n");
     CHECK(error_of(fixture, "a.hdr", {"--bits", "16"}) ==

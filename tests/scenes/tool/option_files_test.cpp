@@ -80,6 +80,9 @@ TEST_CASE("mistakes in a file of options name file and line") {
           "raylane: figure.txt:2: unknown option \"--siez\", did you mean \"--size\"?\n");
     CHECK(error("--spp 5\n") == "raylane: figure.txt:1: --spp: must be a square number from 1 to "
                                 "65536, such as 1, 4, 9 or 16, got \"5\"\n");
+    CHECK(error("--max-see-through 0\n") == // the former name
+          "raylane: figure.txt:1: --max-transparent: must be a whole number from 1 to 1000000, "
+          "got \"0\"\n");
     CHECK(error("\n--spp\n") == "raylane: figure.txt:2: --spp: must have a value, N\n");
     CHECK(error("--orthographic yes\n") ==
           "raylane: figure.txt:1: --orthographic: must have no value\n");

@@ -29,6 +29,8 @@ struct Aovs {
     std::vector<std::uint32_t> samples{};  ///< number of samples in the pixel's colour
 };
 
+using Layers [[deprecated("renamed to Aovs")]] = Aovs;
+
 /// An image in linear float RGB. Components are >= 0 and may exceed 1.
 struct Image {
     int width = 0;            ///< pixels

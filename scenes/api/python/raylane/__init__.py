@@ -15,6 +15,7 @@ from ._group import Group
 from ._image import Cancelled, Image, Aovs, imshow, render
 from ._orbit import orbit
 from ._raylane import version as __version__
+from ._renamed import renamed_class as _renamed_class
 from ._scene import Scene, SceneBuilder, load, parse
 from ._shapes import Shapes
 from ._solids import Solid, Transform
@@ -79,6 +80,13 @@ __all__ = [
     "parse",
     "render",
 ]
+
+
+def __getattr__(name: str) -> object:
+    if name == "Layers":
+        return _renamed_class("Layers", Aovs)
+    raise AttributeError(f'module "raylane" has no attribute "{name}"')
+
 
 if "ase" in _sys.modules:
     from . import ase_viewer as _ase_viewer  # noqa: F401

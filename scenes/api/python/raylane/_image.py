@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from . import _raylane
 from ._fields import Fields
-from ._renamed import renamed
+from ._renamed import renamed, take_renamed
 from ._scene import Scene, inner
 from ._values import Camera, Precision, Settings
 
@@ -47,6 +47,7 @@ class Aovs:
         self.samples: NDArray[np.uint32] = arrays["samples"]
 
 
+@renamed("layers", "aovs")
 class Image(Fields):
     """An image in linear float RGB. Components are >= 0 and may exceed 1."""
 
@@ -182,6 +183,7 @@ def render(
     even in its last call. Ctrl-C stops the rendering at once. Other Python threads run meanwhile.
     """
     inner(scene)
+    aovs = take_renamed(changed, "layers", "aovs", aovs)
     chosen = dataclasses.replace(scene.settings if settings is None else settings, **changed)
     if camera is not None:
         scene = scene.seen_by(camera)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, Tuple, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Dict, Tuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +42,20 @@ def renamed(old: str, new: str) -> Callable[[AnyClass], AnyClass]:
         return kind
 
     return keep
+
+
+def renamed_class(old: str, kind: AnyClass) -> AnyClass:
+    """Returns the class, for the attribute ``old`` of the module, and warns."""
+    _warn(old, kind.__name__)
+    return kind
+
+
+def take_renamed(named: Dict[str, Any], old: str, new: str, default: Any) -> Any:
+    """Removes the argument of the old name from ``named``, and returns its value, or the default."""
+    if old not in named:
+        return default
+    _warn(f"{old}=...", f"{new}=...")
+    return named.pop(old)
 
 
 class ShapeOfHits(Tuple[int, ...]):

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import _raylane
 from ._fields import Fields
+from ._renamed import renamed
 
 Vector = Tuple[float, float, float]
 """A point, a direction or a colour (red, green, blue): any three numbers."""
@@ -232,6 +233,7 @@ class Outline(Fields):
     their normals exceeds this one. 180: lines only where one surface is in front of another."""
 
 
+@renamed("max_see_through", "max_transparent")
 @dataclass
 class Settings(Fields):
     """Settings of a scene's image.

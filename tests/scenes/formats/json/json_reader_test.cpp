@@ -58,7 +58,7 @@ TEST_CASE("the scene has every value of the root keys") {
                over lines */
             "image": {"width": 300, "height": 2e2, "transfer": "linear"},
             "sampling": {"grid": 4.0, "pattern": "stratified", "quality": 38.5, "filter": "gaussian"},
-            "limits": {"max_depth": 0, "min_weight": 0.25},
+            "limits": {"max_depth": 0, "min_weight": 0.25, "max_see_through": 3},
             "camera": {"type": "orthographic", "from": [1, 2, 3], "at": [4, 5, 6.5], "up": [0, 0, 2], "height": 3.5},
             "background": [0.1, 0.2, 0.3],
             "fog": {"type": "linear", "color": [1, 0.5, 0.25], "start": 1, "end": 9},
@@ -76,6 +76,7 @@ TEST_CASE("the scene has every value of the root keys") {
     CHECK(scene.settings().quality == 38.5F);
     CHECK(scene.settings().filter == core::PixelFilter::gaussian);
     CHECK(scene.settings().max_depth == 0);
+    CHECK(scene.settings().max_transparent == 3); // by its former name
     CHECK(scene.settings().min_weight == 0.25F);
     CHECK(scene.camera().projection == core::Projection::orthographic);
     CHECK(scene.camera().from == Vec3f(1, 2, 3));
