@@ -84,13 +84,13 @@ EmbreeDevice make_embree_device(simd::Isa isa) {
 }
 
 bool EmbreeScene::can_hold(const core::Scene& scene) {
-    bool all = std::all_of(
+    bool has_all = std::all_of(
         scene.materials().begin(), scene.materials().end(),
         [](const core::Material& material) { return material.visible == core::Visible::both; });
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
-        all = all && (embree_has<Shape> || table.size() == 0);
+        has_all = has_all && (embree_has<Shape> || table.size() == 0);
     });
-    return all;
+    return has_all;
 }
 
 EmbreeScene::EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFlags flags,

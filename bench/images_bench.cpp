@@ -39,8 +39,8 @@ struct Subject {
           converged(render(to_converge(), core::Precision::plain_double).film) {}
 
     static const Subject& of(const std::string& name) {
-        static std::map<std::string, std::unique_ptr<Subject>> all;
-        std::unique_ptr<Subject>& subject = all[name];
+        static std::map<std::string, std::unique_ptr<Subject>> subjects;
+        std::unique_ptr<Subject>& subject = subjects[name];
         if (subject == nullptr)
             subject = std::make_unique<Subject>(scenes::load_scene(
                 std::filesystem::path(RAYLANE_SOURCE_DIR) / "scenes" / (name + ".json")));

@@ -102,9 +102,10 @@ Flights make_flights(std::size_t count, Random& random) {
             for (int axis = 0; axis < 3; ++axis)
                 ray[3 + axis] = to[axis] - ray[axis];
             if (n % 4 == 1) {
-                double& some = ray[random.integer(6)];
-                some = some == 0.0 ? 0x1p-60
-                                   : std::nextafter(some, random.integer(2) == 0 ? -99.0 : 99.0);
+                double& component = ray[random.integer(6)];
+                component = component == 0.0
+                                ? 0x1p-60
+                                : std::nextafter(component, random.integer(2) == 0 ? -99.0 : 99.0);
             }
         }
         if (ray[3] == 0.0 && ray[4] == 0.0 && ray[5] == 0.0) ray[5] = 1.0;

@@ -21,11 +21,11 @@ std::vector<fs::path> folders() {
     const fs::path source = RAYLANE_SOURCE_DIR;
     const char* given = std::getenv("RAYLANE_SCENES");
     if (given == nullptr) return {source / "scenes", source.parent_path() / "shared" / "scenes"};
-    std::vector<fs::path> all;
+    std::vector<fs::path> paths;
     std::istringstream list(given);
     for (std::string folder; std::getline(list, folder, ':');)
-        all.emplace_back(folder);
-    return all;
+        paths.emplace_back(folder);
+    return paths;
 }
 
 bool is_scene(const fs::path& path) {
@@ -37,11 +37,11 @@ std::vector<fs::path> scene_files() {
     std::vector<fs::path> files;
     for (const fs::path& folder : folders()) {
         std::error_code absent;
-        std::vector<fs::path> here;
+        std::vector<fs::path> found;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder, absent))
-            if (is_scene(entry.path())) here.push_back(entry.path());
-        std::sort(here.begin(), here.end());
-        files.insert(files.end(), here.begin(), here.end());
+            if (is_scene(entry.path())) found.push_back(entry.path());
+        std::sort(found.begin(), found.end());
+        files.insert(files.end(), found.begin(), found.end());
     }
     return files;
 }

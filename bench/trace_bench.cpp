@@ -94,8 +94,8 @@ struct Setup {
     }
 
     static Setup& of(Mix mix, int count) {
-        static std::map<std::pair<Mix, int>, std::unique_ptr<Setup>> all;
-        std::unique_ptr<Setup>& setup = all[{mix, count}];
+        static std::map<std::pair<Mix, int>, std::unique_ptr<Setup>> setups;
+        std::unique_ptr<Setup>& setup = setups[{mix, count}];
         if (setup == nullptr) setup = std::make_unique<Setup>(mix, count);
         return *setup;
     }

@@ -51,9 +51,10 @@ struct Rays {
     std::vector<float> values[6];
 
     void add(const Vec3& origin, const Vec3& direction) {
-        const float all[] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
+        const float numbers[] = {origin.x,    origin.y,    origin.z,
+                                 direction.x, direction.y, direction.z};
         for (int k = 0; k < 6; ++k)
-            values[k].push_back(all[k]);
+            values[k].push_back(numbers[k]);
     }
     std::size_t size() const { return values[0].size(); }
     RaySpan span(std::size_t first, std::size_t count) const {
@@ -121,8 +122,8 @@ AllTimes crossing_times(const Situation& situation) {
     const Tracer tracer(situation.scene, {.threads = 1});
     CrossingRows rows;
     const std::size_t count = situation.rays.size();
-    AllTimes times{times_of(count, [&](std::size_t first, std::size_t some) {
-        tracer.crossings(situation.rays.span(first, some), rows);
+    AllTimes times{times_of(count, [&](std::size_t first, std::size_t size) {
+        tracer.crossings(situation.rays.span(first, size), rows);
     })};
     tracer.crossings(situation.rays.span(0, count), rows);
     times.crossings = static_cast<double>(rows.t.size()) / static_cast<double>(count);
@@ -310,17 +311,19 @@ Situation crates(int side) {
         builder.add(Box{corner, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, material);
     }
     Rays rays;
-    const auto whole = [&] { return std::floor(random.uniform(0.0F, static_cast<float>(side))); };
+    const auto grid_number = [&] {
+        return std::floor(random.uniform(0.0F, static_cast<float>(side)));
+    };
     for (int i = 0; i < ray_count; ++i)
         switch (i % 3) {
         case 0:
-            rays.add({whole(), whole(), -1}, {0, 0, 1});
+            rays.add({grid_number(), grid_number(), -1}, {0, 0, 1});
             break;
         case 1:
-            rays.add({whole(), whole() + 0.5F, whole() - 0.5F}, {0, 1, 1});
+            rays.add({grid_number(), grid_number() + 0.5F, grid_number() - 0.5F}, {0, 1, 1});
             break;
         default:
-            rays.add({whole(), whole(), whole()}, random.cube(1.0F));
+            rays.add({grid_number(), grid_number(), grid_number()}, random.cube(1.0F));
         }
     return {builder.build(), rays};
 }
@@ -348,9 +351,9 @@ Situation sizes(float large, float small) {
 using Make = std::function<Situation()>;
 
 std::vector<std::pair<std::string, Make>> all_situations() {
-    std::vector<std::pair<std::string, Make>> all;
+    std::vector<std::pair<std::string, Make>> subjects;
     const auto add = [&](const std::string& name, const Make& make) {
-        all.emplace_back(name, make);
+        subjects.emplace_back(name, make);
     };
     for (const float size : {1e-6F, 1e-3F, 1.0F, 1e3F, 1e6F})
         for (const float distance : {0.0F, 3.0F, 1e3F, 1e6F}) {
@@ -397,7 +400,7 @@ std::vector<std::pair<std::string, Make>> all_situations() {
     add("crates/8000", [] { return crates(20); });
     add("sizes/1e30/1e-30", [] { return sizes(1e30F, 1e-30F); });
     add("sizes/1e9/1e-9", [] { return sizes(1e9F, 1e-9F); });
-    return all;
+    return subjects;
 }
 
 } // namespace
@@ -417,10 +420,10 @@ int main(int argc, char** argv) {
         const Times exact = raylane_times(situation, Precision::exact),
                     robust = raylane_times(situation, Precision::robust),
                     embree = embree_times(situation);
-        const AllTimes all = crossing_times(situation);
+        const AllTimes total_times = crossing_times(situation);
         std::printf("%-36s %9.0f %9.0f %9.0f %9.0f %9.0f %9.0f %9.0f %9.0f %9.1f\n", name.c_str(),
                     exact.mean, exact.worst, robust.mean, robust.worst, embree.mean, embree.worst,
-                    all.mean, all.worst, all.crossings);
+                    total_times.mean, total_times.worst, total_times.crossings);
         std::fflush(stdout);
     }
 }

@@ -29,14 +29,15 @@ class Library {
     }
 
     void run() {
-        const auto all = [](const std::vector<float>(&columns)[3], int axis) {
+        const auto component = [](const std::vector<float>(&columns)[3], int axis) {
             return columns[axis].data();
         };
         simd::CrossingCounters counters;
         tracer_.crossings(
-            simd::RayStream<float>{count_,
-                                   {all(origin_, 0), all(origin_, 1), all(origin_, 2)},
-                                   {all(direction_, 0), all(direction_, 1), all(direction_, 2)}},
+            simd::RayStream<float>{
+                count_,
+                {component(origin_, 0), component(origin_, 1), component(origin_, 2)},
+                {component(direction_, 0), component(direction_, 1), component(direction_, 2)}},
             {}, rows_, counters);
     }
 
@@ -56,19 +57,20 @@ std::size_t count_wrong(const simd::CrossingRows& right, const ShapeRows& other)
     for (std::size_t i = 0; i + 1 < right.first.size(); ++i) {
         const std::uint64_t begin = right.first[i], end = right.first[i + 1];
         bool is_same = end - begin == other.first[i + 1] - other.first[i];
-        for (std::uint64_t there = begin; is_same && there < end;) {
-            std::uint64_t last = there + 1; // of the crossings at one t
+        for (std::uint64_t crossing = begin; is_same && crossing < end;) {
+            std::uint64_t last = crossing + 1; // of the crossings at one t
             while (last < end && right.tied[last] != 0)
                 ++last;
-            const auto all = [&](const std::vector<core::ShapeId>& shapes, std::uint64_t first) {
-                std::vector<core::ShapeId> some(
-                    shapes.begin() + static_cast<std::ptrdiff_t>(first + there - begin),
+            const auto shapes_of = [&](const std::vector<core::ShapeId>& shapes,
+                                       std::uint64_t first) {
+                std::vector<core::ShapeId> part(
+                    shapes.begin() + static_cast<std::ptrdiff_t>(first + crossing - begin),
                     shapes.begin() + static_cast<std::ptrdiff_t>(first + last - begin));
-                std::sort(some.begin(), some.end());
-                return some;
+                std::sort(part.begin(), part.end());
+                return part;
             };
-            is_same = all(right.shape, begin) == all(other.shape, other.first[i]);
-            there = last;
+            is_same = shapes_of(right.shape, begin) == shapes_of(other.shape, other.first[i]);
+            crossing = last;
         }
         wrong += is_same ? 0 : 1;
     }

@@ -73,7 +73,7 @@ class Embree : public Contender {
     }
 
     std::vector<std::uint32_t> answers() override {
-        std::vector<std::uint32_t> all;
+        std::vector<std::uint32_t> ids;
         for (std::size_t i = 0; i < rays_->count; ++i) {
             const std::size_t packet = i / width, lane = i % width;
             const bool wide = is_wide();
@@ -81,10 +81,10 @@ class Embree : public Contender {
             const unsigned geometry = wide ? wide_[packet].hit.geomID[lane] : single_[i].hit.geomID;
             const unsigned primitive =
                 wide ? wide_[packet].hit.primID[lane] : single_[i].hit.primID;
-            all.push_back(rays_->occlusion ? (tfar < 0.0F ? 1U : 0U)
+            ids.push_back(rays_->occlusion ? (tfar < 0.0F ? 1U : 0U)
                                            : built_->scene.shape(geometry, primitive));
         }
-        return all;
+        return ids;
     }
 
   private:
@@ -145,13 +145,13 @@ const char* embree_version() {
 }
 
 Contenders make_embree(const core::Scene& scene, simd::Isa isa, int most) {
-    Contenders all;
-    if (!EmbreeScene::can_hold(scene)) return all;
+    Contenders contenders;
+    if (!EmbreeScene::can_hold(scene)) return contenders;
     const auto built = std::make_shared<const Built>(scene, isa);
     for (const Call call : calls)
         if (call == Call::single || most >= static_cast<int>(width))
-            all.push_back(std::make_unique<Embree>(built, call));
-    return all;
+            contenders.push_back(std::make_unique<Embree>(built, call));
+    return contenders;
 }
 
 std::optional<TimedRun> embree_building(const core::Scene& scene, simd::Isa isa) {

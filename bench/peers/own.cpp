@@ -99,13 +99,13 @@ class Own : public Contender {
     }
 
     std::vector<std::uint32_t> answers() override {
-        std::vector<std::uint32_t> all = answers_;
-        for (std::uint32_t& answer : all)
+        std::vector<std::uint32_t> ids = answers_;
+        for (std::uint32_t& answer : ids)
             if (rays_->occlusion)
                 answer = answer == simd::blocked ? 1 : 0;
             else
                 answer = answer == simd::no_slot ? core::no_shape : scene_.id_of(answer);
-        return all;
+        return ids;
     }
 
   private:

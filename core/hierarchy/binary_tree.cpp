@@ -157,11 +157,11 @@ BinaryForest build_binary_forest(const ShapeLists& lists, std::span<const EndsOf
     BigArray<Item> items = items_of(lists, ends, duplicates, ends_of_items, workers);
     BinaryForest forest;
     forest.trees.resize(ends.size());
-    const std::span<Item> all(items.data(), items.size());
+    const std::span<Item> all_items(items.data(), items.size());
     workers.each(ends.size(), [&](std::size_t i) {
         const std::size_t first = i == 0 ? 0 : ends_of_items[i - 1];
-        const Range range = range_of(all, first, ends_of_items[i], workers);
-        TreeBuilder(all, duplicates, workers).build(range, forest.trees[i]);
+        const Range range = range_of(all_items, first, ends_of_items[i], workers);
+        TreeBuilder(all_items, duplicates, workers).build(range, forest.trees[i]);
     });
     forest.positions = Positions(std::move(items));
     return forest;

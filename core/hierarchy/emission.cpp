@@ -185,13 +185,13 @@ Emission emit_all(BinaryForest& forest, const ShapeLists& lists,
     Tally size = size_of(forest.trees.front(), workers), next;
     // A root that is a leaf still needs a wide node.
     if (root.is_leaf()) size.nodes = next.nodes = 1;
-    Emission all(size, has_doubles);
-    const Child child = emit(forest, 0, lists, workers, next, all);
+    Emission emission(size, has_doubles);
+    const Child child = emit(forest, 0, lists, workers, next, emission);
     if (root.is_leaf()) {
-        all.nodes[0] = WideNode();
-        all.nodes[0].set(0, padded(root.bounds), child);
+        emission.nodes[0] = WideNode();
+        emission.nodes[0].set(0, padded(root.bounds), child);
     }
-    return all;
+    return emission;
 }
 
 } // namespace raylane::core

@@ -32,9 +32,9 @@ class Workers {
     virtual void added(std::size_t count) { static_cast<void>(count); }
     /// Reports that `count` more of the bounded shapes, out of `all`, have a place in the
     /// hierarchy. Called by the thread that placed them.
-    virtual void placed(std::size_t count, std::size_t all) {
+    virtual void placed(std::size_t count, std::size_t total) {
         static_cast<void>(count);
-        static_cast<void>(all);
+        static_cast<void>(total);
     }
 };
 

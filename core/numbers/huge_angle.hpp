@@ -34,7 +34,7 @@ ReducedAngle<double> reduced_huge_angle(double x) {
 
     const auto bits = __builtin_bit_cast(std::uint64_t, x);
     const int exponent = static_cast<int>(bits >> 52 & 0x7FF) - 1075;
-    const std::uint64_t whole = (bits & 0xFFFFFFFFFFFFF) | 0x10000000000000;
+    const std::uint64_t mantissa = (bits & 0xFFFFFFFFFFFFF) | 0x10000000000000;
 
     // The digit that counts two quadrants is the first significant one.
     const int first = exponent + 62, shift = first % 64;
@@ -44,9 +44,9 @@ ReducedAngle<double> reduced_huge_angle(double x) {
         window[i] = shift == 0 ? word[0] : word[0] << shift | word[1] >> (64 - shift);
     }
     // In quadrants, modulo 4, times 2^126.
-    const Wide low = static_cast<Wide>(whole) * window[2];
-    const Wide turned = (static_cast<Wide>(whole * window[0]) << 64) +
-                        static_cast<Wide>(whole) * window[1] + (low >> 64);
+    const Wide low = static_cast<Wide>(mantissa) * window[2];
+    const Wide turned = (static_cast<Wide>(mantissa * window[0]) << 64) +
+                        static_cast<Wide>(mantissa) * window[1] + (low >> 64);
 
     const Wide nearest = (turned + (static_cast<Wide>(1) << 125)) >> 126;
     Wide rest = turned - (nearest << 126);

@@ -133,8 +133,8 @@ class SoftLightSampler {
         const Number sine_squared =
             radius_squared / P::select(outside, squared, Number(4.0) * radius_squared);
         const Number of_cone = sine_squared / (one + P::sqrt(not_negative(one - sine_squared)));
-        const Number whole = P::select(outside, of_cone, Number(2.0));
-        const Number h = u * whole;
+        const Number height = P::select(outside, of_cone, Number(2.0));
+        const Number h = u * height;
         const Number cosine = one - h, sine = P::sqrt(not_negative(h * (Number(2.0) - h)));
         const Turn azimuth = turn(v);
         const V direction = around(axis, sine * azimuth.cosine, sine * azimuth.sine, cosine);
@@ -142,7 +142,7 @@ class SoftLightSampler {
         const Number half_chord = P::sqrt(not_negative(radius_squared - across * across));
         const Number along = distance * cosine;
         return {direction, P::select(outside, along - half_chord, along + half_chord),
-                Number(2.0) * whole, zero};
+                Number(2.0) * height, zero};
     }
 
     /// Samples the cone of directions to a disc, which is elliptic. Its axis bisects the angle

@@ -87,16 +87,16 @@ void PathLengths::begin_around_start(const LeavingRay& from, std::span<const Hit
     }
 }
 
-void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, double t_min,
+void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> found, double t_min,
                       double t_max, Bodies bodies, std::vector<BodyLength>& lengths) {
     if (!(t_min < t_max)) return;
     bodies_ = bodies;
     // A ray may leave a solid that is cut open without having entered it.
-    std::span<const Hit<double>> hits = all;
-    if (std::any_of(all.begin(), all.end(),
+    std::span<const Hit<double>> hits = found;
+    if (std::any_of(found.begin(), found.end(),
                     [&](const Hit<double>& hit) { return scene_.solids().is_open(hit.shape); })) {
         closed_.clear();
-        std::copy_if(all.begin(), all.end(), std::back_inserter(closed_),
+        std::copy_if(found.begin(), found.end(), std::back_inserter(closed_),
                      [&](const Hit<double>& hit) { return !scene_.solids().is_open(hit.shape); });
         hits = closed_;
     }

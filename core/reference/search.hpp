@@ -26,8 +26,10 @@ class FunctionRef<Result(Arguments...)> {
     template <class Callable>
     requires(!std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef>)
         FunctionRef(const Callable& callable) // NOLINT: implicit
-        : callable_(std::addressof(callable)), call_([](const void* of, Arguments... arguments) {
-              return (*static_cast<const Callable*>(of))(std::forward<Arguments>(arguments)...);
+        : callable_(std::addressof(callable)),
+          call_([](const void* pointer, Arguments... arguments) {
+              return (*static_cast<const Callable*>(pointer))(
+                  std::forward<Arguments>(arguments)...);
           }) {}
 
     Result operator()(Arguments... arguments) const {

@@ -43,15 +43,15 @@ class Checker {
     /// Calls `is_right(i)` for all i below `count`; refuses with `what` if it is false for any.
     template <class IsRight>
     void require_all(std::size_t count, const char* what, const IsRight& is_right) {
-        std::atomic<bool> all = true;
+        std::atomic<bool> are_valid = true;
         workers_.each((count + in_a_task - 1) / in_a_task, [&](std::size_t task) {
             const std::size_t last = std::min(count, (task + 1) * in_a_task);
             bool mine = true;
             for (std::size_t i = task * in_a_task; i < last && mine; ++i)
                 mine = is_right(i);
-            if (!mine) all = false;
+            if (!mine) are_valid = false;
         });
-        if (!all) refuse(what);
+        if (!are_valid) refuse(what);
     }
 
     void check_counts() const {
@@ -198,10 +198,10 @@ class Checker {
         if (shape_count() > max_packed_ids) refuse("too many packed spheres");
         require_all(packed.blocks.size(), "invalid packed spheres", [&](std::size_t index) {
             const PackedBlock& block = packed.blocks[index];
-            const std::size_t first = block.whole >> PackedBlock::rows;
+            const std::size_t first = block.own_rows >> PackedBlock::rows;
             if (first + static_cast<std::size_t>(block.whole_rows()) > packed.rows.size())
                 return false;
-            const bool has_radii = (block.whole & PackedBlock::is_whole << 3) != 0;
+            const bool has_radii = (block.own_rows & PackedBlock::is_whole << 3) != 0;
             return std::ranges::all_of(block.words, [&](std::uint32_t word) {
                 return word == PackedBlock::empty || has_radii ||
                        word >> packed.palette.id_bits() < packed.palette.size();

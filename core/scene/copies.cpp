@@ -68,18 +68,18 @@ void Copies::reserve_blocks(Tables& tables) {
         if (count == own) return;
         auto& blocks = std::get<CopiedBlocks<Shape>>(of_kind_);
         blocks.first = static_cast<std::uint32_t>(own);
-        blocks.all.floats = BigArray<Block<Shape>>::zeros(count);
-        blocks.all.doubles = BigArray<DoubleBlock<Shape>>::zeros(count);
+        blocks.shapes.floats = BigArray<Block<Shape>>::zeros(count);
+        blocks.shapes.doubles = BigArray<DoubleBlock<Shape>>::zeros(count);
         blocks.made = BigArray<std::uint8_t>::zeros(count - own);
         for (std::uint32_t block = 0; block < own; ++block) {
-            blocks.all.floats[block] = table.plain_blocks()[block];
+            blocks.shapes.floats[block] = table.plain_blocks()[block];
             DoubleBlock<Shape> exact;
             for_each_in_block(table, block, [&](Place place, ShapeId) {
                 exact.set(place.lane, table.get(place));
             });
-            blocks.all.doubles[block] = exact;
+            blocks.shapes.doubles[block] = exact;
         }
-        table.extend_blocks(blocks.all, own);
+        table.extend_blocks(blocks.shapes, own);
     });
 }
 
@@ -260,8 +260,8 @@ void Copies::fill(const CopiedBlocks<Shape>& blocks, std::size_t i) const {
             floats.set(place.lane, to_floats(shape), first + id);
             doubles.set(place.lane, shape);
         });
-        const_cast<Block<Shape>&>(blocks.all.floats[index]) = floats;
-        const_cast<DoubleBlock<Shape>&>(blocks.all.doubles[index]) = doubles;
+        const_cast<Block<Shape>&>(blocks.shapes.floats[index]) = floats;
+        const_cast<DoubleBlock<Shape>&>(blocks.shapes.doubles[index]) = doubles;
     }
 }
 

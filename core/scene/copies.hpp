@@ -20,7 +20,7 @@ class Scene;
 template <class Shape>
 struct CopiedBlocks {
     std::uint32_t first = 0;             ///< index in `all` of the first block of a copy
-    Blocks<Shape> all;                   ///< those of the table, then those of copies
+    Blocks<Shape> shapes;                ///< those of the table, then those of copies
     mutable BigArray<std::uint8_t> made; ///< State of each block of a copy
 
     enum State : std::uint8_t { unmade = 0, in_work, done };

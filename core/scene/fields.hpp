@@ -152,41 +152,41 @@ struct Field {
 };
 
 template <class T>
-concept PatternLike = requires(T of) {
-    of.colors;
+concept PatternLike = requires(T object) {
+    object.colors;
 };
 template <class T>
-concept GlassLike = requires(T of) {
-    of.B;
+concept GlassLike = requires(T object) {
+    object.B;
 };
 template <class T>
-concept MaterialLike = requires(T of) {
-    of.reflectivity;
+concept MaterialLike = requires(T object) {
+    object.reflectivity;
 };
 template <class T>
-concept LightLike = requires(T of) {
-    of.reach;
+concept LightLike = requires(T object) {
+    object.reach;
 };
 template <class T>
-concept FogLike = requires(T of) {
-    of.density;
+concept FogLike = requires(T object) {
+    object.density;
 };
 template <class T>
-concept CameraLike = requires(T of) {
-    of.lens_radius;
+concept CameraLike = requires(T object) {
+    object.lens_radius;
 };
 template <class T>
-concept OutlineLike = requires(T of) {
-    of.creases;
+concept OutlineLike = requires(T object) {
+    object.creases;
 };
 template <class T>
-concept SettingsLike = requires(T of) {
-    of.max_depth;
+concept SettingsLike = requires(T object) {
+    object.max_depth;
 };
 // The C interface lacks this field.
 template <class T>
-concept HasAlpha = requires(T of) {
-    of.alpha;
+concept HasAlpha = requires(T object) {
+    object.alpha;
 };
 
 /// The functions for_each_field() call visit(field, a.member, b.member, ...) for each field of one
@@ -426,7 +426,7 @@ constexpr void for_each_field(const Visit& visit, Of&... of) {
 
 /// Returns the kind of a struct, or all kinds if its enumerator is invalid or if it has no kinds.
 template <class Of>
-Kinds kind_of(const Of& of) {
+Kinds kind_of(const Of& object) {
     Kinds kind = every;
     for_each_field(
         [&](const Field& field, const auto& value) {
@@ -436,7 +436,7 @@ Kinds kind_of(const Of& of) {
                     kind = 1U << number;
             }
         },
-        of);
+        object);
     return kind;
 }
 

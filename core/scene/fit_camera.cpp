@@ -155,8 +155,8 @@ Camera Frame::camera() const {
 }
 
 double Frame::width() const {
-    const auto of = [](const Reach& extent) { return extent.positive + extent.negative; };
-    return empty_ ? 0.0 : std::max(of(extent_[0]), of(extent_[1]));
+    const auto total = [](const Reach& extent) { return extent.positive + extent.negative; };
+    return empty_ ? 0.0 : std::max(total(extent_[0]), total(extent_[1]));
 }
 
 std::pair<double, double> Frame::depths(const Camera& camera) const {

@@ -58,8 +58,9 @@ class BigArray {
         if (size == 0) return {};
         void* const memory = reserve_zeros(bytes);
         return {static_cast<const T*>(memory), size,
-                std::shared_ptr<const void>(
-                    memory, [bytes](const void* of) { free_zeros(const_cast<void*>(of), bytes); })};
+                std::shared_ptr<const void>(memory, [bytes](const void* address) {
+                    free_zeros(const_cast<void*>(address), bytes);
+                })};
     }
     /// Returns the first elements, which this array and the result share.
     BigArray first(std::size_t size) const { return {data_, size, keeper_}; }

@@ -186,11 +186,11 @@ ClosestOfPolygon<Real> closest_on_polygon(const std::array<Vec3<Real>, count>& c
         else
             keep_closer(best, on_edge, predicate);
     }
-    Corners all = 0;
+    Corners vertices = 0;
     for (const Corners bit : bits)
-        all |= bit;
+        vertices |= bit;
     if (best.corners != 0) return best;
-    return {foot_on_plane(Vec3<Real>(point - corners[0]), normal, point), all & around};
+    return {foot_on_plane(Vec3<Real>(point - corners[0]), normal, point), vertices & around};
 }
 
 template <class Real, AnyTriangle Shape>

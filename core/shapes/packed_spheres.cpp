@@ -75,12 +75,13 @@ int whole_rows(const Block<Sphere>& block, const RadiusPalette& palette) {
 PackedBlock pack(const Block<Sphere>& block, const RadiusPalette& palette, std::uint32_t first_row,
                  std::array<float, block_size>* rows) {
     PackedBlock packed{};
-    const unsigned whole = whole_rows_of(block, palette);
-    packed.whole = first_row << PackedBlock::rows | whole;
+    const unsigned whole_rows = whole_rows_of(block, palette);
+    packed.own_rows = first_row << PackedBlock::rows | whole_rows;
     for (int row = 0; row < PackedBlock::rows; ++row)
-        if ((whole >> row & 1) != 0) std::copy_n(block.values[row], block_size, (rows++)->begin());
+        if ((whole_rows >> row & 1) != 0)
+            std::copy_n(block.values[row], block_size, (rows++)->begin());
     for (int axis = 0; axis < 3; ++axis) {
-        if ((whole >> axis & 1) != 0) continue;
+        if ((whole_rows >> axis & 1) != 0) continue;
         packed.least[axis] = Span(block, axis).least;
         for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane) {
             const std::uint32_t step = pattern_of(block.values[axis][lane]) - packed.least[axis];
@@ -100,9 +101,9 @@ PackedBlock pack(const Block<Sphere>& block, const RadiusPalette& palette, std::
 
 float PackedSpheres::value(const PackedBlock& block, int row, int lane) const {
     const unsigned before = (1U << row) - 1;
-    if ((block.whole >> row & 1) != 0)
-        return rows[(block.whole >> PackedBlock::rows) +
-                    static_cast<unsigned>(std::popcount(block.whole & before))][lane];
+    if ((block.own_rows >> row & 1) != 0)
+        return rows[(block.own_rows >> PackedBlock::rows) +
+                    static_cast<unsigned>(std::popcount(block.own_rows & before))][lane];
     if (block.words[lane] == PackedBlock::empty) return std::numeric_limits<float>::quiet_NaN();
     if (row == 3) return palette.radius(block.words[lane]);
     const std::uint8_t* const step =

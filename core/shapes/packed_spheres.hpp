@@ -24,11 +24,11 @@ struct alignas(32) PackedBlock {
     static constexpr std::uint32_t step_limit = 1U << 24;
 
     std::uint32_t least[3]; ///< least pattern of each axis
-    std::uint32_t whole;    ///< rows stored elsewhere; above these 4 bits, the index of the first
+    std::uint32_t own_rows; ///< rows stored elsewhere; above these 4 bits, the index of the first
     std::uint8_t steps[3][3 * block_size]; ///< by axis and lane, 24 bits each, the lowest first
     std::uint32_t words[block_size];       ///< id, and above it the radius' number
 
-    int whole_rows() const { return std::popcount(whole & ((1U << rows) - 1)); }
+    int whole_rows() const { return std::popcount(own_rows & ((1U << rows) - 1)); }
 };
 static_assert(sizeof(PackedBlock) == 224);
 

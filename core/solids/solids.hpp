@@ -38,13 +38,13 @@ Value inside_of(const Shape& shape, const Somewhere& point) {
                                          : Value::unknown;
     };
     if constexpr (has_inside<Shape>) {
-        Value all = Value::yes;
+        Value value = Value::yes;
         for (const Bounded<double>& form : forms_at(shape, point)) {
             const Value inside = negative(form);
             if (inside == Value::no) return inside;
-            if (inside == Value::unknown) all = inside;
+            if (inside == Value::unknown) value = inside;
         }
-        return all;
+        return value;
     } else {
         return Value::unknown;
     }

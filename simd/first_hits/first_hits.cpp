@@ -118,14 +118,14 @@ void FirstHits::settle(std::size_t lane, FirstHit& hit) {
     set_normals(hit, flat, shading, first.entering);
 }
 
-void fill_aovs(FirstHits& tracer, const core::Region& region, const core::Region& of,
+void fill_aovs(FirstHits& tracer, const core::Region& region, const core::Region& frame,
                core::Aovs& aovs) {
     std::vector<FirstHit> hits;
     tracer.trace(region, 1, hits);
     auto hit = hits.begin();
     for (int y = region.y0; y < region.y1; ++y)
         for (int x = region.x0; x < region.x1; ++x, ++hit) {
-            const std::size_t pixel = aovs.index(x - of.x0, y - of.y0);
+            const std::size_t pixel = aovs.index(x - frame.x0, y - frame.y0);
             aovs.depth[pixel] = static_cast<float>(hit->t);
             aovs.normal[pixel] = core::convert<float>(hit->shading_normal);
             aovs.shape[pixel] = hit->shape;

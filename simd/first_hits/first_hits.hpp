@@ -66,7 +66,7 @@ class FirstHits {
 
 /// Fills in a region of an image's AOVs, except for the samples. The AOVs cover the part `of`
 /// of the image.
-void fill_aovs(FirstHits& tracer, const core::Region& region, const core::Region& of,
+void fill_aovs(FirstHits& tracer, const core::Region& region, const core::Region& frame,
                core::Aovs& aovs);
 
 } // namespace raylane::simd

@@ -89,11 +89,11 @@ bool Outlines::find_edges() {
     edges_.assign(2 * columns * static_cast<std::size_t>(rows_), 0);
     for (int row = 0; row < rows_; ++row)
         for (int column = 0; column < columns_; ++column) {
-            const FirstHit* const here = &hits_[static_cast<std::size_t>(row) * columns + column];
+            const FirstHit* const center = &hits_[static_cast<std::size_t>(row) * columns + column];
             std::uint8_t* const edge =
                 &edges_[2 * static_cast<std::size_t>(row) * columns + column];
-            edge[0] = column + 1 < columns_ && is_edge(here[0], here[1]) ? 1 : 0;
-            edge[columns] = row + 1 < rows_ && is_edge(here[0], here[columns]) ? 1 : 0;
+            edge[0] = column + 1 < columns_ && is_edge(center[0], center[1]) ? 1 : 0;
+            edge[columns] = row + 1 < rows_ && is_edge(center[0], center[columns]) ? 1 : 0;
             any = any || edge[0] != 0 || edge[columns] != 0;
         }
     return any;

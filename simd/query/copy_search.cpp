@@ -82,11 +82,11 @@ const CopySearch::Placed& CopySearch::placed_at(std::uint32_t copy) {
     Placed& placed = placed_[copy % places];
     if (placed.copy == copy) return placed;
     const core::Copies& copies = *scene_.scene().copies();
-    const core::Copies::Copy of = copies.copy_at(copy);
+    const core::Copies::Copy row = copies.copy_at(copy);
     const core::Placement& placement = copies.placement(copy);
     placed.copy = copy;
-    placed.set = static_cast<std::uint32_t>(&of.set - copies.sets().data());
-    placed.first_id = core::Copies::first_id_of(of);
+    placed.set = static_cast<std::uint32_t>(&row.set - copies.sets().data());
+    placed.first_id = core::Copies::first_id_of(row);
     placed.rows = core::rows_of(placement);
     placed.translate = placement.translate;
     placed.scale = placement.scale;
@@ -336,25 +336,26 @@ bool CopySearch::list(const RoundedRays& rays, std::size_t i, CandidateList& lis
     for_each_copy(rays, i, t_limit, [&](const Local& local) {
         const double rest = local.to_local(before + static_cast<double>(list.limit) + local.error);
         const float limit = std::max(up(rest), std::numeric_limits<float>::min());
-        CandidateList here{list.slot + list.count,
-                           list.lower + list.count,
-                           list.room - list.count,
-                           0,
-                           limit,
-                           false};
+        CandidateList copy_list{list.slot + list.count,
+                                list.lower + list.count,
+                                list.room - list.count,
+                                0,
+                                limit,
+                                false};
         const SceneData& prototype = prototype_of(local);
         has_room = tracing_.method().refine.list_candidates(
-            prototype.view(), prototype.listed_kinds(), rounded_, 0, workspace_of(prototype), here,
-            counters);
-        for (std::size_t k = 0; k < here.count; ++k) {
-            here.slot[k] = slot_of(local.copy, here.slot[k]);
-            here.lower[k] =
-                down(local.from_local(static_cast<double>(here.lower[k])) - before - local.error);
+            prototype.view(), prototype.listed_kinds(), rounded_, 0, workspace_of(prototype),
+            copy_list, counters);
+        for (std::size_t k = 0; k < copy_list.count; ++k) {
+            copy_list.slot[k] = slot_of(local.copy, copy_list.slot[k]);
+            copy_list.lower[k] = down(local.from_local(static_cast<double>(copy_list.lower[k])) -
+                                      before - local.error);
         }
-        list.count += here.count;
-        if (here.limit < limit)
-            list.limit = std::min(list.limit, up(local.from_local(static_cast<double>(here.limit)) -
-                                                 before + local.error));
+        list.count += copy_list.count;
+        if (copy_list.limit < limit)
+            list.limit =
+                std::min(list.limit, up(local.from_local(static_cast<double>(copy_list.limit)) -
+                                        before + local.error));
         return has_room;
     });
     return has_room;
@@ -371,16 +372,16 @@ void CopySearch::list_all(std::size_t count, const RoundedRays& rays, const floa
                 std::max(up(local.to_local(before + static_cast<double>(t_limit[i]) + local.error)),
                          std::numeric_limits<float>::min());
             const std::size_t used = std::min(list.count, list.room);
-            PairList here{list.ray + used, list.slot + used, list.room - used, 0};
+            PairList copy_list{list.ray + used, list.slot + used, list.room - used, 0};
             const SceneData& prototype = prototype_of(local);
             tracing_.method().refine.list_all(prototype.view(), prototype.listed_kinds(), 1,
                                               rounded_, lanes_->t_limit, workspace_of(prototype),
-                                              here);
-            for (std::size_t k = 0; k < std::min(here.count, here.room); ++k) {
-                here.ray[k] = static_cast<std::uint32_t>(i);
-                here.slot[k] = slot_of(local.copy, here.slot[k]);
+                                              copy_list);
+            for (std::size_t k = 0; k < std::min(copy_list.count, copy_list.room); ++k) {
+                copy_list.ray[k] = static_cast<std::uint32_t>(i);
+                copy_list.slot[k] = slot_of(local.copy, copy_list.slot[k]);
             }
-            list.count += here.count;
+            list.count += copy_list.count;
             return true;
         });
     }

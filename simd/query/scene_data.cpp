@@ -98,7 +98,7 @@ FogView view_of(const core::Fog& fog) {
 
 PackedView view_of(const core::PackedSpheres& packed) {
     static_assert(sizeof(PackedBlockView) == sizeof(core::PackedBlock));
-    static_assert(offsetof(PackedBlockView, whole) == offsetof(core::PackedBlock, whole));
+    static_assert(offsetof(PackedBlockView, own_rows) == offsetof(core::PackedBlock, own_rows));
     static_assert(offsetof(PackedBlockView, steps) == offsetof(core::PackedBlock, steps));
     static_assert(offsetof(PackedBlockView, words) == offsetof(core::PackedBlock, words));
     static_assert(core::PackedBlock::empty == no_slot);

@@ -97,7 +97,7 @@ class StreamIntake {
     bool answers_floats() const { return floats_; }
     /// Says whether limits are ignored, so that crossings behind them are found, too. Rays with a
     /// limit that is NaN are refused in any case.
-    void take_whole_lines(bool whole) { whole_lines_ = whole; }
+    void take_whole_lines(bool are_whole) { whole_lines_ = are_whole; }
     /// Returns upper limits in float, by lane, of rays in double that are answered so.
     const float* float_t_max() const { return float_t_max_.data(); }
 

@@ -66,8 +66,8 @@ std::size_t StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t coun
     const Parts parts = parts_of(count);
     std::vector<AnyRows> found(parts.count);
     const std::size_t refused =
-        answer(workers, count, [&](Worker& worker, std::size_t first, std::size_t some) {
-            return answer_some(worker, first, some, found[first / parts.size]);
+        answer(workers, count, [&](Worker& worker, std::size_t first, std::size_t size) {
+            return answer_some(worker, first, size, found[first / parts.size]);
         });
     if (parts.count == 1) {
         rows = std::move(found[0]);
@@ -78,9 +78,9 @@ std::size_t StreamTracer::answer_in_rows(Pool<Worker>& workers, std::size_t coun
         const std::uint64_t before = rows.first.back();
         for (std::size_t i = 1; i < part.first.size(); ++i)
             rows.first.push_back(before + part.first[i]);
-        for_each_column(rows, part, [](auto& all, auto& some) {
-            all.insert(all.end(), some.begin(), some.end());
-            some = {};
+        for_each_column(rows, part, [](auto& column, auto& addition) {
+            column.insert(column.end(), addition.begin(), addition.end());
+            addition = {};
         });
     }
     return refused;
@@ -110,16 +110,16 @@ std::size_t StreamTracer::crossings(const RayStream<Real>& rays, const CrossingR
     if (wanted.most == 1 && tracing_.precision == core::Precision::exact)
         return answer_in_rows(
             workers_, rays.count, rows,
-            [&](StreamWorker& worker, std::size_t first, std::size_t count, CrossingRows& some) {
-                return worker.first_crossings(part_of(rays, first, count), wanted, some);
+            [&](StreamWorker& worker, std::size_t first, std::size_t count, CrossingRows& part) {
+                return worker.first_crossings(part_of(rays, first, count), wanted, part);
             });
     std::mutex mutex;
     return answer_in_rows(
         row_workers_, rays.count, rows,
-        [&](RowWorker& worker, std::size_t first, std::size_t count, CrossingRows& some) {
+        [&](RowWorker& worker, std::size_t first, std::size_t count, CrossingRows& part) {
             CrossingCounters counted;
             const std::size_t refused =
-                worker.crossings(part_of(rays, first, count), wanted, some, counted);
+                worker.crossings(part_of(rays, first, count), wanted, part, counted);
             const std::lock_guard lock(mutex);
             counters += counted;
             return refused;
@@ -140,8 +140,8 @@ std::size_t StreamTracer::path_lengths(const RayStream<Real>& rays, core::Bodies
                                        LengthRows& rows) const {
     return answer_in_rows(
         row_workers_, rays.count, rows,
-        [&](RowWorker& worker, std::size_t first, std::size_t count, LengthRows& some) {
-            return worker.path_lengths(part_of(rays, first, count), bodies, some);
+        [&](RowWorker& worker, std::size_t first, std::size_t count, LengthRows& part) {
+            return worker.path_lengths(part_of(rays, first, count), bodies, part);
         });
 }
 
@@ -150,8 +150,8 @@ std::size_t StreamTracer::containing(const PointStream<Real>& points, SolidRows&
     core::require_shapes(data_->scene(), "solids around points");
     return answer_in_rows(
         point_workers_, points.count, rows,
-        [&](PointWorker& worker, std::size_t first, std::size_t count, SolidRows& some) {
-            return worker.containing(part_of(points, first, count), some);
+        [&](PointWorker& worker, std::size_t first, std::size_t count, SolidRows& part) {
+            return worker.containing(part_of(points, first, count), part);
         });
 }
 

@@ -11,7 +11,7 @@ namespace raylane::simd {
 /// Same layout as core::PackedBlock.
 struct alignas(32) PackedBlockView {
     std::uint32_t least[3];
-    std::uint32_t whole;
+    std::uint32_t own_rows;
     std::uint8_t steps[3][48];
     std::uint32_t words[16];
 };

@@ -43,12 +43,12 @@ void Wavefront::render_grid(const core::Region& region, core::Film& film) {
     const int samples = settings_.grid * settings_.grid;
     sums_.assign(static_cast<std::size_t>(region.pixels()), core::Vec3d(0.0));
     if (settings_.alpha) transmittances_.assign(sums_.size(), 0.0);
-    const auto add = [&](const Samples& some, std::size_t i) {
-        const std::size_t end = i + static_cast<std::size_t>(some.count);
+    const auto add = [&](const Samples& pixel_samples, std::size_t i) {
+        const std::size_t end = i + static_cast<std::size_t>(pixel_samples.count);
         if (settings_.alpha)
             for (std::size_t k = i; k < end; ++k)
-                transmittances_[some.pixel] += transmittance_[k];
-        core::Vec3d& total = sums_[some.pixel];
+                transmittances_[pixel_samples.pixel] += transmittance_[k];
+        core::Vec3d& total = sums_[pixel_samples.pixel];
         core::Vec3d sum = total;
         for (; i < end; ++i)
             sum += core::Vec3d(radiance_[0][i], radiance_[1][i], radiance_[2][i]);
@@ -72,12 +72,13 @@ void Wavefront::render_grid(const core::Region& region, core::Film& film) {
 /// Returns a function that adds traced samples to the pixels that requested them.
 template <class Pixels>
 auto Wavefront::adder_to(Pixels& pixels) {
-    return [this, &pixels](const Samples& some, std::size_t i) {
-        for (const std::size_t end = i + static_cast<std::size_t>(some.count); i < end; ++i)
-            pixels.add(some.pixel, {{radiance_[0][i], radiance_[1][i], radiance_[2][i]},
-                                    first_shape_[i],
-                                    settings_.alpha ? transmittance_[i] : 0.0,
-                                    cost_[i]});
+    return [this, &pixels](const Samples& pixel_samples, std::size_t i) {
+        for (const std::size_t end = i + static_cast<std::size_t>(pixel_samples.count); i < end;
+             ++i)
+            pixels.add(pixel_samples.pixel, {{radiance_[0][i], radiance_[1][i], radiance_[2][i]},
+                                             first_shape_[i],
+                                             settings_.alpha ? transmittance_[i] : 0.0,
+                                             cost_[i]});
     };
 }
 
@@ -145,12 +146,12 @@ void Wavefront::for_each_pixel(const core::Region& region, const Visit& visit) {
 template <class Add>
 void Wavefront::take(Samples samples, const Add& add) {
     while (samples.count != 0) {
-        Samples some = samples;
-        some.count = std::min(samples.count, static_cast<int>(chunk_samples - filled_));
-        samples_.push_back(some);
-        filled_ += static_cast<std::size_t>(some.count);
-        samples.first += some.count;
-        samples.count -= some.count;
+        Samples pixel_samples = samples;
+        pixel_samples.count = std::min(samples.count, static_cast<int>(chunk_samples - filled_));
+        samples_.push_back(pixel_samples);
+        filled_ += static_cast<std::size_t>(pixel_samples.count);
+        samples.first += pixel_samples.count;
+        samples.count -= pixel_samples.count;
         if (filled_ == chunk_samples) flush(add);
     }
 }
@@ -162,9 +163,9 @@ void Wavefront::flush(const Add& add) {
         start(filled_);
         trace();
         std::size_t i = 0;
-        for (const Samples& some : samples_) {
-            add(some, i);
-            i += static_cast<std::size_t>(some.count);
+        for (const Samples& pixel_samples : samples_) {
+            add(pixel_samples, i);
+            i += static_cast<std::size_t>(pixel_samples.count);
         }
     }
     samples_.clear();

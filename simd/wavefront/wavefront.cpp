@@ -96,29 +96,33 @@ void Wavefront::take_from(Arena& arena) {
 }
 
 EngineCounters Wavefront::counters() const {
-    EngineCounters all = counters_;
-    all += reference_.counters();
-    return all;
+    EngineCounters counters = counters_;
+    counters += reference_.counters();
+    return counters;
 }
 
-core::CameraRays<double>::InPixel Wavefront::in_pixel(const Samples& some, int number) const {
+core::CameraRays<double>::InPixel Wavefront::in_pixel(const Samples& pixel_samples,
+                                                      int number) const {
     if (to_quality_) {
         if (number < 0) return cells_[static_cast<std::size_t>(number + common_samples_)];
-        const core::SamplePoint place = core::place_in_pixel({some.x, some.y, number});
+        const core::SamplePoint place =
+            core::place_in_pixel({pixel_samples.x, pixel_samples.y, number});
         return camera_rays_.filtered({static_cast<double>(place.x), static_cast<double>(place.y)});
     }
     return camera_rays_.regular() ? cells_[static_cast<std::size_t>(number)]
-                                  : camera_rays_.in_pixel(some.x, some.y, number);
+                                  : camera_rays_.in_pixel(pixel_samples.x, pixel_samples.y, number);
 }
 
 void Wavefront::start(std::size_t count) {
     std::size_t filled = 0;
-    for (const Samples& some : samples_)
-        for (int number = some.first; number < some.first + some.count; ++number) {
-            const auto point = camera_rays_.point_at(some.x, some.y, in_pixel(some, number));
+    for (const Samples& pixel_samples : samples_)
+        for (int number = pixel_samples.first; number < pixel_samples.first + pixel_samples.count;
+             ++number) {
+            const auto point = camera_rays_.point_at(pixel_samples.x, pixel_samples.y,
+                                                     in_pixel(pixel_samples, number));
             across_[filled] = point.across;
             upward_[filled] = point.upward;
-            names_[filled++] = {some.x, some.y, number, common_samples_};
+            names_[filled++] = {pixel_samples.x, pixel_samples.y, number, common_samples_};
         }
     if (camera_rays_.has_lens())
         for (std::size_t i = 0; i < count; ++i) {

@@ -23,12 +23,12 @@ class FirstSurfaces {
 
     void find(const std::uint32_t* lanes, std::size_t count) {
         for (std::size_t begin = 0; begin < count; begin += width) {
-            const std::size_t some = count - begin < width ? count - begin : width;
-            rays_.gather(found_, lanes + begin, some);
+            const std::size_t filled = count - begin < width ? count - begin : width;
+            rays_.gather(found_, lanes + begin, filled);
             Best best;
             for (std::uint32_t root = 0; root < nodes_.count; root = nodes_.node[root].end)
                 look(root, best);
-            store(best, lanes + begin, some);
+            store(best, lanes + begin, filled);
         }
     }
 
@@ -106,17 +106,17 @@ class FirstSurfaces {
                     (crossing.face.error == zero<D>()) & crossing.entering.known);
         };
         const M is_first = found.first.exists.answer;
-        const auto of = [&](const F& first, const F& second) {
+        const auto chosen_of = [&](const F& first, const F& second) {
             return select(is_first, first, second);
         };
         const F nowhere(__builtin_inf()), o = zero<D>();
         line.counts[0] = line.exists[0] = either;
         line.counts[1] = line.exists[1] = both;
-        line.t[0] = select(either, of(found.first.t.value, found.second.t.value), nowhere);
+        line.t[0] = select(either, chosen_of(found.first.t.value, found.second.t.value), nowhere);
         line.t[1] = select(both, found.second.t.value, nowhere);
-        line.error[0] = select(either, of(found.first.t.error, found.second.t.error), o);
+        line.error[0] = select(either, chosen_of(found.first.t.error, found.second.t.error), o);
         line.error[1] = select(both, found.second.t.error, o);
-        line.face[0] = of(found.first.face.value, found.second.face.value);
+        line.face[0] = chosen_of(found.first.face.value, found.second.face.value);
         line.face[1] = found.second.face.value;
         const M enters =
             (is_first & found.first.entering.answer) | (~is_first & found.second.entering.answer);

@@ -103,8 +103,9 @@ struct ListCandidates : Streams<Arch> {
                                                   int from, const RoundedRays& rays, std::size_t i,
                                                   std::uint32_t bits) {
         using D = Double<Arch>;
-        const auto in_all = [&](const double* const(&of)[3]) {
-            return Vectors<D>{Floats<D>(of[0][i]), Floats<D>(of[1][i]), Floats<D>(of[2][i])};
+        const auto in_all = [&](const double* const(&columns)[3]) {
+            return Vectors<D>{Floats<D>(columns[0][i]), Floats<D>(columns[1][i]),
+                              Floats<D>(columns[2][i])};
         };
         const Rays<D> ray = {in_all(rays.exact_origin), in_all(rays.exact_direction)};
         constexpr int width = static_cast<int>(Floats<D>::size);

@@ -26,15 +26,16 @@ class PlainSolve {
 
     void all_rays() const {
         for (std::size_t i = 0; i < found_.count; i += lanes) {
-            const int here = static_cast<int>(found_.count - i < lanes ? found_.count - i : lanes);
+            const int filled =
+                static_cast<int>(found_.count - i < lanes ? found_.count - i : lanes);
             std::uint32_t left = 0;
-            for (int lane = 0; lane < here; ++lane)
+            for (int lane = 0; lane < filled; ++lane)
                 left |= std::uint32_t{found_.slot[i + lane] != no_slot} << lane;
             while (left != 0) {
                 const core::Kind kind = S::kind_of(scene_, found_.slot[i + __builtin_ctz(left)]);
                 const TableView& table = S::table_of(scene_, kind);
                 std::uint32_t alike = 0;
-                for (int lane = 0; lane < here; ++lane)
+                for (int lane = 0; lane < filled; ++lane)
                     alike |= std::uint32_t{S::holds(table, found_.slot[i + lane])} << lane;
                 alike &= left;
                 with_solver<Number, textbook>(

@@ -38,7 +38,7 @@ class Refine {
             if (wide.rounded != nullptr) wide.rounded[k] = 0;
             if (starts_on_shape(places[k])) continue;
             Packet& packet = wide_[index_of(places[k])];
-            packet.of[packet.count] = k;
+            packet.indices[packet.count] = k;
             packet.rays[packet.count++] = places[k];
             if (packet.count == width) widen(packet, wide);
         }
@@ -56,7 +56,7 @@ class Refine {
     /// Rays that found shapes of one kind.
     struct Packet {
         std::size_t rays[width];
-        std::size_t of[width]; ///< the caller's indices of these
+        std::size_t indices[width]; ///< the caller's indices of these
         std::size_t count = 0;
     };
 
@@ -149,7 +149,7 @@ class Refine {
             entering |= ((found_.hit[packet.rays[lane]] & hit_entering) != 0 ? 1U : 0U) << lane;
         const M is_first =
             first.exists.answer & ~(first.entering.answer ^ Lanes<D>::from_bits(entering));
-        const auto of = [&](const Floats<C>& a, const Floats<C>& b) {
+        const auto chosen_of = [&](const Floats<C>& a, const Floats<C>& b) {
             return Floats<C>(select(is_first, a.value, b.value),
                              select(is_first, a.error, b.error));
         };
@@ -157,8 +157,8 @@ class Refine {
             return Mask<C>((is_first & a.answer) | (~is_first & b.answer),
                            (is_first & a.known) | (~is_first & b.known));
         };
-        return {either(first.exists, second.exists), of(first.t, second.t),
-                of(first.face, second.face), either(first.entering, second.entering)};
+        return {either(first.exists, second.exists), chosen_of(first.t, second.t),
+                chosen_of(first.face, second.face), either(first.entering, second.entering)};
     }
 
     /// Returns whether t is after the limit. The answer is unknown if t is certainly at a
@@ -202,7 +202,7 @@ class Refine {
                                (entering >> lane & 1) == ((hit & hit_entering) != 0 ? 1U : 0U);
             if (!is_it) continue;
             those |= 1U << lane;
-            const std::size_t k = packet.of[lane];
+            const std::size_t k = packet.indices[lane];
             wide.high[k] = high[lane];
             wide.low[k] = low[lane];
             wide.error[k] = error[lane];
@@ -246,7 +246,7 @@ class Refine {
             double numbers[width];
             values[axis]->store_unaligned(numbers);
             for (std::size_t lane = 0; lane < packet.count; ++lane) {
-                const std::size_t k = packet.of[lane];
+                const std::size_t k = packet.indices[lane];
                 wide.normal[axis][k] = static_cast<float>(numbers[lane]);
                 wide.rounded[k] =
                     static_cast<std::uint8_t>(wide.rounded[k] | (rounded >> lane & 1) << axis);

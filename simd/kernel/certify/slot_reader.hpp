@@ -21,7 +21,7 @@ struct SlotReader {
     long long place[width];
     int row = 0;
 
-    explicit SlotReader(const TableView& of) : table(of) {}
+    explicit SlotReader(const TableView& table_) : table(table_) {}
 
     void set(std::size_t lane, std::uint32_t slot) {
         place[lane] =
@@ -47,10 +47,10 @@ struct SlotReader {
         if (table.is_packed()) [[unlikely]]
             return static_cast<Value>(PackedSpheres<Number>::value(
                 table.packed, static_cast<std::uint32_t>(place[lane]), row));
-        const long long there = place[lane] + 16 * row;
+        const long long record = place[lane] + 16 * row;
         if constexpr (std::is_same_v<Value, double>)
-            if (table.doubles != nullptr) return table.doubles[there];
-        return static_cast<Value>(table.blocks[there]);
+            if (table.doubles != nullptr) return table.doubles[record];
+        return static_cast<Value>(table.blocks[record]);
     }
 };
 

@@ -222,16 +222,16 @@ struct DoubleLanes<Avx2> {
         std::int32_t lanes[8];
     };
     static constexpr std::array<Order, 16> orders = [] {
-        std::array<Order, 16> all{};
+        std::array<Order, 16> orders{};
         for (unsigned wanted = 0; wanted < 16; ++wanted) {
             int to = 0;
             for (int lane = 0; lane < 4; ++lane) {
                 if ((wanted >> lane & 1) == 0) continue;
-                all[wanted].lanes[to++] = 2 * lane;
-                all[wanted].lanes[to++] = 2 * lane + 1;
+                orders[wanted].lanes[to++] = 2 * lane;
+                orders[wanted].lanes[to++] = 2 * lane + 1;
             }
         }
-        return all;
+        return orders;
     }();
 
     static __m128i load(const std::uint32_t* from) {

@@ -297,17 +297,18 @@ struct Lanes<Sse42> {
         std::uint8_t bytes[16];
     };
     static constexpr std::array<Order, 16> orders = [] {
-        std::array<Order, 16> all{};
+        std::array<Order, 16> orders{};
         for (unsigned wanted = 0; wanted < 16; ++wanted) {
             unsigned to = 0;
             for (unsigned lane = 0; lane < 4; ++lane) {
                 if ((wanted >> lane & 1) == 0) continue;
                 for (unsigned byte = 0; byte < 4; ++byte)
-                    all[wanted].bytes[4 * to + byte] = static_cast<std::uint8_t>(4 * lane + byte);
+                    orders[wanted].bytes[4 * to + byte] =
+                        static_cast<std::uint8_t>(4 * lane + byte);
                 ++to;
             }
         }
-        return all;
+        return orders;
     }();
 };
 #endif
@@ -381,13 +382,14 @@ struct Lanes<Avx2> {
 
   private:
     static constexpr std::array<std::array<std::uint8_t, 8>, 256> orders = [] {
-        std::array<std::array<std::uint8_t, 8>, 256> all{};
+        std::array<std::array<std::uint8_t, 8>, 256> orders{};
         for (unsigned wanted = 0; wanted < 256; ++wanted) {
             unsigned to = 0;
             for (unsigned lane = 0; lane < 8; ++lane)
-                if ((wanted >> lane & 1) != 0) all[wanted][to++] = static_cast<std::uint8_t>(lane);
+                if ((wanted >> lane & 1) != 0)
+                    orders[wanted][to++] = static_cast<std::uint8_t>(lane);
         }
-        return all;
+        return orders;
     }();
 };
 #endif

@@ -70,8 +70,8 @@ struct EightLanes {
     }
 
     static std::uint32_t equal_16(const std::uint8_t* bytes, std::uint8_t value) {
-        const __m128i all = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes));
-        const __m128i equal = _mm_cmpeq_epi8(all, _mm_set1_epi8(static_cast<char>(value)));
+        const __m128i row = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes));
+        const __m128i equal = _mm_cmpeq_epi8(row, _mm_set1_epi8(static_cast<char>(value)));
         return static_cast<std::uint32_t>(_mm_movemask_epi8(equal));
     }
 
@@ -113,15 +113,15 @@ struct EightLanes {
         std::uint8_t bytes[16];
     };
     static constexpr std::array<Order, 256> orders = [] {
-        std::array<Order, 256> all{};
+        std::array<Order, 256> orders{};
         for (unsigned wanted = 0; wanted < 256; ++wanted) {
             unsigned to = 0;
             for (unsigned lane = 0; lane < 8; ++lane)
                 if ((wanted >> lane & 1) != 0)
                     for (unsigned byte = 0; byte < 2; ++byte)
-                        all[wanted].bytes[to++] = static_cast<std::uint8_t>(2 * lane + byte);
+                        orders[wanted].bytes[to++] = static_cast<std::uint8_t>(2 * lane + byte);
         }
-        return all;
+        return orders;
     }();
 };
 
@@ -154,10 +154,10 @@ template <>
 struct ShortLanes<Avx512> : EightLanes<Avx512> {
     static void compress_keys(std::uint16_t* out, const Floats<Avx512>& values,
                               std::uint32_t wanted) {
-        const __m512i some = _mm512_maskz_compress_epi32(static_cast<__mmask16>(wanted),
-                                                         _mm512_castps_si512(values));
+        const __m512i chosen = _mm512_maskz_compress_epi32(static_cast<__mmask16>(wanted),
+                                                           _mm512_castps_si512(values));
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
-                            _mm512_cvtepi32_epi16(_mm512_srli_epi32(some, 15)));
+                            _mm512_cvtepi32_epi16(_mm512_srli_epi32(chosen, 15)));
     }
 
     static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
@@ -168,11 +168,11 @@ struct ShortLanes<Avx512> : EightLanes<Avx512> {
             std::uint32_t has_bit = _mm256_test_epi16_mask(
                 _mm256_loadu_si256(reinterpret_cast<const __m256i*>(masks + k)), wanted);
             if (count - k < 16) has_bit &= (1U << (count - k)) - 1;
-            const __m512i some = _mm512_cvtepu16_epi32(
+            const __m512i chosen = _mm512_cvtepu16_epi32(
                 _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers + k)));
             _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + picked),
                                 _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(
-                                    static_cast<__mmask16>(has_bit), some)));
+                                    static_cast<__mmask16>(has_bit), chosen)));
             picked += __builtin_popcount(has_bit);
         }
         return picked;

@@ -157,8 +157,9 @@ struct Shading {
 
     /// Returns the transmittance by Beer and Lambert's law.
     static V let_through(const V& absorption, const F& distance) {
-        const M some = (absorption.x > F(0.0)) | (absorption.y > F(0.0)) | (absorption.z > F(0.0));
-        if (Lanes<Arch>::bits(some) == 0) return {F(1.0), F(1.0), F(1.0)};
+        const M has_absorption =
+            (absorption.x > F(0.0)) | (absorption.y > F(0.0)) | (absorption.z > F(0.0));
+        if (Lanes<Arch>::bits(has_absorption) == 0) return {F(1.0), F(1.0), F(1.0)};
         const auto share = [&](const F& channel) {
             return core::Elementary<F>::exp(negated(channel) * distance);
         };
@@ -298,7 +299,7 @@ struct Shading {
         const F zero(0.0), one(1.0);
         const bool fresnel = material.reflection != core::Reflection::constant;
         for (std::size_t i = run.begin; i < run.end; i += lanes) {
-            const std::uint32_t here = present(i, run.end);
+            const std::uint32_t are_present = present(i, run.end);
             const V point = load(surfaces.point, i), direction = load(surfaces.direction, i);
             const V normal = load(surfaces.normal, i), flat = load(surfaces.flat_normal, i);
             const V throughput = load(surfaces.throughput, i);
@@ -314,7 +315,7 @@ struct Shading {
                 Refractions<Arch> refraction(direction, normal, before, behind);
                 const M wrong_side =
                     ~refraction.total & (dot<Arch>(refraction.transmitted, flat) >= zero);
-                if ((Lanes<Arch>::bits(wrong_side) & here) != 0)
+                if ((Lanes<Arch>::bits(wrong_side) & are_present) != 0)
                     refraction.replace(wrong_side,
                                        Refractions<Arch>(direction, flat, before, behind));
                 share = refraction.reflectance(material, before, behind);
@@ -322,14 +323,16 @@ struct Shading {
                     const F let = (one - share) * F(material.transmission);
                     const V weight = scaled(let, throughput);
                     const std::uint32_t wanted =
-                        Lanes<Arch>::bits(is_worth(weight, min_weight) & (let > zero)) & here;
+                        Lanes<Arch>::bits(is_worth(weight, min_weight) & (let > zero)) &
+                        are_present;
                     if (wanted != 0)
                         append(transmitted, wanted, point, normalized<Arch>(refraction.transmitted),
                                weight, parent);
                 }
             }
             const V weight = scaled(share, throughput);
-            const std::uint32_t wanted = Lanes<Arch>::bits(is_worth(weight, min_weight)) & here;
+            const std::uint32_t wanted =
+                Lanes<Arch>::bits(is_worth(weight, min_weight)) & are_present;
             if (wanted == 0) continue;
             V away = mirrored(direction, normal);
             const M wrong_side = dot<Arch>(away, flat) <= zero;

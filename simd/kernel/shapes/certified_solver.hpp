@@ -124,8 +124,9 @@ error_of_cross(const Vectors<Arch>& a, const Vectors<Arch>& b, const Vectors<Arc
     const auto lost = [](const F& p, const F& q) {
         return abs(Lanes<Arch>::product_error(p, q, p * q));
     };
-    const auto component = [&](const F& p, const F& q, const F& r, const F& s, const F& of) {
-        return F(1.0 + 0x1p-50) * (lost(p, q) + lost(r, s)) + F(0x1p-53) * abs(of);
+    const auto component = [&](const F& p, const F& q, const F& r, const F& s,
+                               const F& coordinate) {
+        return F(1.0 + 0x1p-50) * (lost(p, q) + lost(r, s)) + F(0x1p-53) * abs(coordinate);
     };
     return {component(a.y, b.z, a.z, b.y, product.x), component(a.z, b.x, a.x, b.z, product.y),
             component(a.x, b.y, a.y, b.x, product.z)};

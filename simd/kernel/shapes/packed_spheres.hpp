@@ -17,12 +17,12 @@ struct PackedSpheres {
                                               float (*to)[16]) {
         const PackedBlockView& block = packed.blocks[number];
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-            const Some some(packed, block, from);
+            const BlockRows rows(packed, block, from);
             const F nan(__builtin_nanf(""));
             for (int axis = 0; axis < 3; ++axis)
-                select(some.empty, nan, some.coordinates(axis)).store_unaligned(to[axis] + from);
-            select(some.empty, nan, some.radii()).store_unaligned(to[3] + from);
-            select(some.empty, some.words, some.ids()).store_unaligned(to[4] + from);
+                select(rows.empty, nan, rows.coordinates(axis)).store_unaligned(to[axis] + from);
+            select(rows.empty, nan, rows.radii()).store_unaligned(to[3] + from);
+            select(rows.empty, rows.words, rows.ids()).store_unaligned(to[4] + from);
         }
         if (!is_of_steps(block)) [[unlikely]]
             copy_whole_rows(packed, block, to);
@@ -34,7 +34,7 @@ struct PackedSpheres {
     }
 
     /// True if a block has no whole rows, which are stored outside of it.
-    static bool is_of_steps(const PackedBlockView& block) { return (block.whole & 15) == 0; }
+    static bool is_of_steps(const PackedBlockView& block) { return (block.own_rows & 15) == 0; }
 
     /// Prefetches the whole rows of a block, if any.
     [[gnu::always_inline]] static void fetch_whole_rows(const PackedView& packed,
@@ -42,23 +42,24 @@ struct PackedSpheres {
         const PackedBlockView& block = packed.blocks[number];
         if (is_of_steps(block)) [[likely]]
             return;
-        const float(*const first)[16] = packed.rows + (block.whole >> 4);
-        for (int row = 0; row < __builtin_popcount(block.whole & 15); ++row)
+        const float(*const first)[16] = packed.rows + (block.own_rows >> 4);
+        for (int row = 0; row < __builtin_popcount(block.own_rows & 15); ++row)
             __builtin_prefetch(first + row);
     }
 
     /// A register's worth of spheres of a block without whole rows, from lane `first` on. Empty
     /// lanes hold undefined values.
-    struct Some {
+    struct BlockRows {
         const PackedView& packed;
         const PackedBlockView& block;
         int from;
         F words;
         Mask<Arch> empty;
 
-        [[gnu::always_inline]] Some(const PackedView& view, const PackedBlockView& of, int first)
-            : packed(view), block(of), from(first),
-              words(F::load_unaligned(reinterpret_cast<const float*>(of.words + first))),
+        [[gnu::always_inline]] BlockRows(const PackedView& view, const PackedBlockView& block_view,
+                                         int first)
+            : packed(view), block(block_view), from(first),
+              words(F::load_unaligned(reinterpret_cast<const float*>(block_view.words + first))),
               empty(Lanes<Arch>::in_range(words, bits(no_slot), bits(no_slot))) {}
 
         [[gnu::always_inline]] F coordinates(int axis) const {
@@ -74,15 +75,15 @@ struct PackedSpheres {
       public:
         [[gnu::always_inline]] Reader(const PackedView& packed, const PackedBlockView& block,
                                       int from)
-            : some_(packed, block, from) {}
+            : rows_(packed, block, from) {}
         [[gnu::always_inline]] F next() {
             const int row = row_++;
-            if (row == 0) return select(some_.empty, F(__builtin_nanf("")), some_.coordinates(0));
-            return row == 3 ? some_.radii() : some_.coordinates(row);
+            if (row == 0) return select(rows_.empty, F(__builtin_nanf("")), rows_.coordinates(0));
+            return row == 3 ? rows_.radii() : rows_.coordinates(row);
         }
 
       private:
-        Some some_;
+        BlockRows rows_;
         int row_ = 0;
     };
 
@@ -98,7 +99,7 @@ struct PackedSpheres {
         if (row > 3) __builtin_unreachable(); // other kinds have more rows, and are not packed
         const PackedBlockView& block = packed.blocks[place / 16];
         const std::uint32_t lane = place % 16;
-        if ((block.whole >> row & 1) != 0) [[unlikely]]
+        if ((block.own_rows >> row & 1) != 0) [[unlikely]]
             return whole_row(packed, block, row)[lane];
         if (block.words[lane] == no_slot) return __builtin_nanf("");
         if (row == 3) return packed.radii[block.words[lane] >> packed.id_bits];
@@ -128,14 +129,14 @@ struct PackedSpheres {
     }
 
     static const float* whole_row(const PackedView& packed, const PackedBlockView& block, int row) {
-        const std::uint32_t before = block.whole & ((1U << row) - 1);
+        const std::uint32_t before = block.own_rows & ((1U << row) - 1);
         return packed
-            .rows[(block.whole >> 4) + static_cast<std::uint32_t>(__builtin_popcount(before))];
+            .rows[(block.own_rows >> 4) + static_cast<std::uint32_t>(__builtin_popcount(before))];
     }
     [[gnu::noinline]] static void copy_whole_rows(const PackedView& packed,
                                                   const PackedBlockView& block, float (*to)[16]) {
         for (int row = 0; row < 4; ++row)
-            if ((block.whole >> row & 1) != 0)
+            if ((block.own_rows >> row & 1) != 0)
                 __builtin_memcpy(to[row], whole_row(packed, block, row), sizeof(float[16]));
     }
 };

@@ -63,23 +63,23 @@ struct SphereFilter : SphereNumbers<Arch> {
                                                    const Floats<Arch>& surely_before) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
-        const auto [there, tau, foot_squared, rounding, outer, inner] = near(rays);
+        const auto [present, tau, foot_squared, rounding, outer, inner] = near(rays);
         const F first = tau - outer - rounding;
         const Mask<Arch> missed = (outer * outer < foot_squared) | (tau + outer + rounding < o) |
                                   (first >= perhaps_before);
-        const Mask<Arch> possible = there & ~missed;
+        const Mask<Arch> possible = present & ~missed;
         const Mask<Arch> certain = (inner > o) & (inner * inner > foot_squared) & (first > o) &
                                    (tau + rounding < surely_before);
         if ((Lanes<Arch>::bits(possible & ~certain) & asked) == 0) return {possible, certain};
-        const Bounds<Arch> all = bounds(rays);
-        return {all.possible & (all.lower < perhaps_before),
-                all.certain & (all.upper < surely_before)};
+        const Bounds<Arch> found = bounds(rays);
+        return {found.possible & (found.lower < perhaps_before),
+                found.certain & (found.upper < surely_before)};
     }
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
-        const auto [there, tau, foot_squared, rounding, outer, inner] = near(rays);
+        const auto [present, tau, foot_squared, rounding, outer, inner] = near(rays);
         const F outer_chord = outer * outer - foot_squared; // not fused: both overflow, or neither
         const F outer_half = sqrt(outer_chord);
         const F entry = tau - outer_half - rounding;
@@ -89,7 +89,7 @@ struct SphereFilter : SphereNumbers<Arch> {
         const F inner_chord = inner * inner - foot_squared;
         const F inner_half = sqrt(inner_chord);
         const Mask<Arch> meets = (inner > o) & (inner_chord > o), ahead = entry > o;
-        Bounds<Arch> result{there & ~missed, positive_part<Arch>(entry), meets & ahead,
+        Bounds<Arch> result{present & ~missed, positive_part<Arch>(entry), meets & ahead,
                             tau - inner_half + rounding};
 
         // A ray that certainly starts inside first crosses at its exit.
@@ -111,7 +111,7 @@ struct SphereFilter : SphereNumbers<Arch> {
     [[gnu::always_inline]] Chord<Arch> chord(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
-        const auto [there, tau, foot_squared, rounding, outer, inner] = near(rays);
+        const auto [present, tau, foot_squared, rounding, outer, inner] = near(rays);
         const F outer_half = sqrt(outer * outer - foot_squared);
         const F inner_chord = inner * inner - foot_squared, inner_half = sqrt(inner_chord);
         const Mask<Arch> meets = (inner > o) & (inner_chord > o);
@@ -123,7 +123,7 @@ struct SphereFilter : SphereNumbers<Arch> {
   private:
     /// A ray relative to the centre of the sphere.
     struct Near {
-        Mask<Arch> there;               ///< the lane holds a sphere
+        Mask<Arch> present;             ///< the lane holds a sphere
         Floats<Arch> tau, foot_squared; ///< t of the foot, and q^2
         Floats<Arch> rounding;          ///< error of t
         Floats<Arch> outer, inner;      ///< radius + E and radius - E

@@ -62,31 +62,31 @@ class CallerStream {
         left.doubtful_count = left.unsharp_count = 0;
         const TableView* table = scene.tables;
         for (std::size_t i = 0; i < count; i += F::size) {
-            const std::size_t here = least(count - i, F::size);
-            const Answers answers = answers_to(limits, taken, found, hits, i, here);
+            const std::size_t filled = least(count - i, F::size);
+            const Answers answers = answers_to(limits, taken, found, hits, i, filled);
             if (hits.t != nullptr)
-                store(select(answers.hit, answers.t, S::infinity()), hits.t + i, here);
+                store(select(answers.hit, answers.t, S::infinity()), hits.t + i, filled);
             for (int axis = 0; axis < 3; ++axis)
                 if (hits.normal[axis] != nullptr)
                     // Adding 0 turns -0 into 0.
                     store(select(answers.hit,
                                  Lanes<Arch>::narrow(found.normal[axis] + i) + zero<Arch>(),
                                  zero<Arch>()),
-                          hits.normal[axis] + i, here);
+                          hits.normal[axis] + i, filled);
             const std::uint32_t bits = answers.hit_bits;
             if (hits.shape != nullptr)
-                store_shapes(scene, found.slot + i, bits, here, hits.shape + i, table);
+                store_shapes(scene, found.slot + i, bits, filled, hits.shape + i, table);
             if (hits.entering != nullptr)
-                for (std::size_t lane = 0; lane < here; ++lane)
+                for (std::size_t lane = 0; lane < filled; ++lane)
                     hits.entering[i + lane] = static_cast<std::uint8_t>(
                         bits >> lane & 1 &
                         (found.hit[i + lane] / hit_entering ^ found.hit[i + lane] / hit_reversed));
             if (hits.face != nullptr)
-                for (std::size_t lane = 0; lane < here; ++lane)
+                for (std::size_t lane = 0; lane < filled; ++lane)
                     hits.face[i + lane] = static_cast<std::uint8_t>(
                         (bits >> lane & 1) != 0 ? found.hit[i + lane] & hit_face : 0);
             if (hits.t_double != nullptr) {
-                for (std::size_t lane = 0; lane < here; ++lane)
+                for (std::size_t lane = 0; lane < filled; ++lane)
                     hits.t_double[i + lane] = __builtin_inf();
                 list(bits, i, left.unsharp, left.unsharp_count);
             }
@@ -353,10 +353,10 @@ class CallerStream {
                 turned = turned + abs(Number::load_unaligned(d) - Number::load_unaligned(d + 1));
                 moved = moved + abs(Number::load_unaligned(o) - Number::load_unaligned(o + 1));
             }
-            const Mask<D> here = first_lanes(count - 1 - i);
-            turn = turn + select(here, turned, zero<D>());
-            move = move + select(here, moved, zero<D>());
-            near = near + select(here & (moved <= Number(short_move)), Number(1.0), zero<D>());
+            const Mask<D> filled = first_lanes(count - 1 - i);
+            turn = turn + select(filled, turned, zero<D>());
+            move = move + select(filled, moved, zero<D>());
+            near = near + select(filled & (moved <= Number(short_move)), Number(1.0), zero<D>());
         }
         return {sum_of(turn), sum_of(move), sum_of(near)};
     }
@@ -392,15 +392,15 @@ class CallerStream {
                 static_cast<float>(rays.origin[axis][first] + end * rays.direction[axis][first]);
         Number off = zero<D>(), longest = zero<D>();
         for (std::size_t i = 0; i < count; i += half) {
-            Number here = zero<D>();
+            Number distance = zero<D>();
             const Number t = Number::load_unaligned(rays.t_limit + i);
             for (int axis = 0; axis < 3; ++axis) {
-                const Number there = mul_add<D>(t, Number::load_unaligned(rays.direction[axis] + i),
+                const Number point = mul_add<D>(t, Number::load_unaligned(rays.direction[axis] + i),
                                                 Number::load_unaligned(rays.origin[axis] + i));
-                here = here + abs(there - Number(static_cast<double>(apex[axis])));
+                distance = distance + abs(point - Number(static_cast<double>(apex[axis])));
             }
             const Mask<D> are_there = first_lanes(count - i) & (t >= zero<D>());
-            off = max(off, select(are_there, here, zero<D>()));
+            off = max(off, select(are_there, distance, zero<D>()));
             longest = max(longest, select(are_there, t, zero<D>()));
             // Most rays do not end at one point.
             if (i == 0 && !is_one_point(off, longest)) return false;
@@ -426,7 +426,7 @@ class CallerStream {
     [[gnu::always_inline]] static Answers answers_to(const UpperLimits& limits,
                                                      const StreamRays& taken, const Found& found,
                                                      const HitStream& hits, std::size_t i,
-                                                     std::size_t here) {
+                                                     std::size_t filled) {
         double first[F::size], last[F::size];
         for (std::size_t k = 0; k < F::size; k += half) {
             const Number per_unit = Number::load_unaligned(taken.per_unit + i + k);
@@ -446,11 +446,11 @@ class CallerStream {
         const M known = Lanes<Arch>::in_range(S::load_bits(found.hit + i) & unknown, zero<Arch>(),
                                               zero<Arch>());
         const M any = (Lanes<Arch>::narrow(taken.t_limit + i) >= zero<Arch>()) & ~missed &
-                      S::first_lanes(here);
+                      S::first_lanes(filled);
         M certain = sure & known, hit = any & certain;
         if (limits.t_max != nullptr) {
             float most[F::size] = {};
-            __builtin_memcpy(most, limits.t_max + i, here * sizeof(float));
+            __builtin_memcpy(most, limits.t_max + i, filled * sizeof(float));
             hit = hit & (t <= S::load(most));
         } else if (limits.are_doubles) {
             const Sides sides = sides_of_t_limit(taken, found, i);
@@ -483,9 +483,9 @@ class CallerStream {
 
     static void store(const F& values, float* to, std::size_t count) {
         if (count == F::size) return values.store_unaligned(to);
-        float all[F::size];
-        values.store_unaligned(all);
-        __builtin_memcpy(to, all, count * sizeof(float));
+        float lanes[F::size];
+        values.store_unaligned(lanes);
+        __builtin_memcpy(to, lanes, count * sizeof(float));
     }
 
     /// Stores the ids of shapes. `table` is the first one to search for a slot, and is updated.

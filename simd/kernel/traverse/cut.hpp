@@ -61,18 +61,18 @@ class Removed {
     /// Calls crossed(slot, rays as bits) for each face with a deferred test that `possible` rays
     /// may cross between the first crossing and the last.
     template <class Crossed = NoCrossedFaces>
-    [[gnu::always_inline]] Removed(const ClipPlanesView& cut, const CutRays<Arch>& of,
+    [[gnu::always_inline]] Removed(const ClipPlanesView& cut, const CutRays<Arch>& cut_rays,
                                    const Chord<Arch>& where, const M& possible = all<Arch>(),
                                    const Crossed& crossed = {})
         : entry(none<Arch>()), chord(none<Arch>()) {
-        const FilterRays<Arch>& rays = of.rays;
+        const FilterRays<Arch>& rays = cut_rays.rays;
         const Place begin(cut, rays, positive_part<Arch>(where.entry));
         const Place middle(cut, rays, positive_part<Arch>(where.entry_end));
         const Place end(cut, rays, where.exit_end);
         M of_entry = all<Arch>(), of_chord = all<Arch>();
         for (int k = 0; k < cut.count; ++k) {
             const F first = begin.outside(cut, k), last = end.outside(cut, k);
-            const M at_begin = (first > begin.error) | of.starts_on(cut.shape[k]);
+            const M at_begin = (first > begin.error) | cut_rays.starts_on(cut.shape[k]);
             const M at_end = last > end.error;
             of_entry = of_entry & at_begin & middle.is_outside(cut, k);
             of_chord = of_chord & at_begin & at_end;

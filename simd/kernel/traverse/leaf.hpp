@@ -51,16 +51,16 @@ struct Leaf : Streams<Arch> {
     template <class Filter, class Lanes16>
     [[gnu::always_inline]] static std::uint32_t may_meet(const Lanes16& block,
                                                          const RoundedRays& rays, std::size_t i) {
-        std::uint32_t some = 0;
+        std::uint32_t mask = 0;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             M lanes = elsewhere(block.ids(from), rays, i);
             if constexpr (has_may_meet<Filter, typename Method::Rays>)
                 lanes = lanes & Filter(block.reader(from)).may_meet(Method::broadcast(rays, i));
             else
                 lanes = lanes & S::filled(block.ids(from));
-            some |= Lanes<Arch>::bits(lanes) << from;
+            mask |= Lanes<Arch>::bits(lanes) << from;
         }
-        return some;
+        return mask;
     }
 
     /// Finds the shapes that may be crossed before `second`, where `cut` does not remove them.

@@ -14,23 +14,23 @@ struct Prefetcher {
         std::uint32_t bytes; ///< from one child to the next
         std::uint32_t
             further[max_lines - min_lines]; ///< offsets of further lines, 0 if there are fewer
-    } of[32];                               ///< indexed by the bits of a child above its index
+    } tables[32];                           ///< indexed by the bits of a child above its index
 
     explicit Prefetcher(const SceneView& scene) {
-        for (Addresses& table : of)
+        for (Addresses& table : tables)
             set(table, scene.nodes, sizeof(NodeView));
         for (int kind = 0; kind < core::kind_count; ++kind) {
             const TableView& shapes = scene.tables[kind];
             if (shapes.is_packed())
-                set(of[16 + kind], shapes.packed.blocks, sizeof(PackedBlockView));
+                set(tables[16 + kind], shapes.packed.blocks, sizeof(PackedBlockView));
             else
-                set(of[16 + kind], shapes.blocks, shapes.block_floats * sizeof(float));
+                set(tables[16 + kind], shapes.blocks, shapes.block_floats * sizeof(float));
         }
-        of[31].bytes = 0; // no_child
+        tables[31].bytes = 0; // no_child
     }
 
     [[gnu::always_inline]] void fetch(std::uint32_t child) const {
-        const Addresses& table = of[child >> 27];
+        const Addresses& table = tables[child >> 27];
         const char* const from =
             table.from + static_cast<std::size_t>(child & child_index) * table.bytes;
         for (std::uint32_t line = 0; line < min_lines; ++line)

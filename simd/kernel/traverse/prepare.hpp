@@ -110,14 +110,14 @@ struct Prepare : Streams<Arch> {
             }
         for (int axis = 0; axis < 3; ++axis) {
             const double* meant = rays.exact_origin[axis] + i;
-            double there[F::size];
+            double values[F::size];
             if constexpr (moves) {
                 for (std::size_t k = 0; k < F::size; k += Number::size)
                     mul_add<D>(Number::load_unaligned(rays.before + i + k),
                                Number::load_unaligned(rays.exact_direction[axis] + i + k),
                                Number::load_unaligned(meant + k))
-                        .store_unaligned(there + k);
-                meant = there;
+                        .store_unaligned(values + k);
+                meant = values;
             }
             const F o = Lanes<Arch>::narrow(meant);
             o.store_unaligned(rays.origin[axis] + i);

@@ -59,11 +59,11 @@ struct LaneCandidates {
         take(filter.bounds(packet.rays), packet.elsewhere(id), this_slot);
     }
 
-    /// Restores the candidates `before`, except in lanes of `some`.
-    void keep(const Mask<Arch>& some, const LaneCandidates& before) {
-        first = select(some, first, before.first);
-        second = select(some, second, before.second);
-        slot = select(some, slot, before.slot);
+    /// Restores the candidates `before`, except in lanes of `chosen`.
+    void keep(const Mask<Arch>& chosen, const LaneCandidates& before) {
+        first = select(chosen, first, before.first);
+        second = select(chosen, second, before.second);
+        slot = select(chosen, slot, before.slot);
     }
 
     /// Updates the candidates with the bounds of one shape, in lanes of `counts`.
@@ -83,8 +83,8 @@ struct LaneOcclusions {
     using F = Floats<Arch>;
 
     F t_limit, perhaps_before, surely_before;
-    std::uint32_t some = 0; ///< rays that may be blocked, as bits
-    std::uint32_t sure = 0; ///< rays that are certainly blocked, as bits
+    std::uint32_t maybe_blocked = 0; ///< rays that may be blocked, as bits
+    std::uint32_t sure = 0;          ///< rays that are certainly blocked, as bits
 
     LaneOcclusions(const Occlusions& occlusions, std::size_t i)
         : t_limit(S::load(occlusions.t_limit + i)), perhaps_before(t_limit * F(perhaps_within)),
@@ -101,14 +101,14 @@ struct LaneOcclusions {
             if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
         if constexpr (knows_cuts<Method>)
             if (cut != nullptr && !plain) {
-                some |= Lanes<Arch>::bits(
-                            may_cross_cut<Arch>(filter, packet.to_cut(), *cut, perhaps_before)) &
-                        asked;
+                maybe_blocked |= Lanes<Arch>::bits(may_cross_cut<Arch>(filter, packet.to_cut(),
+                                                                       *cut, perhaps_before)) &
+                                 asked;
                 return;
             }
         const Obstacle<Arch> obstacle =
             obstacle_of<Arch>(filter, packet.rays, asked, perhaps_before, surely_before);
-        some |= Lanes<Arch>::bits(obstacle.possible) & asked;
+        maybe_blocked |= Lanes<Arch>::bits(obstacle.possible) & asked;
         if (plain) sure |= Lanes<Arch>::bits(obstacle.possible & obstacle.certain) & asked;
     }
 
@@ -118,7 +118,7 @@ struct LaneOcclusions {
         for (std::size_t lane = 0; lane < count && lane < F::size; ++lane) {
             if ((sure >> lane & 1) != 0)
                 state[lane] = blocked;
-            else if ((some >> lane & 1) != 0 && state[lane] == unblocked)
+            else if ((maybe_blocked >> lane & 1) != 0 && state[lane] == unblocked)
                 state[lane] = doubtful;
             all_blocked = all_blocked && state[lane] == blocked;
         }

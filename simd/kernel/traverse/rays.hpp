@@ -31,8 +31,8 @@ struct PackedLanes {
 
     typename Packed::Reader reader(int from) const { return {packed, block, from}; }
     Floats<Arch> ids(int from) const {
-        const typename Packed::Some some(packed, block, from);
-        return select(some.empty, some.words, some.ids());
+        const typename Packed::BlockRows rows(packed, block, from);
+        return select(rows.empty, rows.words, rows.ids());
     }
 };
 

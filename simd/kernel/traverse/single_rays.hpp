@@ -63,12 +63,12 @@ struct SingleRays : Streams<Arch> {
                     continue;
                 }
                 counters.shapes += 16;
-                std::uint8_t here = unblocked;
+                std::uint8_t answer = unblocked;
                 Method::with_filter(S::kind_of(child), [&]<class Filter>() {
-                    here = obstruct<Filter>(scene, S::table_of(scene, S::kind_of(child)),
-                                            child & child_index, rays, i, t_limit);
+                    answer = obstruct<Filter>(scene, S::table_of(scene, S::kind_of(child)),
+                                              child & child_index, rays, i, t_limit);
                 });
-                state = here > state ? here : state;
+                state = answer > state ? answer : state;
                 if (state == blocked) break;
             }
         }

@@ -140,24 +140,25 @@ struct Trace : Streams<Arch> {
                                const Coherence* coherence, std::size_t begin, std::size_t end,
                                const RoundedRays& rays, const Candidates& candidates,
                                const Workspace& workspace, TraceCounters& counters) {
-        const RoundedRays some = from_ray(rays, begin);
+        const RoundedRays rounded = from_ray(rays, begin);
         const Candidates theirs{candidates.first + begin, candidates.second + begin,
                                 candidates.slot + begin};
         const std::size_t count = end - begin;
         if (kind_bits != 0)
-            EveryShape<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
+            EveryShape<Arch, Method>::nearest(scene, kind_bits, count, rounded, theirs, counters);
         if (workspace.key == nullptr) {
             counters.one_by_one += count;
         } else if (count <= SingleRays<Arch, Method>::most) {
             counters.in_flight += count;
-            SingleRays<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
+            SingleRays<Arch, Method>::nearest(scene, count, rounded, theirs, workspace, counters);
         } else if ((coherence != nullptr || makes_lists(scene, count)) &&
                    count <= workspace.capacity) {
             counters.in_lists += count;
-            ListNearest<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
+            ListNearest<Arch, Method>::nearest(scene, count, rounded, theirs, workspace, counters);
         } else {
             counters.in_flight += count;
-            InFlightNearest<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
+            InFlightNearest<Arch, Method>::nearest(scene, count, rounded, theirs, workspace,
+                                                   counters);
         }
     }
 
@@ -165,24 +166,24 @@ struct Trace : Streams<Arch> {
                                 const Coherence* coherence, std::size_t begin, std::size_t end,
                                 const RoundedRays& rays, const Occlusions& occlusions,
                                 const Workspace& workspace, TraceCounters& counters) {
-        const RoundedRays some = from_ray(rays, begin);
+        const RoundedRays rounded = from_ray(rays, begin);
         const Occlusions theirs{occlusions.t_limit + begin, occlusions.state + begin};
         if (kind_bits != 0)
-            EveryShape<Arch, Method>::occluded(scene, kind_bits, end - begin, some, theirs,
+            EveryShape<Arch, Method>::occluded(scene, kind_bits, end - begin, rounded, theirs,
                                                counters);
         if (workspace.key == nullptr) {
             counters.one_by_one += end - begin;
         } else if (end - begin <= SingleRays<Arch, Method>::most) {
             counters.in_flight += end - begin;
-            SingleRays<Arch, Method>::occluded(scene, end - begin, some, theirs, workspace,
+            SingleRays<Arch, Method>::occluded(scene, end - begin, rounded, theirs, workspace,
                                                counters);
         } else if ((coherence != nullptr || scene.small) && end - begin <= workspace.capacity) {
             counters.in_lists += end - begin;
-            ListOccluded<Arch, Method>::occluded(scene, end - begin, some, theirs, workspace,
+            ListOccluded<Arch, Method>::occluded(scene, end - begin, rounded, theirs, workspace,
                                                  counters);
         } else {
             counters.in_flight += end - begin;
-            InFlightOccluded<Arch, Method>::occluded(scene, end - begin, some, theirs, workspace,
+            InFlightOccluded<Arch, Method>::occluded(scene, end - begin, rounded, theirs, workspace,
                                                      counters);
         }
     }

@@ -92,7 +92,7 @@ struct Orders {
     struct alignas(16) Order {
         std::uint8_t bytes[16];
     };
-    static constexpr std::array<Order, 1U << lanes> all = [] {
+    static constexpr std::array<Order, 1U << lanes> table = [] {
         constexpr unsigned size = 16 / lanes;
         std::array<Order, 1U << lanes> orders{};
         for (unsigned wanted = 0; wanted < 1U << lanes; ++wanted) {
@@ -107,7 +107,7 @@ struct Orders {
     /// Writes the wanted lanes, in their order, to `out`.
     static void compress_store(void* out, uint8x16_t register_, std::uint32_t wanted) {
         vst1q_u8(static_cast<std::uint8_t*>(out),
-                 vqtbl1q_u8(register_, vld1q_u8(all[wanted].bytes)));
+                 vqtbl1q_u8(register_, vld1q_u8(table[wanted].bytes)));
     }
 };
 

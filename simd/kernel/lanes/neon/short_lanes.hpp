@@ -32,10 +32,10 @@ struct ShortLanes<Neon> {
     static std::uint32_t min_of_16(const std::uint16_t* keys) {
         const uint16x8_t low = vld1q_u16(keys), high = vld1q_u16(keys + 8);
         const std::uint32_t least = vminvq_u16(vminq_u16(low, high));
-        const uint16x8_t all = vdupq_n_u16(static_cast<std::uint16_t>(least));
+        const uint16x8_t limits = vdupq_n_u16(static_cast<std::uint16_t>(least));
         // Each key has four bits.
         const uint8x16_t equal =
-            vcombine_u8(vmovn_u16(vceqq_u16(low, all)), vmovn_u16(vceqq_u16(high, all)));
+            vcombine_u8(vmovn_u16(vceqq_u16(low, limits)), vmovn_u16(vceqq_u16(high, limits)));
         const std::uint64_t fours =
             vget_lane_u64(vreinterpret_u64_u8(vshrn_n_u16(vreinterpretq_u16_u8(equal), 4)), 0);
         return least << 16 | static_cast<std::uint32_t>(__builtin_ctzll(fours)) / 4;

@@ -77,10 +77,10 @@ class SolvedOnce : Streams<Arch> {
               slot(S::load_bits(candidates.slot + i)) {}
 
         [[gnu::always_inline]] void take(const Crossing<Arch>& crossing, std::uint32_t this_slot) {
-            const F there = select(crossing.exists, crossing.t, S::infinity());
-            const M nearer = there < t;
-            second = min(second, max(there, t));
-            t = min(t, there);
+            const F distance = select(crossing.exists, crossing.t, S::infinity());
+            const M nearer = distance < t;
+            second = min(second, max(distance, t));
+            t = min(t, distance);
             slot = select(nearer, S::broadcast_bits(this_slot), slot);
             code = select(
                 nearer,
@@ -178,8 +178,8 @@ class SolvedOnce : Streams<Arch> {
             std::uint32_t places[F::size]; // 32 bits suffice for a few shapes
             for (std::size_t lane = 0; lane < F::size; ++lane) {
                 const std::uint32_t place = slots[lane] - first_slot;
-                const std::uint32_t there = place < count ? place : 0;
-                places[lane] = there / 16 * block_floats + there % 16;
+                const std::uint32_t index = place < count ? place : 0;
+                places[lane] = index / 16 * block_floats + index % 16;
             }
             with_solver<Arch, textbook>(kind, [&]<class Solver>() {
                 if constexpr (Derives<Arch, Solver>) {

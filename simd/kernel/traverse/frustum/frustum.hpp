@@ -210,7 +210,7 @@ struct Frustum : Streams<Arch> {
                 (w_across + room_across).store_unaligned(to.high[side] + from);
             }
             reach_sides(
-                to, [&](const float* of) { return S::load(of + from); },
+                to, [&](const float* column) { return S::load(column + from); },
                 [](const Side& side) { return Plane(side); }, reach);
             return reach;
         };
@@ -224,7 +224,7 @@ struct Frustum : Streams<Arch> {
             Reach reach;
             reach.along[0] = reach.along[1] = F(seen.end[end].near[lane]) <= t_limit;
             reach_sides(
-                seen.end[end], [&](const float* of) { return F(of[lane]); },
+                seen.end[end], [&](const float* column) { return F(column[lane]); },
                 [&](const Side& side) { return Plane(side, from); }, reach);
             return reach;
         };

@@ -112,8 +112,8 @@ class FrustumCandidates : Streams<Arch> {
             for (std::size_t k = 0; k < 16; k += S::lanes) {
                 LaneCandidates<Arch> found(candidates, i + k);
                 // Absent rays get a hit at t = 0.
-                const std::size_t here = i + k < end ? end - i - k : 0;
-                found.first = select(S::first_lanes(here), found.first, zero<Arch>());
+                const std::size_t filled = i + k < end ? end - i - k : 0;
+                found.first = select(S::first_lanes(filled), found.first, zero<Arch>());
                 found.store(packet.found(), k);
             }
         }
@@ -211,7 +211,7 @@ class FrustumOcclusions : Streams<Arch> {
             found.test(filter, id, plain, cut_of<Method>(scene_, slot), packet.packet(k),
                        ~blocked_[which] >> k);
             blocked_[which] |= found.sure << k;
-            doubtful_[which] |= found.some << k;
+            doubtful_[which] |= found.maybe_blocked << k;
         }
     }
 
@@ -233,12 +233,12 @@ class FrustumOcclusions : Streams<Arch> {
     template <class Visit>
     static void with_states(std::uint8_t* state, std::size_t count, const Visit& visit) {
         if (count >= 16) return visit(state);
-        std::uint8_t some[16];
+        std::uint8_t buffer[16];
         for (std::size_t k = 0; k < 16; ++k)
-            some[k] = k < count ? state[k] : std::uint8_t{blocked};
-        visit(some);
+            buffer[k] = k < count ? state[k] : std::uint8_t{blocked};
+        visit(buffer);
         for (std::size_t k = 0; k < count; ++k)
-            state[k] = some[k];
+            state[k] = buffer[k];
     }
 };
 

@@ -103,15 +103,15 @@ struct SortedByDirection : Streams<Arch> {
                 along = axis;
         F low[2] = {F(steepest), F(steepest)}, high[2] = {F(-steepest), F(-steepest)};
         for (std::size_t i = 0; i < count; i += F::size) {
-            const M here = S::first_lanes(count - i);
+            const M filled = S::first_lanes(count - i);
             const F w = S::load(from.direction[along] + i);
             for (int side = 0; side < 2; ++side) {
                 const F any = S::load(from.direction[(along + 1 + side) % 3] + i) / w;
                 // NaN is clamped to one of the ends.
                 const F slope = max(min(any, F(steepest)), F(-steepest));
                 slope.store_unaligned((side == 0 ? u_ : v_) + i);
-                low[side] = min(low[side], select(here, slope, low[side]));
-                high[side] = max(high[side], select(here, slope, high[side]));
+                low[side] = min(low[side], select(filled, slope, low[side]));
+                high[side] = max(high[side], select(filled, slope, high[side]));
             }
         }
         for (int side = 0; side < 2; ++side) {

@@ -197,10 +197,10 @@ struct FrustumWalk : Streams<Arch> {
 
     /// Writes the wanted ones of a register's worth of numbers, with `above` in their higher bits.
     /// Returns how many these are.
-    static int list(const std::uint32_t* of, std::uint32_t above, std::uint32_t wanted,
+    static int list(const std::uint32_t* entries, std::uint32_t above, std::uint32_t wanted,
                     std::uint32_t* to) {
         Lanes<Arch>::compress_store(reinterpret_cast<float*>(to),
-                                    S::load_bits(of) | S::broadcast_bits(above), wanted);
+                                    S::load_bits(entries) | S::broadcast_bits(above), wanted);
         return __builtin_popcount(wanted);
     }
 

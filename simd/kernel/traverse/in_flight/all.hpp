@@ -34,15 +34,15 @@ class InFlightAll : InFlight<Arch, Method> {
     static void list(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
                      const RoundedRays& rays, const float* t_limit, const Pending& pending,
                      PairList& list) {
-        InFlightAll all(scene, count, rays, t_limit, list);
-        all.add_listed(kind_bits);
+        InFlightAll walk(scene, count, rays, t_limit, list);
+        walk.add_listed(kind_bits);
         if (pending.key == nullptr) return;
         for (std::size_t which = 0; which < in_flight; ++which) {
-            all.listers_[which].bottom = pending.child + pending_entries(scene.tree_depth) * which;
-            *all.listers_[which].bottom = no_child;
+            walk.listers_[which].bottom = pending.child + pending_entries(scene.tree_depth) * which;
+            *walk.listers_[which].bottom = no_child;
         }
         TraceCounters counters{};
-        Base::go(scene, all.listers_, all, counters);
+        Base::go(scene, walk.listers_, walk, counters);
     }
 
     bool start(Lister& lister) {

@@ -127,10 +127,10 @@ struct InFlight : Streams<Arch> {
         } else {
             for (int k = 0; k < count; ++k)
                 S::template fetch_whole_rows<Filter>(table, rays[which[k]].child & child_index);
-            int some[in_flight], found = 0;
+            int indices[in_flight], found = 0;
             for (int k = 0; k < count; ++k) {
                 const Traveller& ray = rays[which[k]];
-                some[found] = which[k];
+                indices[found] = which[k];
                 const std::uint32_t number = ray.child & child_index;
                 const auto may_meet = [&](const auto& block) {
                     return Leaf<Arch, Method>::template may_meet<Filter>(block, stream, ray.i);
@@ -143,7 +143,7 @@ struct InFlight : Streams<Arch> {
                         S::template with_ids<Filter>(table, number, may_meet) != 0);
             }
             for (int k = 0; k < found; ++k)
-                visit.template all<Filter>(rays[some[k]], table);
+                visit.template all<Filter>(rays[indices[k]], table);
         }
     }
 };

@@ -36,8 +36,8 @@ class InFlightNearest : InFlight<Arch, Method> {
     static void nearest(const SceneView& scene, std::size_t count, const RoundedRays& rays,
                         const Candidates& candidates, const Pending& pending,
                         TraceCounters& counters) {
-        InFlightNearest all(scene, count, rays, candidates, pending);
-        Base::go(scene, all.flights_, all, counters);
+        InFlightNearest walk(scene, count, rays, candidates, pending);
+        Base::go(scene, walk.flights_, walk, counters);
     }
 
     bool start(Flight& flight) {

@@ -40,8 +40,8 @@ class InFlightOccluded : InFlight<Arch, Method> {
     static void occluded(const SceneView& scene, std::size_t count, const RoundedRays& rays,
                          const Occlusions& occlusions, const Pending& pending,
                          TraceCounters& counters) {
-        InFlightOccluded all(scene, count, rays, occlusions, pending);
-        Base::go(scene, all.shadows_, all, counters);
+        InFlightOccluded walk(scene, count, rays, occlusions, pending);
+        Base::go(scene, walk.shadows_, walk, counters);
     }
 
     /// Starts the next ray that is not blocked already.

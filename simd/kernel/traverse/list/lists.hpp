@@ -92,9 +92,9 @@ class RayLists : protected Streams<Arch> {
             const auto entry = static_cast<unsigned>(order & 15);
             if ((any >> entry & 1) == 0) continue;
             any &= ~(1U << entry);
-            const int some = ShortLanes<Arch>::pick(list, masks, count, entry, entered);
-            free_ = entered + some;
-            at_child(node.children[entry], entered, some);
+            const int picked = ShortLanes<Arch>::pick(list, masks, count, entry, entered);
+            free_ = entered + picked;
+            at_child(node.children[entry], entered, picked);
         }
         free_ = masks;
     }
@@ -171,16 +171,16 @@ class RayLists : protected Streams<Arch> {
                                               take_them);
         } else {
             for (int begin = 0; begin < count; begin += batch) {
-                Number some[batch];
+                Number batch_values[batch];
                 int found = 0;
                 for (int k = begin; k < begin + batch && k < count; ++k) {
-                    some[found] = list[k];
+                    batch_values[found] = list[k];
                     const std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
                         PlainLanes<Arch>(table, block), rays_, list[k]);
                     found += static_cast<int>(bits != 0);
                 }
                 for (int k = 0; k < found; ++k)
-                    answer().template take<Filter>(table, number, block, some[k]);
+                    answer().template take<Filter>(table, number, block, batch_values[k]);
             }
         }
     }
