@@ -44,10 +44,10 @@ bool holds(const Both& both) {
 }
 
 template <class Of>
-Both combined(const Both& x, const Both& y, const Of& of) {
-    Both result{of(x.form, y.form), {}};
+Both combined(const Both& x, const Both& y, const Of& object) {
+    Both result{object(x.form, y.form), {}};
     for (int i = 0; i < 5; ++i)
-        result.at[i] = of(x.at[i], y.at[i]);
+        result.at[i] = object(x.at[i], y.at[i]);
     return result;
 }
 

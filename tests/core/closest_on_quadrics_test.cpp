@@ -174,7 +174,7 @@ std::optional<Number> polished_distance(const QuadricD& q, const Vec3d& p, const
 }
 
 struct Tally {
-    int all = 0, polished = 0;
+    int total = 0, polished = 0;
 };
 
 void check(const QuadricD& q, const Vec3d& p, Random& r, Tally& tally) {
@@ -200,7 +200,7 @@ void check(const QuadricD& q, const Vec3d& p, Random& r, Tally& tally) {
     CHECK(std::abs(quadric_value(q, off)) <=
           1e-14 * scale *
               (length(quadric_half_gradient(q, off)) + scale * quadric_scale<double>(q)));
-    ++tally.all;
+    ++tally.total;
     const auto polished = polished_distance(q, p, got.point);
     if (!polished || abs(*polished - Number(got.distance)) > 1e-12 * scale) return;
     ++tally.polished;
@@ -225,7 +225,7 @@ TEST_CASE("no point of a quadric in its box is closer than the answer") {
                 check(q, p, r, tally);
             }
         }
-    CHECK(tally.polished > tally.all / 2);
+    CHECK(tally.polished > tally.total / 2);
 }
 
 TEST_CASE("closest points of quadrics at their axes, apexes and rims are those of geometry") {

@@ -57,9 +57,9 @@ struct TestScene {
 };
 
 /// Checks an answer against the closest points of each shape.
-void check(const TestScene& of, const Vec3d& point, const Closest& got) {
+void check(const TestScene& expected_scene, const Vec3d& point, const Closest& got) {
     std::vector<oracle::OnSurfaces> each;
-    for (const AnyDouble& any : of.shapes)
+    for (const AnyDouble& any : expected_scene.shapes)
         each.push_back(std::visit(
             [&]<class Shape>(const Shape& shape) {
                 if constexpr (kind_of<Shape> == Kind::quadric)

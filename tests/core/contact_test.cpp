@@ -135,10 +135,11 @@ TEST_CASE("coincident surfaces filter light once for each material") {
         builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, matte);
         Material tinted = glass(1.0F);
         tinted.transmission = 0.5F;
-        const MaterialIndex of[] = {builder.add_material(tinted), builder.add_material(tinted)};
+        const MaterialIndex material_index[] = {builder.add_material(tinted),
+                                                builder.add_material(tinted)};
         float radius = 20;
         for (const int material : materials)
-            builder.add(Disc{{0, 3, 0}, {0, 1, 0}, radius++}, of[material]);
+            builder.add(Disc{{0, 3, 0}, {0, 1, 0}, radius++}, material_index[material]);
         return color_along<double>(builder.finish({.kind = LightKind::directional}), {0.25, 1, 0.5},
                                    {0.1, -1, 0.2});
     };

@@ -28,10 +28,10 @@ PlaneOf<double> plane(const Vec3d& point, const Vec3d& normal) {
 }
 
 std::vector<HalfSpace> moved(const std::vector<PartShape>& shapes, const Transform& by) {
-    std::vector<HalfSpace> all;
+    std::vector<HalfSpace> half_spaces;
     for (const PartShape& shape : shapes)
-        all.push_back({by(of_shape(shape)).shape});
-    return all;
+        half_spaces.push_back({by(of_shape(shape)).shape});
+    return half_spaces;
 }
 
 Transform any_transform(Random& random) {

@@ -72,7 +72,7 @@ class Audit {
   private:
     /// Returns the bounds of the content.
     Bounds visit(std::uint32_t index, std::vector<Bounds> above) {
-        Bounds all;
+        Bounds bounds;
         ++nodes;
         const WideNode& node = built_.hierarchy.nodes[index];
         bool ended = false;
@@ -97,15 +97,15 @@ class Audit {
                 if (std::nextafter(above.back().lower[axis], HUGE_VALF) != inside.lower[axis] ||
                     std::nextafter(above.back().upper[axis], -HUGE_VALF) != inside.upper[axis])
                     ++wide;
-            all.include(inside);
+            bounds.include(inside);
             above.pop_back();
         }
-        return all;
+        return bounds;
     }
 
     template <class Shape>
     Bounds visit(const Block<Shape>& block, const std::vector<Bounds>& above) {
-        Bounds all;
+        Bounds node_bounds;
         ++blocks;
         if constexpr (tests::is_bounded<Shape>) {
             bool ended = false;
@@ -120,10 +120,10 @@ class Audit {
                 const Bounds bounds = bounds_of(block.get(lane));
                 for (const Bounds& outer : above)
                     if (!surrounds(outer, bounds)) ++loose;
-                all.include(bounds);
+                node_bounds.include(bounds);
             }
         }
-        return all;
+        return node_bounds;
     }
 
     const Built& built_;

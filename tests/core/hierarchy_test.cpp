@@ -65,12 +65,13 @@ TEST_CASE("the hierarchy finds the same hits in a heap of all kinds as brute for
             const Aimed aimed = heap(lattice, of_each_kind, 20 + of_each_kind);
             Searcher<double> by_hierarchy(aimed.scene, Search::hierarchy);
             Searcher<double> by_trying(aimed.scene, Search::every_shape);
-            const auto all = [](const Hit<double>&) { return true; };
+            const auto any_hit = [](const Hit<double>&) { return true; };
             int hits = 0, lost = 0, blocked_otherwise = 0;
             for (const Ray<double>& ray : aimed.rays) {
-                const Hit<double> hit = by_trying.nearest(ray, OriginSurfaces<double>{}, all).hit;
+                const Hit<double> hit =
+                    by_trying.nearest(ray, OriginSurfaces<double>{}, any_hit).hit;
                 hits += hit.any() ? 1 : 0;
-                if (!same(hit, by_hierarchy.nearest(ray, OriginSurfaces<double>{}, all).hit))
+                if (!same(hit, by_hierarchy.nearest(ray, OriginSurfaces<double>{}, any_hit).hit))
                     ++lost;
                 // The ray crosses nothing before the hit, and something just beyond it.
                 const double off = 2.0 * needed_accuracy * hit.t;
@@ -96,9 +97,9 @@ TEST_CASE("the first added of the shapes at one distance is hit") {
     const Scene scene = builder.finish();
     for (const Search search : {Search::hierarchy, Search::every_shape}) {
         Searcher<double> searcher(scene, search);
-        const auto all = [](const Hit<double>&) { return true; };
+        const auto any_hit = [](const Hit<double>&) { return true; };
         const Ray<double> ray{{0, 0, 5}, {0, 0, -1}};
-        CHECK(searcher.nearest(ray, OriginSurfaces<double>{}, all).hit.shape == 0);
+        CHECK(searcher.nearest(ray, OriginSurfaces<double>{}, any_hit).hit.shape == 0);
         const auto but_the_first = [](const Hit<double>& hit) { return hit.shape > 0; };
         CHECK(searcher.nearest(ray, OriginSurfaces<double>{}, but_the_first).hit.shape == 1);
     }
@@ -113,15 +114,15 @@ TEST_CASE("a ray in the plane of a node's face loses no hit") {
     const Scene scene = builder.finish();
     Searcher<double> by_hierarchy(scene, Search::hierarchy);
     Searcher<double> by_trying(scene, Search::every_shape);
-    const auto all = [](const Hit<double>&) { return true; };
+    const auto any_hit = [](const Hit<double>&) { return true; };
     for (const double y : {0.0, 1.0, 0.5})
         for (const double dy : {0.0, -0.0, 1e-45, -1e-45, 4e-324, -4e-324})
             for (const double dx : {1.0, -1.0}) {
                 const Ray<double> ray{{dx > 0 ? -1.0 : 300.0, y, 0.5}, {dx, dy, 0.0}};
                 const Hit<double> hit =
-                    by_hierarchy.nearest(ray, OriginSurfaces<double>{}, all).hit;
+                    by_hierarchy.nearest(ray, OriginSurfaces<double>{}, any_hit).hit;
                 CAPTURE(y, dy, dx);
-                CHECK(same(hit, by_trying.nearest(ray, OriginSurfaces<double>{}, all).hit));
+                CHECK(same(hit, by_trying.nearest(ray, OriginSurfaces<double>{}, any_hit).hit));
                 if (dy == 0.0) CHECK(hit.shape == (dx > 0 ? 0U : 99U));
             }
 }

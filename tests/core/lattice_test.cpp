@@ -43,13 +43,13 @@ template <class Shape>
 void compare(const Shape& shape, const Ray<double>& ray, Tally& tally) {
     ++tally.rays;
     std::uint64_t widened = 0;
-    const Crossings<double> all = solve(shape, ray, Start{}, widened);
+    const Crossings<double> solved = solve(shape, ray, Start{}, widened);
     if (widened == 0) return;
     ++tally.doubtful;
 
     const std::vector<oracle::Hit> truth = ahead(oracle::crossings(shape, ray));
     std::vector<Crossing<double>> found;
-    for (const Crossing<double>& crossing : all)
+    for (const Crossing<double>& crossing : solved)
         if (crossing.t > 0.0) found.push_back(crossing);
     tally.hits += truth.empty() ? 0 : 1;
     tally.invented += found.size() > truth.size() ? 1 : 0;

@@ -18,18 +18,18 @@ struct Domain {
     bool logarithmic; ///< log-uniform between these, with both signs
 };
 
-double draw(Random& random, const Domain& of) {
-    if (!of.logarithmic) return random.uniform(of.least, of.most);
-    return random.sign() * std::exp(random.uniform(std::log(of.least), std::log(of.most)));
+double draw(Random& random, const Domain& domain) {
+    if (!domain.logarithmic) return random.uniform(domain.least, domain.most);
+    return random.sign() * std::exp(random.uniform(std::log(domain.least), std::log(domain.most)));
 }
 
 void check(const char* name, Function computed, Exact exact, double max_ulps,
            std::initializer_list<Domain> domains) {
     Random random;
     Errors errors;
-    for (const Domain& of : domains)
+    for (const Domain& domain : domains)
         for (int i = 0; i < rounds / 4; ++i) {
-            const double x = draw(random, of);
+            const double x = draw(random, domain);
             errors.add(computed(x), exact(Number(x)));
         }
     errors.check(name, max_ulps, 0.5);
@@ -104,11 +104,11 @@ TEST_CASE("powers of readers are exact where the result is a double") {
     }
     // Results of all sizes. Results near 0 have fewer bits and are rounded twice.
     Random random;
-    Errors whole, others, negative, first;
+    Errors of_integers, others, negative, first;
     for (int i = 0; i < rounds; ++i) {
         const double n = std::floor(random.uniform(1.0, 60.0)) * random.sign();
         const double x = std::exp(random.uniform(-1021.0, 1023.9) * 0.6931471805599453 / n);
-        whole.add(core::power(x, n), mp::pow(Number(x), static_cast<int>(n)));
+        of_integers.add(core::power(x, n), mp::pow(Number(x), static_cast<int>(n)));
         const double any = std::exp(random.uniform(-744.0, 709.0));
         first.add(core::power(any, 1.0), Number(any));
         const double y = random.uniform(-3.0, 3.0);
@@ -124,13 +124,13 @@ TEST_CASE("powers of readers are exact where the result is a double") {
     for (int i = 0; i < rounds / 2; ++i) {
         const double base = random.sign() * random.uniform(0.3, 3.0);
         const double n = std::floor(random.uniform(-500.0, 500.0));
-        whole.add(core::power(base, n), mp::pow(Number(base), static_cast<int>(n)));
+        of_integers.add(core::power(base, n), mp::pow(Number(base), static_cast<int>(n)));
         const double x = draw(random, {1e-5, 1e5, true}), y = random.uniform(-20.0, 20.0);
         others.add(core::power(std::abs(x), y), mp::pow(Number(std::abs(x)), Number(y)));
         const double most = std::floor(random.uniform(1100.0, 2000.0));
         negative.add(core::power(-1.25, most), mp::pow(Number(-1.25), static_cast<int>(most)));
     }
-    whole.check("whole powers", 0.501);
+    of_integers.check("whole powers", 0.501);
     others.check("powers", 2.0);
     negative.check("large whole powers", 2.0, 0.5);
 }

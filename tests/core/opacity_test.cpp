@@ -212,16 +212,16 @@ TEST_CASE("light into a transparent union passes only its outer walls") {
     matte.diffuse = 1.0F;
     const MaterialIndex core = builder.add_material(matte);
     matte.opacity = static_cast<float>(envelope);
-    Solid all{Made::by_union};
-    for (const Ball& of : balls) {
+    Solid solid{Made::by_union};
+    for (const Ball& ball : balls) {
         Solid part;
-        part.shape = SphereOf<double>{of.center, of.radius};
-        if (of.is_core)
-            builder.add(SphereOf<double>{of.center, of.radius}, core);
+        part.shape = SphereOf<double>{ball.center, ball.radius};
+        if (ball.is_core)
+            builder.add(SphereOf<double>{ball.center, ball.radius}, core);
         else
-            all.parts.push_back(part);
+            solid.parts.push_back(part);
     }
-    builder.add_solid(all, builder.add_material(matte));
+    builder.add_solid(solid, builder.add_material(matte));
     const Scene scene = builder.finish({.kind = LightKind::directional, .direction = {-4, -6, -5}});
     const Vec3d to_light = normalized(Vec3d(4, 6, 5));
     int lit = 0;

@@ -153,17 +153,17 @@ TEST_CASE("radii that do not fit in a word with the ids are stored whole") {
         CAPTURE(ids, palette.size());
         CHECK(palette.size() == numbers);
         const std::size_t last_id = ids == 0 ? 0 : ids - 1;
-        int whole = 0;
+        int full_rows = 0;
         for (std::size_t first = 0; first < radii.size(); first += block_size) {
             Block<Sphere> block;
             for (int lane = 0; lane < block_size && first + lane < radii.size(); ++lane)
                 block.set(lane, {{1, 1, 1}, radii[first + lane]},
                           static_cast<ShapeId>(last_id - std::min<std::size_t>(last_id, lane)));
             check_exact(block, palette);
-            whole += whole_rows(block, palette);
+            full_rows += whole_rows(block, palette);
         }
-        CHECK(whole >= static_cast<int>((radii.size() - palette.size()) / block_size));
-        CHECK(whole < 20);
+        CHECK(full_rows >= static_cast<int>((radii.size() - palette.size()) / block_size));
+        CHECK(full_rows < 20);
         // The last radius with the last id must not have the word of an empty lane.
         Block<Sphere> last;
         last.set(0, {{1, 1, 1}, palette.radii()[palette.size() - 1]},

@@ -83,13 +83,13 @@ TEST_CASE("shuffled points of one sequence do not correlate with another sequenc
     for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
         double sequence = 0.0, column = 0.0, row = 0.0;
         for (std::uint32_t i = 0; i < count; ++i) {
-            const double here = side(static_cast<double>(
+            const double near_side = side(static_cast<double>(
                 shuffled_point(sequence_key(pixel, 0, SequenceUse::on_lens), i).x));
-            const double there = static_cast<double>(
+            const double far_side = static_cast<double>(
                 sequence_point(sequence_key(pixel, 0, SequenceUse::in_pixel), i).x);
-            sequence += here * side(there) / count;
-            column += here * side((i % grid + 0.5) / grid) / count;
-            row += here * side((i / grid + 0.5) / grid) / count;
+            sequence += near_side * side(far_side) / count;
+            column += near_side * side((i % grid + 0.5) / grid) / count;
+            row += near_side * side((i / grid + 0.5) / grid) / count;
         }
         with_sequence += sequence * sequence / pixels;
         with_column += column * column / pixels;

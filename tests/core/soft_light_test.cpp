@@ -104,20 +104,22 @@ TEST_CASE("samples of a sphere light are spread evenly over its visible solid an
         const Vec3d offset = convert<double>(middle) - point;
         const double d = length(offset), r = static_cast<double>(light.radius);
         const Vec3d normal = offset / d;
-        const Shown of = shown(light, point, normal, [&](const LightSample<double>& sample) {
-            const Vec3d direction = vector(sample.direction);
-            CHECK(std::abs(length(direction) - 1.0) < 1e-14);
-            const double at = length(sample.distance * direction - offset);
-            CHECK(std::abs(at - r) < 1e-6 * r + 1e-12 * d * d / r);
-            CHECK(sample.distance > 0.0);
-        });
+        const Shown shown_light =
+            shown(light, point, normal, [&](const LightSample<double>& sample) {
+                const Vec3d direction = vector(sample.direction);
+                CHECK(std::abs(length(direction) - 1.0) < 1e-14);
+                const double at = length(sample.distance * direction - offset);
+                CHECK(std::abs(at - r) < 1e-6 * r + 1e-12 * d * d / r);
+                CHECK(sample.distance > 0.0);
+            });
         if (d > r) {
-            CHECK(of.by_cosine == Approx(r * r / (d * d)).epsilon(1e-4));
-            CHECK(of.solid_angle ==
+            CHECK(shown_light.by_cosine == Approx(r * r / (d * d)).epsilon(1e-4));
+            CHECK(shown_light.solid_angle ==
                   Approx(2.0 * (1.0 - std::sqrt(1.0 - r * r / (d * d)))).epsilon(1e-6));
         } else {
-            CHECK(of.by_cosine == Approx(1.0).epsilon(1e-3)); // the light covers the hemisphere
-            CHECK(of.solid_angle == Approx(4.0).epsilon(1e-12));
+            CHECK(shown_light.by_cosine ==
+                  Approx(1.0).epsilon(1e-3)); // the light covers the hemisphere
+            CHECK(shown_light.solid_angle == Approx(4.0).epsilon(1e-12));
         }
         if (d < 2.0 * r) continue;
         const Vec3d aslant = normalized(normal + 0.5 * random.direction());
@@ -140,16 +142,17 @@ TEST_CASE("samples of a disc light lie on it and add up to its solid angle") {
         const double height = std::abs(dot(m - point, normal)), r = static_cast<double>(radius);
         if (height < 0.05 * r) continue;
         double least = 1e300, most = 0.0;
-        const Shown of = shown(light, point, normal, [&](const LightSample<double>& sample) {
-            const Vec3d hit = point + sample.distance * vector(sample.direction) - m;
-            const double scale = length(m - point);
-            CHECK(std::abs(dot(hit, normal)) < 1e-12 * scale);
-            CHECK(length(hit) < r * (1.0 + 1e-9) + 1e-12 * scale);
-            least = std::min(least, sample.share);
-            most = std::max(most, sample.share);
-        });
+        const Shown shown_light =
+            shown(light, point, normal, [&](const LightSample<double>& sample) {
+                const Vec3d hit = point + sample.distance * vector(sample.direction) - m;
+                const double scale = length(m - point);
+                CHECK(std::abs(dot(hit, normal)) < 1e-12 * scale);
+                CHECK(length(hit) < r * (1.0 + 1e-9) + 1e-12 * scale);
+                least = std::min(least, sample.share);
+                most = std::max(most, sample.share);
+            });
         const double expected = solid_angle_of_disc(m, normal, r, point) / pi;
-        CHECK(of.solid_angle == Approx(expected).epsilon(2e-4));
+        CHECK(shown_light.solid_angle == Approx(expected).epsilon(2e-4));
         CHECK(most < 2.0 * (1.0 + r / height) * least); // weights are nearly equal
     }
     // Closed forms for a point straight below the middle.
@@ -175,17 +178,18 @@ TEST_CASE("samples of a rectangle light are spread evenly over its solid angle")
         const Light light = rectangle_light(corner, {width, 0, 0}, {0, 0, length_v});
         const Vec3d point = random.cube(5.0), offset = convert<double>(corner) - point;
         const double w = static_cast<double>(width), l = static_cast<double>(length_v);
-        const Shown of = shown(light, point, {0, 1, 0}, [&](const LightSample<double>& sample) {
-            const Vec3d hit = sample.distance * vector(sample.direction) - offset;
-            const double off = 1e-9 * (w + l) + 1e-13 * length(offset);
-            CHECK(std::abs(hit.y) < off);
-            CHECK((hit.x > -off && hit.x < w + off && hit.z > -off && hit.z < l + off));
-            CHECK(std::abs(length(vector(sample.direction)) - 1.0) < 1e-14);
-        });
+        const Shown shown_light =
+            shown(light, point, {0, 1, 0}, [&](const LightSample<double>& sample) {
+                const Vec3d hit = sample.distance * vector(sample.direction) - offset;
+                const double off = 1e-9 * (w + l) + 1e-13 * length(offset);
+                CHECK(std::abs(hit.y) < off);
+                CHECK((hit.x > -off && hit.x < w + off && hit.z > -off && hit.z < l + off));
+                CHECK(std::abs(length(vector(sample.direction)) - 1.0) < 1e-14);
+            });
         const double expected = solid_angle_of_rectangle(offset.x, offset.x + w, offset.z,
                                                          offset.z + l, std::abs(offset.y)) /
                                 pi;
-        CHECK(of.solid_angle == Approx(expected).epsilon(1e-5));
+        CHECK(shown_light.solid_angle == Approx(expected).epsilon(1e-5));
     }
     // The form factor of a rectangle with a corner straight above (Siegel and Howell).
     const double a = 3.0 / 2.0, b = 1.0 / 2.0;

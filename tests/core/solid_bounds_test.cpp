@@ -52,11 +52,11 @@ Solid any_solid(Random& random, int balls, int depth, bool large = true) {
 
 std::vector<SphereOf<double>> balls_of(const Solid& solid) {
     if (solid.made == Made::of_shape) return {std::get<SphereOf<double>>(solid.shape)};
-    std::vector<SphereOf<double>> all;
+    std::vector<SphereOf<double>> spheres;
     for (const Solid& part : solid.parts)
         for (const SphereOf<double>& next : balls_of(part))
-            all.push_back(next);
-    return all;
+            spheres.push_back(next);
+    return spheres;
 }
 
 /// Returns whether a point is inside of a solid if `of_ball` says whether it is inside of the ball

@@ -48,8 +48,8 @@ struct Tally {
 template <class Shape>
 void compare(const Shape& shape, const Ray<float>& ray, Tally& tally) {
     const auto truth = oracle::first_hit(shape, ray);
-    const Crossings<double> all = solve(shape, widened<double>(ray), Start{}, tally.widened);
-    const Crossing<double>* found = first_ahead(all);
+    const Crossings<double> crossings = solve(shape, widened<double>(ray), Start{}, tally.widened);
+    const Crossing<double>* found = first_ahead(crossings);
 
     ++tally.rays;
     tally.hits += truth.has_value() ? 1 : 0;
@@ -103,8 +103,8 @@ TEMPLATE_TEST_CASE("the same formulas in the oracle's numbers agree with the ora
         const Shape shape = ray_sets::Target<Shape>::make(random, false);
         const Ray<float> ray = ray_sets::make_ray(shape, Set::random, random);
         ErrorPredicate<Number> predicate;
-        const Crossings<Number> all = crossings(shape, widened<Number>(ray), Start{}, predicate);
-        const Crossing<Number>* found = first_ahead(all);
+        const Crossings<Number> solved = crossings(shape, widened<Number>(ray), Start{}, predicate);
+        const Crossing<Number>* found = first_ahead(solved);
         const auto truth = oracle::first_hit(shape, ray);
         REQUIRE(truth.has_value() == (found != nullptr));
         if (!truth) continue;
@@ -125,8 +125,9 @@ TEMPLATE_TEST_CASE("double without error bounds decides wrongly", "", Sphere, Ca
         const Shape shape = ray_sets::Target<Shape>::make(random, true);
         const Ray<float> ray = ray_sets::make_ray(shape, Set::lattice, random);
         ErrorPredicate<double> predicate;
-        const Crossings<double> all = crossings(shape, widened<double>(ray), Start{}, predicate);
-        wrong += oracle::first_hit(shape, ray).has_value() != (first_ahead(all) != nullptr) ? 1 : 0;
+        const Crossings<double> found = crossings(shape, widened<double>(ray), Start{}, predicate);
+        wrong +=
+            oracle::first_hit(shape, ray).has_value() != (first_ahead(found) != nullptr) ? 1 : 0;
     }
     CHECK(wrong > 0);
 }

@@ -122,9 +122,9 @@ TEST_CASE("a moved solid contains the moved points of its inside") {
                     const Vec3d point =
                         at.point +
                         random.cube(0.1 * ray_sets::Target<Shape>::size(to_floats(shape)));
-                    Solid there;
-                    there.shape = SphereOf<double>{point, 1.0};
-                    const Solid sphere = transform(there);
+                    Solid unit_sphere;
+                    unit_sphere.shape = SphereOf<double>{point, 1.0};
+                    const Solid sphere = transform(unit_sphere);
                     const Vec3d center = std::visit(
                         [](const auto& s) {
                             if constexpr (requires { s.center; })

@@ -44,8 +44,8 @@ class Bytes {
     template <class Real>
     Real number() {
         const int first = byte();
-        constexpr int whole = 17 * 11;
-        if (first < whole) {
+        constexpr int count = 17 * 11;
+        if (first < count) {
             constexpr Real scales[] = {1, 1, 1, 1, 1, 1, 1, 0.5, 0.5, 0.25, 4};
             return static_cast<Real>(first % 17 - 8) * scales[first / 17];
         }

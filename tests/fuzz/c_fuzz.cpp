@@ -216,10 +216,10 @@ raylane_status combine(Handles& handles, raylane_solid** to, Bytes& bytes) {
         part = slot_of(handles.solids, bytes);
         has_null = has_null || part == nullptr;
     }
-    const raylane_solid* const whole = slot_of(handles.solids, bytes);
+    const raylane_solid* const solid = slot_of(handles.solids, bytes);
     const bool leaves_out = bytes.below(32) == 31;
     has_null = has_null || (leaves_out && !parts.empty());
-    const raylane_solid* const* const all = leaves_out ? nullptr : parts.data();
+    const raylane_solid* const* const parts_or_null = leaves_out ? nullptr : parts.data();
     const auto material = static_cast<std::uint32_t>(bytes.below(4) - 1);
     const auto checked = [](raylane_status status, bool null) {
         check(status, null);
@@ -227,15 +227,16 @@ raylane_status combine(Handles& handles, raylane_solid** to, Bytes& bytes) {
     };
     switch (bytes.below(4)) {
     case 0:
-        return checked(raylane_solid_union(all, parts.size(), material, to), has_null);
+        return checked(raylane_solid_union(parts_or_null, parts.size(), material, to), has_null);
     case 1:
-        return checked(raylane_solid_intersection(all, parts.size(), material, to), has_null);
+        return checked(raylane_solid_intersection(parts_or_null, parts.size(), material, to),
+                       has_null);
     case 2:
-        return checked(raylane_solid_difference(whole, all, parts.size(), material, to),
-                       has_null || whole == nullptr);
+        return checked(raylane_solid_difference(solid, parts_or_null, parts.size(), material, to),
+                       has_null || solid == nullptr);
     default:
-        return checked(raylane_solid_clipped(whole, all, parts.size(), material, to),
-                       has_null || whole == nullptr);
+        return checked(raylane_solid_clipped(solid, parts_or_null, parts.size(), material, to),
+                       has_null || solid == nullptr);
     }
 }
 
@@ -578,22 +579,23 @@ void check_rows(raylane_status status, bool has_null, raylane_rows* rows, std::s
     if (raylane_rows_count(rows) != count || first[0] != 0) found("other rows");
     for (std::size_t i = 0; i < count; ++i)
         if (first[i] > first[i + 1]) found("row offsets that fall");
-    const std::uint64_t all = first[count];
-    const int columns = reads(raylane_rows_t(rows), all) + reads(raylane_rows_length(rows), all) +
-                        reads(raylane_rows_on_surface(rows), all);
-    if (columns != (all != 0 ? 1 : 0)) found("columns of another query");
-    reads(raylane_rows_shape_id(rows), all);
-    reads(raylane_rows_material(rows), all);
-    reads(raylane_rows_entering(rows), all);
-    reads(raylane_rows_face(rows), all);
-    reads(raylane_rows_tied(rows), all);
-    reads(raylane_rows_touching(rows), all);
+    const std::uint64_t row_count = first[count];
+    const int columns = reads(raylane_rows_t(rows), row_count) +
+                        reads(raylane_rows_length(rows), row_count) +
+                        reads(raylane_rows_on_surface(rows), row_count);
+    if (columns != (row_count != 0 ? 1 : 0)) found("columns of another query");
+    reads(raylane_rows_shape_id(rows), row_count);
+    reads(raylane_rows_material(rows), row_count);
+    reads(raylane_rows_entering(rows), row_count);
+    reads(raylane_rows_face(rows), row_count);
+    reads(raylane_rows_tied(rows), row_count);
+    reads(raylane_rows_touching(rows), row_count);
     for (const auto normal : {raylane_rows_normal_x, raylane_rows_normal_y, raylane_rows_normal_z})
-        reads(normal(rows), all);
-    reads(raylane_rows_inside(rows), all);
+        reads(normal(rows), row_count);
+    reads(raylane_rows_inside(rows), row_count);
     for (const auto normal :
          {raylane_rows_normal_double_x, raylane_rows_normal_double_y, raylane_rows_normal_double_z})
-        reads(normal(rows), all);
+        reads(normal(rows), row_count);
     if (raylane_rows_statistics(rows).refused > count) found("more refused rays than rays");
     raylane_rows_release(rows);
 }

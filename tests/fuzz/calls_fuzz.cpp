@@ -162,18 +162,18 @@ void ask_spans(Bytes& bytes) {
     span.t_double = t_double;
     tests::DoubleNormals normals(count);
     normals.add_to(span);
-    const RaySpan all = asked.part(0, count);
-    tracer.intersect(all, span);
-    tracer.occluded(all, blocked);
+    const RaySpan rays = asked.part(0, count);
+    tracer.intersect(rays, span);
+    tracer.occluded(rays, blocked);
     CrossingRows rows, first;
-    tracer.crossings(all, rows, {.normals = true, .normals_double = true});
-    tracer.crossings(all, first, {.most = 1});
+    tracer.crossings(rays, rows, {.normals = true, .normals_double = true});
+    tracer.crossings(rays, first, {.most = 1});
     LengthRows lengths;
-    tracer.path_lengths(all, lengths);
+    tracer.path_lengths(rays, lengths);
     SolidLengthRows of_solids;
-    tracer.solid_lengths(all, of_solids);
+    tracer.solid_lengths(rays, of_solids);
     std::vector<std::uint64_t> counts(count, 77);
-    tracer.count_crossings(all, counts);
+    tracer.count_crossings(rays, counts);
     if (precision != Precision::exact) return;
     for (std::size_t i = 0; i < count; ++i) {
         const bool any = hits.shape[i] != no_shape;

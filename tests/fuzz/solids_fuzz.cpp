@@ -54,7 +54,7 @@ Expression expression_of(Bytes& bytes, int depth, std::vector<AnyShapeInDouble>&
     const int few = 2 + bytes.below(2);
     const int parts = way == 0 && bytes.below(8) == 7 ? 25 : few;
     for (int i = 0; i < parts; ++i)
-        made.of.push_back(expression_of(bytes, depth - 1, before));
+        made.operands.push_back(expression_of(bytes, depth - 1, before));
     return made;
 }
 
@@ -64,9 +64,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Bytes bytes(data, size);
     std::vector<AnyShapeInDouble> parts;
     Expression solid{Op::intersect};
-    solid.of.push_back(expression_of(bytes, 1 + bytes.below(5), parts));
+    solid.operands.push_back(expression_of(bytes, 1 + bytes.below(5), parts));
     if (bytes.below(4) != 0) // so that it has bounds
-        solid.of.push_back(
+        solid.operands.push_back(
             {Op::part, core::BoxOf<double>{{-9, -9, -9}, {18, 0, 0}, {0, 18, 0}, {0, 0, 18}}});
     const std::optional<Scene> scene = tests::scene_of(solid);
     if (!scene) return 0;
@@ -79,6 +79,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     tests::SolidTally wrong;
     tests::ask(solid, *scene, rays, wrong);
-    if (wrong.wrong() != 0) found(wrong.first + wrong.of);
+    if (wrong.wrong() != 0) found(wrong.first + wrong.example);
     return 0;
 }

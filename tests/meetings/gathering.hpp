@@ -125,14 +125,14 @@ using MakeShell = AnyShape (*)(const Frame&, int);
 /// Returns a maker of shapes, Touching<Shape>::shell(), for each kind that has one. The shapes
 /// touch the origin of the frame from below.
 inline std::vector<MakeShell> all_shells() {
-    std::vector<MakeShell> all;
+    std::vector<MakeShell> shells;
     core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
         if constexpr (requires(const Frame& frame) { Touching<Shape>::shell(frame, 1); })
-            all.push_back([](const Frame& frame, int r) {
+            shells.push_back([](const Frame& frame, int r) {
                 return AnyShape(Touching<Shape>::shell(frame, r));
             });
     });
-    return all;
+    return shells;
 }
 
 /// Shapes of one or several kinds that touch the origin of the frame from below. Most have their

@@ -285,20 +285,20 @@ inline void add_closest(const core::EllipsoidOf<double>& e, const Place& p, OnSu
 /// first. `scale`: of the rounding errors.
 template <class Shape>
 OnSurfaces closest_of(const Shape& shape, const core::Vec3d& from) {
-    OnSurfaces all;
+    OnSurfaces surfaces;
     const Place p = place(from);
-    add_closest(shape, p, all);
-    Number least = all[0].distance;
-    for (const OnSurface& one : all)
+    add_closest(shape, p, surfaces);
+    Number least = surfaces[0].distance;
+    for (const OnSurface& one : surfaces)
         least = std::min(least, one.distance);
-    const Number most = least + digits_lost() * (least + size_of(all[0].point) + size_of(p));
-    std::erase_if(all, [&](const OnSurface& one) { return one.distance > most; });
-    std::stable_sort(all.begin(), all.end(),
+    const Number most = least + digits_lost() * (least + size_of(surfaces[0].point) + size_of(p));
+    std::erase_if(surfaces, [&](const OnSurface& one) { return one.distance > most; });
+    std::stable_sort(surfaces.begin(), surfaces.end(),
                      [](const OnSurface& a, const OnSurface& b) { return a.face < b.face; });
-    if (least < digits_lost() * (size_of(all[0].point) + size_of(p))) least = 0;
-    for (OnSurface& one : all)
+    if (least < digits_lost() * (size_of(surfaces[0].point) + size_of(p))) least = 0;
+    for (OnSurface& one : surfaces)
         one.distance = least;
-    return all;
+    return surfaces;
 }
 
 } // namespace raylane::oracle

@@ -18,18 +18,18 @@ Exact::Exact(float value) : Exact(static_cast<double>(value)) {}
 Exact::Exact(double value) {
     int power = 0;
     const double mantissa = std::frexp(value, &power);
-    auto whole = static_cast<std::int64_t>(std::ldexp(mantissa, 53));
-    if (whole == 0) return;
+    auto numerator = static_cast<std::int64_t>(std::ldexp(mantissa, 53));
+    if (numerator == 0) return;
     exponent_ = power - 53;
-    const int zeros = __builtin_ctzll(static_cast<std::uint64_t>(whole));
-    whole /= std::int64_t{1} << zeros;
+    const int zeros = __builtin_ctzll(static_cast<std::uint64_t>(numerator));
+    numerator /= std::int64_t{1} << zeros;
     exponent_ += zeros;
-    whole_ = whole;
+    whole_ = numerator;
 }
 
 Exact::operator Number() const {
-    const Number whole(whole_); // rounded if it has more than 100 digits
-    return ldexp(whole, exponent_);
+    const Number integer(whole_); // rounded if it has more than 100 digits
+    return ldexp(integer, exponent_);
 }
 
 Exact operator-(Exact a) {

@@ -17,7 +17,7 @@ enum class Op { part, unite, intersect, subtract, clip };
 struct Expression {
     Op op = Op::part;
     tests::AnyShapeInDouble shape{};
-    std::vector<Expression> of{};
+    std::vector<Expression> operands{};
 };
 
 /// A surface that a ray crosses.
@@ -91,7 +91,7 @@ class SolidLine {
         Op op;
         bool traced = true;
         core::ShapeId id = core::no_shape;
-        std::vector<std::size_t> of{};
+        std::vector<std::size_t> operands{};
         std::vector<Event> events{};
         bool at_first = false; ///< value far behind the ray
         bool is_flat_on_it = false;
@@ -105,20 +105,20 @@ class SolidLine {
             fill(index, expression.shape);
             return index;
         }
-        for (std::size_t i = 0; i < expression.of.size(); ++i) {
+        for (std::size_t i = 0; i < expression.operands.size(); ++i) {
             const bool cuts = expression.op == Op::clip && i != 0;
-            const std::size_t child = add(expression.of[i], traced && !cuts);
-            parts_[index].of.push_back(child);
+            const std::size_t child = add(expression.operands[i], traced && !cuts);
+            parts_[index].operands.push_back(child);
         }
         return index;
     }
 
     void fill(std::size_t index, tests::AnyShapeInDouble shape) {
         std::visit(
-            [&]<class Shape>(Shape& of) {
+            [&]<class Shape>(Shape& object) {
                 if constexpr (core::kind_of<Shape> == core::Kind::quadric) {
-                    of.lower = core::Vec3d(-1e200);
-                    of.upper = core::Vec3d(1e200);
+                    object.lower = core::Vec3d(-1e200);
+                    object.upper = core::Vec3d(1e200);
                 }
             },
             shape);
@@ -135,12 +135,12 @@ class SolidLine {
         }
         // The line never crosses to the other side of the part.
         const int side = std::visit(
-            [&]<class Shape>(const Shape& of) {
+            [&]<class Shape>(const Shape& object) {
                 const Vector at = vector(ray_.origin);
                 if constexpr (core::kind_of<Shape> == core::Kind::plane)
-                    return inner(vector(of.normal), at - vector(of.point)).sign();
+                    return inner(vector(object.normal), at - vector(object.point)).sign();
                 else if constexpr (core::kind_of<Shape> == core::Kind::quadric)
-                    return side_of_quadric(of, Exact(0));
+                    return side_of_quadric(object, Exact(0));
                 else
                     return 1;
             },
@@ -163,9 +163,9 @@ class SolidLine {
     /// Returns whether the rest of the line is inside of a quadric that it touches at the origin.
     bool is_inside_beside(const tests::AnyShapeInDouble& shape) const {
         return std::visit(
-            [&]<class Shape>(const Shape& of) {
+            [&]<class Shape>(const Shape& object) {
                 if constexpr (core::kind_of<Shape> == core::Kind::quadric)
-                    return side_of_quadric(of, Exact(1)) < 0;
+                    return side_of_quadric(object, Exact(1)) < 0;
                 else
                     return false;
             },
@@ -175,8 +175,8 @@ class SolidLine {
     bool value(std::size_t index, bool behind) const {
         const Part& part = parts_[index];
         if (part.op == Op::part) return behind ? part.behind : part.before;
-        for (std::size_t i = 0; i < part.of.size(); ++i) {
-            const bool of_child = value(part.of[i], behind);
+        for (std::size_t i = 0; i < part.operands.size(); ++i) {
+            const bool of_child = value(part.operands[i], behind);
             if (part.op == Op::unite) {
                 if (of_child) return true;
             } else if (of_child == (part.op == Op::subtract && i != 0)) {
@@ -189,9 +189,9 @@ class SolidLine {
     std::size_t changed(std::size_t index, bool to) const {
         const Part& part = parts_[index];
         if (part.op == Op::part) return index;
-        for (std::size_t i = 0; i < part.of.size(); ++i) {
+        for (std::size_t i = 0; i < part.operands.size(); ++i) {
             const bool own = to != (part.op == Op::subtract && i != 0);
-            const std::size_t child = part.of[i];
+            const std::size_t child = part.operands[i];
             if (value(child, true) == own && value(child, false) != own) return changed(child, own);
         }
         return index;

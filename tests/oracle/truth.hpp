@@ -93,10 +93,10 @@ class Sight {
 
   private:
     template <class Vector, class Compute>
-    const Vector& known(std::vector<std::optional<Vector>>& all, const Found& found,
+    const Vector& known(std::vector<std::optional<Vector>>& points, const Found& found,
                         const Compute& compute) const {
-        all.resize(all_.size());
-        std::optional<Vector>& one = all[static_cast<std::size_t>(&found - all_.data())];
+        points.resize(all_.size());
+        std::optional<Vector>& one = points[static_cast<std::size_t>(&found - all_.data())];
         if (!one) one = compute();
         return *one;
     }

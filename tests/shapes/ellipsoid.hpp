@@ -70,8 +70,8 @@ struct NestOf<core::Ellipsoid> {
         const Vec3f w = whole((core::cross(n, m) + r.cube(0.2)) * (gap * r.uniform(1.0, 1.5)));
         const float count = std::max(2.0F, number_of_gaps(size, gap));
         const auto ellipsoid = [&](float by) {
-            const float all = count + by;
-            return core::Ellipsoid{Vec3f(0), all * u, all * v, all * w};
+            const float sum = count + by;
+            return core::Ellipsoid{Vec3f(0), sum * u, sum * v, sum * w};
         };
         return {ellipsoid(0), ellipsoid(1), ellipsoid(-1), true};
     }

@@ -83,8 +83,8 @@ class Work {
 
   private:
     RaySpan span(std::size_t most) const {
-        const auto of = [&](int which) { return std::span(rays_[which]).first(most); };
-        return {of(0), of(1), of(2), of(3), of(4), of(5)};
+        const auto part_of = [&](int which) { return std::span(rays_[which]).first(most); };
+        return {part_of(0), part_of(1), part_of(2), part_of(3), part_of(4), part_of(5)};
     }
 
     std::uint64_t draw(int which) const {
@@ -119,17 +119,17 @@ class Work {
         return hash.value();
     }
     std::uint64_t list() const {
-        const RaySpan some = span(2000);
+        const RaySpan part = span(2000);
         CrossingRows rows;
-        tracer_.crossings(some, rows, {.normals = true});
+        tracer_.crossings(part, rows, {.normals = true});
         SolidRows solids;
-        tracer_.contains(PointSpan{some.origin_x, some.origin_y, some.origin_z}, solids);
+        tracer_.contains(PointSpan{part.origin_x, part.origin_y, part.origin_z}, solids);
         LengthRows lengths;
-        tracer_.path_lengths(some, lengths);
+        tracer_.path_lengths(part, lengths);
         SolidLengthRows of_solids;
-        tracer_.solid_lengths(some, of_solids);
-        std::vector<double> normal(some.origin_x.size());
-        tracer_.intersect(some, {.normal_double_x = normal});
+        tracer_.solid_lengths(part, of_solids);
+        std::vector<double> normal(part.origin_x.size());
+        tracer_.intersect(part, {.normal_double_x = normal});
         Hash hash;
         hash.add(rows.t);
         hash.add(rows.shape_id);
@@ -160,8 +160,8 @@ class Work {
 /// Returns the resident memory in MiB.
 double resident() {
     std::ifstream file("/proc/self/statm");
-    double all = 0.0, pages = 0.0;
-    file >> all >> pages;
+    double total = 0.0, pages = 0.0;
+    file >> total >> pages;
     return pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
@@ -169,10 +169,10 @@ double resident() {
 /// smallest in the last tenth.
 struct Memory {
     double first = 0.0, last = 1e9;
-    void look(double seconds, double all) {
+    void look(double seconds, double total) {
         const double now = resident();
-        if (seconds < std::min(60.0, all / 10)) first = std::max(first, now);
-        if (seconds > 0.9 * all) last = std::min(last, now);
+        if (seconds < std::min(60.0, total / 10)) first = std::max(first, now);
+        if (seconds > 0.9 * total) last = std::min(last, now);
     }
     bool is_flat() const { return last <= 1.02 * first + 4.0; }
 };
@@ -198,11 +198,11 @@ int soak(double minutes, const std::string& folder, bool leaks, bool is_wrong) {
         });
     Memory memory;
     const auto start = Clock::now();
-    const double all = 60.0 * minutes;
-    for (double seconds = 0.0; seconds < all && wrong == 0;) {
+    const double total = 60.0 * minutes;
+    for (double seconds = 0.0; seconds < total && wrong == 0;) {
         std::this_thread::sleep_for(std::chrono::milliseconds(200)); // between two looks at memory
         seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        memory.look(seconds, all);
+        memory.look(seconds, total);
     }
     stop = true;
     for (std::thread& thread : threads)

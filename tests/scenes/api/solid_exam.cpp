@@ -18,7 +18,7 @@ namespace {
 template <class Visit>
 void each_shape(const Expression& expression, const Visit& visit) {
     if (expression.op == Op::part) visit(expression.shape);
-    for (const Expression& part : expression.of)
+    for (const Expression& part : expression.operands)
         each_shape(part, visit);
 }
 
@@ -84,7 +84,7 @@ std::string described(const Expression& expression) {
         return text.str();
     }
     text << "|&-/"[static_cast<int>(expression.op) - 1] << "(";
-    for (const Expression& part : expression.of)
+    for (const Expression& part : expression.operands)
         text << described(part) << " ";
     text << ")";
     return text.str();
@@ -104,7 +104,7 @@ raylane::Solid solid_of(const Expression& expression) {
             },
             expression.shape);
     std::vector<raylane::Solid> parts;
-    for (const Expression& part : expression.of)
+    for (const Expression& part : expression.operands)
         parts.push_back(solid_of(part));
     const std::vector<raylane::Solid> others(parts.begin() + 1, parts.end());
     switch (expression.op) {
@@ -180,12 +180,12 @@ void ask(const Expression& expression, const Scene& scene,
         const bool is_in = solids.first[i] != solids.first[i + 1];
         // A clipped solid may have an inside without any surface.
         if (side != 0 && !has_clip && is_in != (side < 0)) wrong.blame(wrong.sides, "side");
-        if (!wrong.first.empty() && wrong.of.empty()) {
+        if (!wrong.first.empty() && wrong.example.empty()) {
             std::ostringstream text;
             text.precision(17);
             for (int axis = 0; axis < 3; ++axis)
                 text << exact[i].origin[axis] << " " << exact[i].direction[axis] << ", ";
-            wrong.of = described(expression) + " by " + text.str();
+            wrong.example = described(expression) + " by " + text.str();
         }
     }
 }

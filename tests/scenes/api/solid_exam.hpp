@@ -12,7 +12,7 @@ namespace raylane::tests {
 
 struct SolidTally {
     long rows = 0, hits = 0, blocked = 0, sides = 0, firsts = 0, asked = 0, surfaces = 0;
-    std::string first, of;
+    std::string first, example;
 
     long wrong() const { return rows + hits + blocked + sides + firsts; }
     void blame(long& kind, const std::string& what) {

@@ -58,7 +58,7 @@ Expression any_expression(Random& random, bool lattice, int depth,
     Expression made{ops[random.integer(0, 3)]};
     const int parts = made.op == Op::unite && random.integer(0, 5) == 0 ? 20 : random.integer(2, 3);
     for (int i = 0; i < parts; ++i)
-        made.of.push_back(any_expression(random, lattice, depth - 1, before));
+        made.operands.push_back(any_expression(random, lattice, depth - 1, before));
     return made;
 }
 
@@ -75,12 +75,12 @@ Expression any_cut_crowd(Random& random, bool lattice) {
         const core::Vec3d center = point();
         const double radius = lattice ? 0.5 * random.integer(1, 3) : random.uniform(0.3, 1.2);
         if (random.integer(0, 7) != 0)
-            crowd.of.push_back({Op::part, core::SphereOf<double>{center, radius}});
+            crowd.operands.push_back({Op::part, core::SphereOf<double>{center, radius}});
         else if (random.integer(0, 1) != 0)
-            crowd.of.push_back({Op::part, core::CylinderOf<double, core::Ends::capped>{
-                                              center, {0, number(1, 3), 1}, radius}});
+            crowd.operands.push_back({Op::part, core::CylinderOf<double, core::Ends::capped>{
+                                                    center, {0, number(1, 3), 1}, radius}});
         else
-            crowd.of.push_back(
+            crowd.operands.push_back(
                 {Op::part,
                  core::BoxOf<double>{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}});
     }
@@ -92,41 +92,41 @@ Expression any_cut_crowd(Random& random, bool lattice) {
     Expression made{random.integer(0, 3) == 0 ? Op::clip : Op::subtract};
     if (random.integer(0, 2) == 0) { // intersected with a box
         Expression boxed{Op::intersect};
-        boxed.of.push_back(std::move(crowd));
-        boxed.of.push_back({Op::part, core::BoxOf<double>{point(),
-                                                          {number(2, 5), 0, 0},
-                                                          {0, number(2, 5), 0},
-                                                          {0, 0, number(2, 5)}}});
+        boxed.operands.push_back(std::move(crowd));
+        boxed.operands.push_back({Op::part, core::BoxOf<double>{point(),
+                                                                {number(2, 5), 0, 0},
+                                                                {0, number(2, 5), 0},
+                                                                {0, 0, number(2, 5)}}});
         crowd = std::move(boxed);
     }
-    made.of.push_back(std::move(crowd));
+    made.operands.push_back(std::move(crowd));
     for (int i = random.integer(1, 3); i > 0; --i) {
         switch (random.integer(0, 4)) {
         case 0: {
             Expression wedge{Op::intersect};
             for (int k = random.integer(2, 3); k > 0; --k)
-                wedge.of.push_back(plane());
-            made.of.push_back(std::move(wedge));
+                wedge.operands.push_back(plane());
+            made.operands.push_back(std::move(wedge));
             break;
         }
         case 1:
-            made.of.push_back({Op::part, core::BoxOf<double>{point(),
-                                                             {number(1, 4), 0, 0},
-                                                             {0, number(1, 4), 0},
-                                                             {0, 0, number(1, 4)}}});
+            made.operands.push_back({Op::part, core::BoxOf<double>{point(),
+                                                                   {number(1, 4), 0, 0},
+                                                                   {0, number(1, 4), 0},
+                                                                   {0, 0, number(1, 4)}}});
             break;
         case 2:
-            made.of.push_back({Op::part, core::SphereOf<double>{point(), number(1, 3)}});
+            made.operands.push_back({Op::part, core::SphereOf<double>{point(), number(1, 3)}});
             break;
         default:
-            made.of.push_back(plane());
+            made.operands.push_back(plane());
         }
     }
     if (random.integer(0, 2) != 0) return made;
     // Beside another part.
     Expression both{Op::unite};
-    both.of.push_back(std::move(made));
-    both.of.push_back({Op::part, core::SphereOf<double>{point(), 1.0}});
+    both.operands.push_back(std::move(made));
+    both.operands.push_back({Op::part, core::SphereOf<double>{point(), 1.0}});
     return both;
 }
 
@@ -189,10 +189,10 @@ Bench any_bench(Random& random, bool lattice) {
     for (int i = random.integer(2, 3); i > 0; --i) {
         Expression two{random.integer(0, 2) != 0 ? Op::intersect : Op::subtract};
         for (int k = 0; k < 2; ++k)
-            two.of.push_back(any_of_axis());
-        made.of.push_back(two);
+            two.operands.push_back(any_of_axis());
+        made.operands.push_back(two);
     }
-    bench.solid.of = {made, {Op::part, core::SphereOf<double>{{0, 0, 0}, 9.0}}};
+    bench.solid.operands = {made, {Op::part, core::SphereOf<double>{{0, 0, 0}, 9.0}}};
     for (int i = 0; i < 150; ++i) {
         const double u = lattice ? random.integer(-5, 5) : random.uniform(-5, 5),
                      v = lattice ? random.integer(-5, 5) : random.uniform(-5, 5);
@@ -210,7 +210,7 @@ Bench any_bench(Random& random, bool lattice) {
 }
 
 void check(const SolidTally& wrong, bool lattice) {
-    CAPTURE(lattice, wrong.asked, wrong.surfaces, wrong.first, wrong.of);
+    CAPTURE(lattice, wrong.asked, wrong.surfaces, wrong.first, wrong.example);
     CHECK(wrong.rows == 0);
     CHECK(wrong.hits == 0);
     CHECK(wrong.blocked == 0);
@@ -229,8 +229,8 @@ TEST_CASE("solids of any parts are crossed as in real arithmetic") {
     for (int i = 0; i < scenes; ++i) {
         std::vector<AnyShapeInDouble> before;
         Expression made{Op::intersect};
-        made.of.push_back(any_expression(random, lattice, 3, before));
-        if (random.integer(0, 3) != 0) made.of.push_back({Op::part, any_box(random)});
+        made.operands.push_back(any_expression(random, lattice, 3, before));
+        if (random.integer(0, 3) != 0) made.operands.push_back({Op::part, any_box(random)});
         ask(made, random, lattice, 200, /*onward=*/true, wrong);
     }
     check(wrong, lattice);

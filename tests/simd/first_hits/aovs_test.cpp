@@ -116,9 +116,9 @@ TEST_CASE("AOVs count the samples that a quality takes") {
     CHECK(*std::max_element(samples.begin(), samples.end()) >= 4);
     // Primary rays include a sample in the middle of each pixel, which counts only in pixels that
     // get no more samples.
-    const std::uint64_t all = std::accumulate(samples.begin(), samples.end(), 0ULL);
-    CHECK(all <= rendering.counters.primary);
-    CHECK(all + samples.size() >= rendering.counters.primary);
+    const std::uint64_t total = std::accumulate(samples.begin(), samples.end(), 0ULL);
+    CHECK(total <= rendering.counters.primary);
+    CHECK(total + samples.size() >= rendering.counters.primary);
 }
 
 TEST_CASE("a crop has the same bits as in the whole image") {
@@ -130,19 +130,21 @@ TEST_CASE("a crop has the same bits as in the whole image") {
             settings.outline.width = 3.0F;
             settings.outline.color = {1, 0, 0};
             simd::RenderOptions options{.engine = engine, .aovs = true};
-            const simd::Rendering whole = simd::render(scene, settings, options);
+            const simd::Rendering whole_rendering = simd::render(scene, settings, options);
             for (const Region& crop :
                  {Region{0, 0, 41, 33}, {5, 3, 6, 4}, {17, 0, 41, 20}, {9, 15, 37, 33}}) {
                 options.crop = crop;
                 const simd::Rendering part = simd::render(scene, settings, options);
-                CHECK(part.film.pixels() == whole.film.cropped(crop).pixels());
+                CHECK(part.film.pixels() == whole_rendering.film.cropped(crop).pixels());
                 REQUIRE(part.aovs.depth.size() == static_cast<std::size_t>(crop.pixels()));
                 for (int y = crop.y0; y < crop.y1; ++y)
                     for (int x = crop.x0; x < crop.x1; ++x) {
-                        const std::size_t here = part.aovs.index(x - crop.x0, y - crop.y0);
-                        const std::size_t there = whole.aovs.index(x, y);
-                        CHECK(part.aovs.shape[here] == whole.aovs.shape[there]);
-                        CHECK(part.aovs.samples[here] == whole.aovs.samples[there]);
+                        const std::size_t part_index = part.aovs.index(x - crop.x0, y - crop.y0);
+                        const std::size_t whole_index = whole_rendering.aovs.index(x, y);
+                        CHECK(part.aovs.shape[part_index] ==
+                              whole_rendering.aovs.shape[whole_index]);
+                        CHECK(part.aovs.samples[part_index] ==
+                              whole_rendering.aovs.samples[whole_index]);
                     }
             }
         }

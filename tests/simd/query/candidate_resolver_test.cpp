@@ -103,12 +103,12 @@ class Round {
     void add(std::size_t lane, Random& random) {
         const Paths& paths = stream_.paths;
         Ray<double> ray = aim(random);
-        const Encounter<double> there = reference_.nearest(ray, {});
-        if (there.hit.any() && random.integer(0, 1) == 0) {
-            ray = {mul_add(there.hit.t, ray.direction, ray.origin), random.direction()};
-            const std::uint32_t slot = data_.slot_of(there.hit.kind, there.hit.place);
-            const bool inward = dot(ray.direction, there.contacts.begin()->normal) < 0.0;
-            const std::uint32_t bits = there.hit.face | (inward ? hit_entering : 0);
+        const Encounter<double> expected = reference_.nearest(ray, {});
+        if (expected.hit.any() && random.integer(0, 1) == 0) {
+            ray = {mul_add(expected.hit.t, ray.direction, ray.origin), random.direction()};
+            const std::uint32_t slot = data_.slot_of(expected.hit.kind, expected.hit.place);
+            const bool inward = dot(ray.direction, expected.contacts.begin()->normal) < 0.0;
+            const std::uint32_t bits = expected.hit.face | (inward ? hit_entering : 0);
             paths.start_on(lane, slot, data_.record_of(slot), bits, /*through=*/true);
         }
         for (int axis = 0; axis < 3; ++axis) {

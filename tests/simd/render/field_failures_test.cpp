@@ -137,7 +137,7 @@ TEST_CASE("NVIDIA/VisRTX #73: a cylinder seen along its axis is a disc", "[long]
 // The two halves of a bond flickered against each other as the camera moved.
 TEST_CASE("NVIDIA/VisRTX #54: two halves of a cylinder are as bright as the whole", "[long]") {
     shapes_in_double = GENERATE(false, true);
-    const OpenCylinder whole = {{-3, -1, -2}, {6, 2.5F, 4}, 0.2F};
+    const OpenCylinder cylinder = {{-3, -1, -2}, {6, 2.5F, 4}, 0.2F};
     const std::vector<OpenCylinder> halves = {{{-3, -1, -2}, {3, 1.25F, 2}, 0.2F},
                                               {{0, 0.25F, 0}, {3, 1.25F, 2}, 0.2F}};
     double textbook = 0.0;
@@ -152,7 +152,7 @@ TEST_CASE("NVIDIA/VisRTX #54: two halves of a cylinder are as bright as the whol
         textbook = std::max(textbook, compare_textbook(two, halves, to_light, 1e-3F).worst);
 
         const Film by_halves = drawn(two);
-        const Film at_once = drawn(chalk_scene(builder, std::vector{whole}, -from));
+        const Film at_once = drawn(chalk_scene(builder, std::vector{cylinder}, -from));
         int different = 0;
         for (std::size_t i = 0; i < by_halves.pixels().size(); ++i)
             different += std::abs(by_halves.pixels()[i].x - at_once.pixels()[i].x) > 1e-6F ? 1 : 0;

@@ -20,12 +20,13 @@ constexpr int half_width = 4;
 void add_shapes(Builder& builder, int count, float z, ray_sets::Random& random) {
     for (int i = 0; i < count; ++i) {
         const Material material = luminous({static_cast<float>(i) / 128.0F, 0, 0});
-        const auto whole = [&](int low, int high) {
+        const auto integer_between = [&](int low, int high) {
             return static_cast<float>(random.integer(low, high));
         };
-        const Vec3f corner(whole(-half_width, half_width - 1), whole(-half_width, half_width - 1),
-                           z);
-        const float u = whole(1, 4), v = whole(1, 4), side = whole(0, 1) * 2.0F - 1.0F;
+        const Vec3f corner(integer_between(-half_width, half_width - 1),
+                           integer_between(-half_width, half_width - 1), z);
+        const float u = integer_between(1, 4), v = integer_between(1, 4),
+                    side = integer_between(0, 1) * 2.0F - 1.0F;
         switch (random.integer(0, 2)) {
         case 0:
             builder.add_shape(Box{corner, {u, 0, 0}, {0, v, 0}, {0, 0, side}}, material);

@@ -35,14 +35,14 @@ struct TakenRays {
     }
 
     /// Returns false if the first `some` rays share no property.
-    bool find(Isa isa, std::size_t some, Coherence& coherence) {
+    bool find(Isa isa, std::size_t ray_count, Coherence& coherence) {
         StreamRays rays{};
         rays.t_limit = t_limit.data();
         for (int axis = 0; axis < 3; ++axis) {
             rays.origin[axis] = origin[axis].data();
             rays.direction[axis] = rays.exact_direction[axis] = direction[axis].data();
         }
-        return kernels_of(isa).stream.find_coherence(some, rays, 1.0F, coherence);
+        return kernels_of(isa).stream.find_coherence(ray_count, rays, 1.0F, coherence);
     }
 };
 

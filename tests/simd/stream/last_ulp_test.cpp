@@ -90,11 +90,11 @@ TEST_CASE("traversal and brute force agree on rays along the faces of bounds", "
 
         Searcher<double> by_trying(scene, Search::every_shape);
         Searcher<double> by_hierarchy(scene, Search::hierarchy);
-        const auto all = [](const Hit<double>&) { return true; };
+        const auto any_hit = [](const Hit<double>&) { return true; };
         int hits = 0, wrong = 0, lost_by_reference = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const Hit<double> truth = by_trying.nearest(rays.get(i), {}, all).hit;
-            const Hit<double> found = by_hierarchy.nearest(rays.get(i), {}, all).hit;
+            const Hit<double> truth = by_trying.nearest(rays.get(i), {}, any_hit).hit;
+            const Hit<double> found = by_hierarchy.nearest(rays.get(i), {}, any_hit).hit;
             hits += truth.any() ? 1 : 0;
             lost_by_reference += found.shape == truth.shape && found.t == truth.t ? 0 : 1;
             const float t = truth.any() ? static_cast<float>(truth.t) : infinity<float>;

@@ -143,9 +143,9 @@ TEST_CASE("packed spheres answer interleaved single rays with the bits of plain 
             CAPTURE(std::string(name_of(isa)), std::string(name_of(precision)));
             for (std::size_t first = 0; first + few <= rays.leaves.size();
                  first += rays.leaves.size() / 8) {
-                const RayStream<float> some = rays.view(first, few);
-                check_same(RayAnswers(StreamTracer(scenes.packed, 1, isa, precision), some),
-                           RayAnswers(StreamTracer(scenes.plain, 1, isa, precision), some));
+                const RayStream<float> part = rays.view(first, few);
+                check_same(RayAnswers(StreamTracer(scenes.packed, 1, isa, precision), part),
+                           RayAnswers(StreamTracer(scenes.plain, 1, isa, precision), part));
             }
         }
     }
@@ -154,15 +154,15 @@ TEST_CASE("packed spheres answer interleaved single rays with the bits of plain 
 TEST_CASE("packed spheres have the crossings and lengths and insides of plain ones") {
     const Pair scenes({.radii = 20});
     const StreamColumns rays = rays_for(scenes.plain);
-    const RayStream<float> some = rays.view(0, std::min<std::size_t>(rays.leaves.size(), 2000));
+    const RayStream<float> part = rays.view(0, std::min<std::size_t>(rays.leaves.size(), 2000));
     for (const Isa isa : available_isas()) {
         CAPTURE(std::string(name_of(isa)));
         const StreamTracer plain(scenes.plain, 1, isa), packed(scenes.packed, 1, isa);
         CrossingCounters counters{};
         CrossingRows plain_rows, packed_rows;
         const CrossingRequest wanted{.normals = true, .normals_double = true};
-        plain.crossings(some, wanted, plain_rows, counters);
-        packed.crossings(some, wanted, packed_rows, counters);
+        plain.crossings(part, wanted, plain_rows, counters);
+        packed.crossings(part, wanted, packed_rows, counters);
         CHECK(plain_rows.t.size() > 1000);
         CHECK(packed_rows.t == plain_rows.t);
         CHECK(packed_rows.shape == plain_rows.shape);
@@ -171,14 +171,14 @@ TEST_CASE("packed spheres have the crossings and lengths and insides of plain on
         CHECK(packed_rows.normal_double == plain_rows.normal_double);
         for (const Bodies bodies : {Bodies::materials, Bodies::solids}) {
             LengthRows plain_lengths, packed_lengths;
-            plain.path_lengths(some, bodies, plain_lengths);
-            packed.path_lengths(some, bodies, packed_lengths);
+            plain.path_lengths(part, bodies, plain_lengths);
+            packed.path_lengths(part, bodies, packed_lengths);
             CHECK(packed_lengths.body == plain_lengths.body);
             CHECK(packed_lengths.length == plain_lengths.length);
         }
         SolidRows plain_solids, packed_solids;
-        const PointStream<float> points = {some.count,
-                                           {some.origin[0], some.origin[1], some.origin[2]}};
+        const PointStream<float> points = {part.count,
+                                           {part.origin[0], part.origin[1], part.origin[2]}};
         plain.containing(points, plain_solids);
         packed.containing(points, packed_solids);
         CHECK(plain_solids.shape.size() > 100);

@@ -11,18 +11,18 @@ namespace raylane::tests {
 
 /// Owns the columns of a stream of rays. Columns of limits and of shapes may stay empty.
 struct StreamColumns {
-    std::vector<float> of[6], t_min, t_max;
+    std::vector<float> columns[6], t_min, t_max;
     std::vector<core::ShapeId> leaves;
 
     void add(const core::Ray<float>& ray) {
         for (int axis = 0; axis < 3; ++axis) {
-            of[axis].push_back(ray.origin[axis]);
-            of[3 + axis].push_back(ray.direction[axis]);
+            columns[axis].push_back(ray.origin[axis]);
+            columns[3 + axis].push_back(ray.direction[axis]);
         }
     }
-    std::size_t size() const { return of[0].size(); }
+    std::size_t size() const { return columns[0].size(); }
     core::Ray<double> get(std::size_t i) const {
-        const auto at = [&](int k) { return static_cast<double>(of[k][i]); };
+        const auto at = [&](int k) { return static_cast<double>(columns[k][i]); };
         return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}};
     }
     simd::RayStream<float> view() const { return view(0, size()); }
@@ -31,8 +31,8 @@ struct StreamColumns {
             return column.empty() ? nullptr : column.data() + first;
         };
         return {count,
-                {from(of[0]), from(of[1]), from(of[2])},
-                {from(of[3]), from(of[4]), from(of[5])},
+                {from(columns[0]), from(columns[1]), from(columns[2])},
+                {from(columns[3]), from(columns[4]), from(columns[5])},
                 from(t_min),
                 from(t_max),
                 from(leaves)};

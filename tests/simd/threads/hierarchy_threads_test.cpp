@@ -16,7 +16,7 @@ namespace {
 /// one occurs more often than a part has items.
 struct ManyShapes {
     ShapeLists lists;
-    ShapeId all = 0, bounded = 0;
+    ShapeId shape_count = 0, bounded = 0;
 
     explicit ManyShapes(bool mixed) {
         constexpr int spheres = 90'000, twice = 20'000, same = 40'000, others = 9'000;
@@ -37,7 +37,7 @@ struct ManyShapes {
   private:
     template <class Shape>
     void add(const Shape& shape) {
-        std::get<ShapeList<Shape>>(lists).add(shape, all++);
+        std::get<ShapeList<Shape>>(lists).add(shape, shape_count++);
         bounded += tests::is_bounded<Shape> ? 1 : 0;
     }
     template <class Shape>
@@ -63,11 +63,11 @@ MaterialIndices of_one_material(std::size_t count) {
 /// Counts the shapes that the builder reports as placed.
 struct Told : simd::ParallelWorkers {
     using ParallelWorkers::ParallelWorkers;
-    void placed(std::size_t count, std::size_t all) override {
+    void placed(std::size_t count, std::size_t total) override {
         shapes += count;
-        of = all;
+        total_shapes = total;
     }
-    std::atomic<std::size_t> shapes = 0, of = 0;
+    std::atomic<std::size_t> shapes = 0, total_shapes = 0;
 };
 
 } // namespace
@@ -78,7 +78,7 @@ TEST_CASE("the hierarchy is the same to the bit on any number of threads", "[nat
         const ShapeLists& lists = many.lists;
         Workers alone;
         Tables tables;
-        const MaterialIndices one_material = of_one_material(many.all);
+        const MaterialIndices one_material = of_one_material(many.shape_count);
         const Duplicates duplicates(lists, one_material, {});
         const Hierarchy hierarchy = build_hierarchy(lists, duplicates, alone, tables);
         CHECK(hierarchy.nodes.size() > 400);
@@ -92,8 +92,8 @@ TEST_CASE("the hierarchy is the same to the bit on any number of threads", "[nat
                 CHECK(
                     same_bits(table.plain_blocks(), std::get<Table<Shape>>(others).plain_blocks()));
             });
-            CHECK(workers.of == many.bounded);
-            CHECK(workers.shapes == workers.of);
+            CHECK(workers.total_shapes == many.bounded);
+            CHECK(workers.shapes == workers.total_shapes);
         }
     }
 }
@@ -106,7 +106,7 @@ TEST_CASE("an exception in a worker propagates out of the build") {
     Failing workers(3);
     Tables tables;
     const ManyShapes many(false);
-    const MaterialIndices one_material = of_one_material(many.all);
+    const MaterialIndices one_material = of_one_material(many.shape_count);
     CHECK_THROWS_AS(build_hierarchy(many.lists, {many.lists, one_material, {}}, workers, tables),
                     std::bad_alloc);
 }

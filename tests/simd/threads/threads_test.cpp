@@ -17,20 +17,20 @@ namespace {
 /// Runs as many tasks as threads, each of which waits for the others. Returns whether they ran at
 /// once.
 bool meets(int threads) {
-    std::atomic<int> here = 0;
+    std::atomic<int> running = 0;
     simd::on_threads(threads, [&] {
         simd::parallel_for(static_cast<std::size_t>(threads), [&](std::size_t) {
-            ++here;
-            tests::comes_true([&] { return here >= threads; });
+            ++running;
+            tests::comes_true([&] { return running >= threads; });
         });
     });
-    return here == threads;
+    return running == threads;
 }
 
 double resident_kilobytes() {
     std::ifstream file("/proc/self/statm");
-    double all = 0.0, pages = 0.0;
-    file >> all >> pages;
+    double size = 0.0, pages = 0.0;
+    file >> size >> pages;
     return pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1024.0;
 }
 

@@ -200,15 +200,15 @@ void check_abandoned(float quality, simd::Engine engine, const Make& make) {
     }
     abandon = true;
     const std::uint64_t surveyed = tracer.counters().rays();
-    const core::Region whole{0, 0, settings.width, settings.height};
+    const core::Region region{0, 0, settings.width, settings.height};
     Film film(settings.width, settings.height);
     const Film untouched = film;
-    tracer.render(whole, film);
+    tracer.render(region, film);
     CHECK(film.pixels() == untouched.pixels());
     CHECK(tracer.counters().rays() == surveyed);
 
     abandon = false;
-    tracer.render(whole, film);
+    tracer.render(region, film);
     CHECK(film.pixels() == simd::render(scene, settings, by(engine)).film.pixels());
 }
 

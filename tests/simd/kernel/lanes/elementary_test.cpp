@@ -23,23 +23,24 @@ std::vector<double> numbers(int count, unsigned seed) {
         return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
     };
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::vector<double> all = {0.0,     -0.0,     1.0,       -1.0,        infinity, -infinity,
-                               0x1p-53, 0x1p-900, 0x1p-1022, 0x1p-1074,   1e308,    -1e308,
-                               -707.7,  -707.71,  709.7,     0x1.62e4p+9, 0x1p20,   -0x1.0001p20};
-    while (static_cast<int>(all.size()) < count) {
+    std::vector<double> numbers = {
+        0.0,       -0.0,  1.0,    -1.0,   infinity, -infinity, 0x1p-53,     0x1p-900, 0x1p-1022,
+        0x1p-1074, 1e308, -1e308, -707.7, -707.71,  709.7,     0x1.62e4p+9, 0x1p20,   -0x1.0001p20};
+    while (static_cast<int>(numbers.size()) < count) {
         const double sign = engine() % 2 == 0 ? 1.0 : -1.0;
-        switch (all.size() % 3) {
+        switch (numbers.size() % 3) {
         case 0:
-            all.push_back(sign * std::ldexp(uniform(1.0, 2.0), static_cast<int>(uniform(-60, 60))));
+            numbers.push_back(sign *
+                              std::ldexp(uniform(1.0, 2.0), static_cast<int>(uniform(-60, 60))));
             break;
         case 1:
-            all.push_back(sign * uniform(0.0, 2.0));
+            numbers.push_back(sign * uniform(0.0, 2.0));
             break;
         default:
-            all.push_back(1.5707963267948966 * std::floor(uniform(-1e7, 1e7)));
+            numbers.push_back(1.5707963267948966 * std::floor(uniform(-1e7, 1e7)));
         }
     }
-    return all;
+    return numbers;
 }
 
 int differing(const std::vector<double>& vector, const std::vector<double>& x,

@@ -100,7 +100,7 @@ struct LanesCheck {
     int double_failures(int rounds) {
         using D = DoubleLanes<Arch>;
         using F = Floats<Double<Arch>>;
-        constexpr std::uint32_t all = (1U << F::size) - 1;
+        constexpr std::uint32_t full_mask = (1U << F::size) - 1;
         int failures = 0;
         for (int round = 0; round < rounds; ++round) {
             double a[F::size], b[F::size], lanes[F::size];
@@ -124,7 +124,7 @@ struct LanesCheck {
             failures += D::bits(D::in_range(value, first, last)) == within ? 0 : 1;
             failures += D::bits(D::in_range(value, first[0], last[0])) == within_first ? 0 : 1;
             failures += D::bits(D::round_alike(x, y)) == alike ? 0 : 1;
-            const std::uint32_t wanted = random() & all;
+            const std::uint32_t wanted = random() & full_mask;
             failures += D::bits(D::from_bits(wanted)) == wanted ? 0 : 1;
 
             D::product_error(x, y, x * y).store_unaligned(lanes);

@@ -24,21 +24,21 @@ std::vector<double> numbers(std::mt19937_64& engine) {
     const double special[] = {0.0,          -0.0,      1.0,    -1.0,   0.5,    infinity, -infinity,
                               std::nan(""), 0x1p-1074, 1e308,  -2e20,  3e9,    0x1p51,   0x1p52,
                               -0x1p51,      709.8,     -745.2, 1e-300, 0x1p20, -7.0};
-    std::vector<double> all;
+    std::vector<double> values;
     for (std::size_t i = 0; i < count; ++i) {
         const double uniform = static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0;
         const double numbers[] = {special[engine() % std::size(special)], 8.0 * uniform,
                                   std::floor(40.0 * uniform),
                                   std::ldexp(uniform, static_cast<int>(engine() % 120) - 60)};
-        all.push_back(numbers[engine() % 8 == 0 ? 0 : 1 + engine() % 3]);
+        values.push_back(numbers[engine() % 8 == 0 ? 0 : 1 + engine() % 3]);
     }
-    return all;
+    return values;
 }
 
 /// Returns a random expression.
 std::string expression(std::mt19937_64& engine, int depth) {
-    const auto one_of = [&](const std::vector<std::string>& all) {
-        return all[engine() % all.size()];
+    const auto one_of = [&](const std::vector<std::string>& names) {
+        return names[engine() % names.size()];
     };
     if (depth == 0) return one_of({"x", "y", "z", "u", "v", "2", "0.5", "0", "150", "pi"});
     const auto part = [&] { return expression(engine, depth - 1); };
@@ -81,18 +81,19 @@ TEST_CASE("formulas have the same bits in every lane as in scalars") {
         input = numbers(engine);
     for (std::vector<double>& channel : channels)
         channel.resize(count);
-    std::vector<core::FormulaTexts> all = {{"x + y", "x - y", "x * y"},
-                                           {"x / y", "x ^ y", "mod(x, y)"},
-                                           {"min(x, y)", "max(x, y)", "abs(x)"},
-                                           {"floor(x)", "sqrt(x)", "sin(x)"},
-                                           {"cos(x)", "exp(x)", "log(x)"},
-                                           {"noise(x, y, z)", "noise(u, v, x)", "noise(y, y, y)"},
-                                           {"x < y", "x <= y", "x == y"},
-                                           {"x != y", "x ? y : z", "x > y ? 1 : z >= y"}};
+    std::vector<core::FormulaTexts> triples = {
+        {"x + y", "x - y", "x * y"},
+        {"x / y", "x ^ y", "mod(x, y)"},
+        {"min(x, y)", "max(x, y)", "abs(x)"},
+        {"floor(x)", "sqrt(x)", "sin(x)"},
+        {"cos(x)", "exp(x)", "log(x)"},
+        {"noise(x, y, z)", "noise(u, v, x)", "noise(y, y, y)"},
+        {"x < y", "x <= y", "x == y"},
+        {"x != y", "x ? y : z", "x > y ? 1 : z >= y"}};
     for (int i = 0; i < 150; ++i)
-        all.push_back({expression(engine, 3), expression(engine, 3), expression(engine, 2)});
+        triples.push_back({expression(engine, 3), expression(engine, 3), expression(engine, 2)});
     int compiled = 0;
-    for (const core::FormulaTexts& texts : all) {
+    for (const core::FormulaTexts& texts : triples) {
         const core::Formula formula(texts);
         if (formula.mistake()) continue; // too many operations
         ++compiled;

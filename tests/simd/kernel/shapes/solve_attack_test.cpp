@@ -162,9 +162,10 @@ std::optional<Started<Shape>> first_attempt(Aim aim, bool lattice, Random& rando
     if (aim != Aim::onward) return attempt;
     const auto hit = first_crossing(attempt.shape, attempt.ray, Start{});
     if (!hit) return std::nullopt;
-    const Ray<double> there = attempt.ray;
-    attempt.ray.origin = mul_add(static_cast<double>(hit->t), there.direction, there.origin);
-    attempt.ray.direction = random.integer(0, 3) == 0 ? there.direction : random.direction();
+    const Ray<double> moved_ray = attempt.ray;
+    attempt.ray.origin =
+        mul_add(static_cast<double>(hit->t), moved_ray.direction, moved_ray.origin);
+    attempt.ray.direction = random.integer(0, 3) == 0 ? moved_ray.direction : random.direction();
     const Vec3d normal = outward_normal(attempt.shape, attempt.ray.origin, hit->face);
     attempt.start = {true, hit->face, dot(attempt.ray.direction, normal) < 0.0};
     tidy(attempt, aim, random);

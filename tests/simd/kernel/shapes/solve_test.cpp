@@ -134,18 +134,18 @@ template <class Shape>
 void add_ray(Rays& rays, const Shape& shape, std::uint32_t slot, ShapeId id, Set set, bool adverse,
              Random& random) {
     const Ray<double> ray = unit(ray_sets::make_ray(shape, set, random));
-    const Expected there = expected(shape, ray, Start{});
-    if (!there.crossing || random.integer(0, 1) == 0) {
-        rays.add(ray, slot, no_shape, Start{}, there);
+    const Expected truth = expected(shape, ray, Start{});
+    if (!truth.crossing || random.integer(0, 1) == 0) {
+        rays.add(ray, slot, no_shape, Start{}, truth);
         return;
     }
-    const Vec3d point = mul_add(there.crossing->t, ray.direction, ray.origin);
+    const Vec3d point = mul_add(truth.crossing->t, ray.direction, ray.origin);
     Vec3d direction = random.direction();
-    if (adverse && random.integer(0, 3) == 0) direction = ray_sets::across(there.normal, random);
-    bool inward = dot(direction, there.normal) < 0.0;
+    if (adverse && random.integer(0, 3) == 0) direction = ray_sets::across(truth.normal, random);
+    bool inward = dot(direction, truth.normal) < 0.0;
     if (adverse && random.integer(0, 3) == 0) inward = !inward;
     const Ray<double> onward = {point, direction};
-    const Start start = {true, there.crossing->face, inward};
+    const Start start = {true, truth.crossing->face, inward};
     rays.add(onward, slot, id, start, expected(shape, onward, start));
 }
 

@@ -54,7 +54,7 @@ inline Scene make_scene(bool overlapping, int planes = 0) {
 /// Rays from random origins in random directions, some along planes and axes.
 struct Rays {
     std::size_t count, padded;
-    std::vector<double> of[6];
+    std::vector<double> ray[6];
     std::vector<float> rounded[7], t_limit;
     std::vector<std::uint32_t> origin_first, origin_last;
 
@@ -62,7 +62,7 @@ struct Rays {
         : count(n), padded((n + 31) / 16 * 16), t_limit(padded), origin_first(padded, no_slot),
           origin_last(padded, no_slot) {
         Random random(7);
-        for (std::vector<double>& values : of)
+        for (std::vector<double>& values : ray)
             values.assign(padded, 1.0);
         for (std::vector<float>& values : rounded)
             values.resize(padded);
@@ -78,8 +78,8 @@ struct Rays {
             if (i % 8 == 2) origin = 50.0 * origin, direction = normalized(random.cube(3) - origin);
             if (i % 16 == 3) origin = convert<double>(ray_sets::rounded(origin)) * 0.0;
             for (int axis = 0; axis < 3; ++axis) {
-                of[axis][i] = origin[axis];
-                of[3 + axis][i] = direction[axis];
+                ray[axis][i] = origin[axis];
+                ray[3 + axis][i] = direction[axis];
             }
             t_limit[i] = static_cast<float>(random.log_uniform(0.05, 30.0));
         }
@@ -91,15 +91,15 @@ struct Rays {
                                     rounded[6].data(),
                                     origin_first.data(),
                                     origin_last.data(),
-                                    {of[0].data(), of[1].data(), of[2].data()},
-                                    {of[3].data(), of[4].data(), of[5].data()}};
+                                    {ray[0].data(), ray[1].data(), ray[2].data()},
+                                    {ray[3].data(), ray[4].data(), ray[5].data()}};
         kernels.rays.round_rays(count, result, 0.0F);
         return result;
     }
 
     void aim(std::size_t i, const Vec3d& direction) {
         for (int axis = 0; axis < 3; ++axis)
-            of[3 + axis][i] = direction[axis];
+            ray[3 + axis][i] = direction[axis];
     }
 
     /// Starts the ray on the shapes of these ids.
@@ -113,19 +113,19 @@ struct Rays {
 
     void start(std::size_t i, const Vec3d& origin) {
         for (int axis = 0; axis < 3; ++axis)
-            of[axis][i] = origin[axis];
+            ray[axis][i] = origin[axis];
     }
 
     /// Puts the ray's origin in one plane, where each 16 rays fill a square beside the last 16.
     void stay_near(std::size_t i) {
         const double row = static_cast<double>(i / 64), along = static_cast<double>(i % 64 / 16);
-        of[0][i] = 0.2 * (4.0 * along + static_cast<double>(i % 4));
-        of[1][i] = -9.0;
-        of[2][i] = 0.2 * (4.0 * row + static_cast<double>(i / 4 % 4)) - 4.0;
+        ray[0][i] = 0.2 * (4.0 * along + static_cast<double>(i % 4));
+        ray[1][i] = -9.0;
+        ray[2][i] = 0.2 * (4.0 * row + static_cast<double>(i / 4 % 4)) - 4.0;
     }
 
     Ray<double> get(std::size_t i) const {
-        return {{of[0][i], of[1][i], of[2][i]}, {of[3][i], of[4][i], of[5][i]}};
+        return {{ray[0][i], ray[1][i], ray[2][i]}, {ray[3][i], ray[4][i], ray[5][i]}};
     }
 };
 
@@ -158,8 +158,8 @@ struct Traced {
     Workspace workspace{};
     Arena arena;
 
-    Traced(Scene of, std::size_t capacity)
-        : scene(std::move(of)),
+    Traced(Scene traced_scene, std::size_t capacity)
+        : scene(std::move(traced_scene)),
           arena(arena_for([&](Arena& a) { workspace = workspace_for(data, a, capacity); })) {}
     Traced(const Traced&) = delete; // parts of it refer to others
     Traced& operator=(const Traced&) = delete;
