@@ -107,14 +107,13 @@ int side_of_departure(const Shape& shape, const Ray<double>& ray, Face face) {
 }
 
 /// Returns side_of_departure() of a ray that may_start_on() a shape, if both are decided by few
-/// operations, as for most rays from spheres and from the sides of cylinders. Otherwise returns 0.
-/// Uses no FMA: processors without it would call a function for each.
+/// operations, as for most rays from spheres and from the sides of cylinders and cones. Otherwise
+/// returns 0. Uses no FMA: processors without it would call a function for each.
 template <class Shape>
 int clear_side_of_departure(const Shape& shape, const Ray<double>& ray, Face face,
                             double share_of_size) {
     constexpr Kind kind = kind_of<Shape>;
-    if constexpr (kind == Kind::sphere || kind == Kind::open_cylinder ||
-                  kind == Kind::capped_cylinder) {
+    if constexpr (kind == Kind::sphere || requires { shape.axis; }) {
         const auto product = [](const Vec3d& a, const Vec3d& b) {
             return a.x * b.x + a.y * b.y + a.z * b.z;
         };
@@ -122,25 +121,38 @@ int clear_side_of_departure(const Shape& shape, const Ray<double>& ray, Face fac
             return std::abs(a.x * b.x) + std::abs(a.y * b.y) + std::abs(a.z * b.z);
         };
         const Vec3d& d = ray.direction;
-        Vec3d normal;
-        double size = 0.0; // that of the terms of dot(normal, d)
+        Vec3d normal, offset; // offset: from the centre or the axis
+        double size = 0.0;    // that of the terms of dot(normal, d)
+        double radius = 0.0;
         if constexpr (kind == Kind::sphere) {
-            normal = ray.origin - convert<double>(shape.center);
+            offset = normal = ray.origin - convert<double>(shape.center);
             size = sizes(normal, d);
+            radius = static_cast<double>(shape.radius);
         } else {
             const Vec3d axis = convert<double>(shape.axis);
             const Vec3d from_base = ray.origin - convert<double>(shape.base);
             const double axis_squared = product(axis, axis);
             const double height = product(from_base, axis) / axis_squared;
             if (face != body || !(height >= 0.0 && height <= 1.0)) return 0;
-            normal = from_base - height * axis;
-            size = sizes(from_base, d) + sizes(from_base, axis) / axis_squared * sizes(axis, d);
+            const double height_size = sizes(from_base, axis) / axis_squared;
+            offset = normal = from_base - height * axis;
+            size = sizes(from_base, d) + height_size * sizes(axis, d);
+            if constexpr (requires { shape.radius; }) {
+                radius = static_cast<double>(shape.radius);
+            } else {
+                const auto base_radius = static_cast<double>(shape.base_radius);
+                const double growth = static_cast<double>(shape.top_radius) - base_radius;
+                const double slope = growth / axis_squared;
+                radius = base_radius + height * growth;
+                normal = offset - radius * slope * axis;
+                size += (base_radius + height_size * std::abs(growth)) * std::abs(slope) *
+                        sizes(axis, d);
+            }
         }
-        const auto radius = static_cast<double>(shape.radius);
-        if (!(std::abs(product(normal, normal) - radius * radius) <=
+        if (!(std::abs(product(offset, offset) - radius * radius) <=
               share_of_size * (radius * radius)))
             return 0;
-        // At most 20 roundings, each by 2^-53 of `size`. Underflow is far below that.
+        // At most 40 roundings, each by 2^-53 of `size`. Underflow is far below that.
         const double along = product(normal, d);
         const double most = largest_component(d);
         if (most > 0x1p-300 && most < 0x1p400 && size > 0x1p-600 * most &&

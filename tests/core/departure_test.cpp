@@ -231,7 +231,7 @@ TEMPLATE_TEST_CASE("a ray along a flat face leaves the solid at the far end", ""
 }
 
 TEMPLATE_TEST_CASE("a departure that few operations decide is the one of all digits", "", Sphere,
-                   OpenCylinder, CappedCylinder) {
+                   OpenCylinder, CappedCylinder, OpenCone, CappedCone) {
     Random random(47);
     int asked = 0, clear = 0, tangents = 0, off = 0;
     for_each_hitpoint<TestType>(
