@@ -40,7 +40,7 @@ class CallerStream {
         }
         if (!(steps.turn <= max_turn * most)) {
             coherence.loose = coherence.scattered = true;
-            return count >= fewest_near && steps.near >= 0.65 * most;
+            return count >= fewest_near && steps.near >= 0.1 * most;
         }
         if (steps.turn == 0.0) {
             coherence.parallel = steps.is_near(radius, most);
