@@ -14,7 +14,7 @@ simd/isa: simd/units
 simd/kernel/*: simd/isa simd/units core/kinds.hpp core/numbers/elementary.hpp core/numbers/formula_program.hpp
 simd/kernel/*: core/numbers/sample_sequence.hpp
 simd/units: simd/kernel/* simd/isa core core/numbers core/optics
-simd/threads: core/*
+simd/threads: core/* simd/isa
 simd/query: core/* simd/threads simd/units
 simd/stream simd/first_hits simd/wavefront: core/* simd/isa simd/query simd/threads simd/units
 simd/first_hits: simd/wavefront

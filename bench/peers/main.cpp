@@ -63,7 +63,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
 
 void measure(const std::string& name, const std::vector<std::string>& wanted, const Measuring& how,
              const std::function<void(const Row&)>& report) {
-    const core::Scene scene = make_workload(name);
+    const core::Scene scene = make_workload(name, how.isa);
     const simd::SceneData data(scene);
     std::printf("%s: %zu shapes, %.1f MB, %s, %d thread%s; million rays per second\n", name.c_str(),
                 scene.shape_count(), static_cast<double>(scene.bytes()) / 1e6,

@@ -7,6 +7,7 @@
 #include "scenes/formats/scene_file.hpp"
 #include "simd/isa/isa.hpp"
 #include "simd/query/query.hpp"
+#include "simd/threads/threads.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -146,16 +147,19 @@ void for_each_hit(const simd::SceneData& data, const RaySet& rays, const Visit& 
 
 } // namespace
 
-core::Scene make_workload(const std::string& name) {
+core::Scene make_workload(const std::string& name, simd::Isa isa) {
+    simd::ParallelWorkers workers(1, simd::node_width_of(isa));
     const std::size_t slash = name.find('/');
     const std::string kind = name.substr(0, slash);
-    if (kind != "spheres" && kind != "sticks") return scenes::load_scene(name);
+    if (kind != "spheres" && kind != "sticks")
+        return scenes::load_scene(name, {.workers = &workers});
     int count = 0;
     const char* const end = name.data() + name.size();
     if (slash == std::string::npos ||
         std::from_chars(name.data() + slash + 1, end, count).ptr != end || count < 1)
         throw std::invalid_argument("must be spheres/N or sticks/N, got " + name);
     core::SceneBuilder builder;
+    builder.workers = &workers;
     builder.wants_light = false;
     builder.camera.from = {1.9F, 1.4F, 2.3F};
     builder.camera.at = Vec3f(0.5F);

@@ -2,6 +2,7 @@
 
 #include "core/scene/scene.hpp"
 #include "core/shapes/ray.hpp"
+#include "simd/isa/isa.hpp"
 #include "simd/query/paths.hpp"
 
 #include <optional>
@@ -14,7 +15,8 @@ namespace raylane::bench {
 /// Makes a scene. `spheres/N`: N spheres of radius 0.3 / cbrt(N), uniformly in the unit cube.
 /// `sticks/N`: about N shapes of a ball-and-stick lattice in it, a quarter balls, the rest
 /// cylinders and cones. Otherwise `name` is the path of a scene file.
-core::Scene make_workload(const std::string& name);
+/// The hierarchy is that for `isa`.
+core::Scene make_workload(const std::string& name, simd::Isa isa);
 
 /// Rays, structure of arrays, and the query to make with them. Rays that start on no shape have
 /// directions of float precision, normalised in double, so that contenders in float trace the same

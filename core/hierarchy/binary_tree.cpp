@@ -1,6 +1,7 @@
 #include "core/hierarchy/binary_tree.hpp"
 
 #include "core/hierarchy/bins.hpp"
+#include "core/hierarchy/packing.hpp"
 #include "core/hierarchy/sweep.hpp"
 #include "core/shapes/shapes.hpp"
 
@@ -29,8 +30,8 @@ void drop_duplicates(std::span<Item> items, const Duplicates& duplicates,
 /// Builds parts of the tree, one task each.
 class PartBuilder {
   public:
-    PartBuilder(std::span<Item> items, const Duplicates& duplicates)
-        : items_(items), duplicates_(duplicates) {}
+    PartBuilder(std::span<Item> items, const Duplicates& duplicates, int node_width)
+        : items_(items), duplicates_(duplicates), node_width_(node_width), sweep_(node_width) {}
 
     EntryCosts build(const Range& range, TreePart& part) {
         nodes_.assign(1, {range.box.bounds(), 0, 0, {}, {}});
@@ -53,11 +54,13 @@ class PartBuilder {
         const EntryCosts right_costs = grow(halves.right, left + 1);
         BinaryNode& parent = nodes_[node];
         parent.first = left;
-        return collapse(parent.bounds.half_area(), left_costs, right_costs, parent.shares);
+        return collapse(parent.bounds.half_area(), left_costs, right_costs, node_width_,
+                        parent.shares);
     }
 
     std::span<Item> items_;
     const Duplicates& duplicates_;
+    int node_width_;
     std::vector<BinaryNode> nodes_;
     std::vector<std::uint32_t> room_;
     Sweep sweep_;
@@ -66,8 +69,9 @@ class PartBuilder {
 
 class TreeBuilder {
   public:
-    TreeBuilder(std::span<Item> items, const Duplicates& duplicates, Workers& workers)
-        : items_(items), duplicates_(duplicates), workers_(workers) {}
+    TreeBuilder(std::span<Item> items, const Duplicates& duplicates, int node_width,
+                Workers& workers)
+        : items_(items), duplicates_(duplicates), node_width_(node_width), workers_(workers) {}
 
     EntryCosts build(Range range, TreePart& part) {
         if (range.size() > max_in_a_part) {
@@ -77,7 +81,8 @@ class TreeBuilder {
             if (range.size() < before) workers_.placed(before - range.size(), items_.size());
         }
         if (range.size() <= max_in_a_part) {
-            const EntryCosts costs = PartBuilder(items_, duplicates_).build(range, part);
+            const EntryCosts costs =
+                PartBuilder(items_, duplicates_, node_width_).build(range, part);
             workers_.placed(range.size(), items_.size());
             return costs;
         }
@@ -88,12 +93,13 @@ class TreeBuilder {
         workers_.both([&] { left = build(halves.left, *part.left); },
                       [&] { right = build(halves.right, *part.right); });
         BinaryNode& node = part.nodes.emplace_back(BinaryNode{range.box.bounds(), 0, 0, {}, {}});
-        return collapse(node.bounds.half_area(), left, right, node.shares);
+        return collapse(node.bounds.half_area(), left, right, node_width_, node.shares);
     }
 
   private:
     std::span<Item> items_;
     const Duplicates& duplicates_;
+    int node_width_;
     Workers& workers_;
 };
 
@@ -156,12 +162,15 @@ BinaryForest build_binary_forest(const ShapeLists& lists, std::span<const EndsOf
     std::vector<std::size_t> ends_of_items;
     BigArray<Item> items = items_of(lists, ends, duplicates, ends_of_items, workers);
     BinaryForest forest;
+    // Narrow nodes take more memory, which counts where spheres are packed.
+    forest.node_width = items.size() < packed_from ? workers.node_width() : block_size;
     forest.trees.resize(ends.size());
     const std::span<Item> all_items(items.data(), items.size());
     workers.each(ends.size(), [&](std::size_t i) {
         const std::size_t first = i == 0 ? 0 : ends_of_items[i - 1];
         const Range range = range_of(all_items, first, ends_of_items[i], workers);
-        TreeBuilder(all_items, duplicates, workers).build(range, forest.trees[i]);
+        TreeBuilder(all_items, duplicates, forest.node_width, workers)
+            .build(range, forest.trees[i]);
     });
     forest.positions = Positions(std::move(items));
     return forest;

@@ -71,6 +71,7 @@ class Positions {
 
 /// Trees, and the items' positions in the order in which leaves refer to them.
 struct BinaryForest {
+    int node_width; ///< the largest number of children of a wide node
     std::vector<TreePart> trees;
     Positions positions;
 };

@@ -7,7 +7,7 @@ namespace raylane::core {
 
 namespace {
 
-/// Costs of a visit, relative to each other: 16 boxes take about as long as a block of 16 shapes.
+/// Costs of a visit, relative to each other: a node takes about as long as a block.
 constexpr double node_cost = 1.0;
 constexpr double block_cost = 1.0;
 
@@ -39,13 +39,13 @@ EntryCosts leaf_costs(double half_area) {
 }
 
 EntryCosts collapse(double half_area, const EntryCosts& left, const EntryCosts& right,
-                    EntryShares& shares) {
+                    int node_width, EntryShares& shares) {
     EntryCosts costs;
-    const Share own = best_share(block_size, left, right);
+    const Share own = best_share(node_width, left, right);
     shares = {};
     shares.set(1, own.left);
     costs.cost[0] = own.cost + half_area * node_cost;
-    costs.useful_entries = std::min(block_size, left.useful_entries + right.useful_entries);
+    costs.useful_entries = std::min(node_width, left.useful_entries + right.useful_entries);
     for (int entries = 2; entries <= costs.useful_entries; ++entries) {
         const Share share = best_share(entries, left, right);
         const bool better = share.cost < costs.cost[entries - 2];

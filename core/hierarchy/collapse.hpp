@@ -26,11 +26,11 @@ class EntryShares {
     /// or at most entries - 1.
     int left_of(int entries) const { return static_cast<int>(bits_ >> 4 * (entries - 1) & 0xF); }
     /// Returns the entries of the left child if the subtree becomes a separate wide node, with all
-    /// 16 entries.
+    /// entries.
     int left_of_own() const { return static_cast<int>(bits_ & 0xF); }
 
   private:
-    friend EntryCosts collapse(double, const EntryCosts&, const EntryCosts&, EntryShares&);
+    friend EntryCosts collapse(double, const EntryCosts&, const EntryCosts&, int, EntryShares&);
 
     void set(int entries, int left) { bits_ |= std::uint64_t(left) << 4 * (entries - 1); }
 
@@ -39,7 +39,8 @@ class EntryShares {
 
 EntryCosts leaf_costs(double half_area);
 /// Returns the costs of an inner node, given its children's costs, and fills in its shares.
+/// `node_width`: the largest number of entries in a wide node, at most block_size.
 EntryCosts collapse(double half_area, const EntryCosts& left, const EntryCosts& right,
-                    EntryShares& shares);
+                    int node_width, EntryShares& shares);
 
 } // namespace raylane::core

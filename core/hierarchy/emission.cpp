@@ -46,37 +46,37 @@ Shares shares_of(const Cursor& at, int entries) {
     return {0, 0};
 }
 
-Shares own_shares_of(const Cursor& at) {
+Shares own_shares_of(const Cursor& at, int node_width) {
     const int left = at.node().shares.left_of_own();
-    return {left, block_size - left};
+    return {left, node_width - left};
 }
 
 /// Returns the size of a subtree that may fill `entries` of a wide node. At a fork, also stores the
 /// left child's size.
-Tally count(const Cursor& at, int entries, Workers& workers);
+Tally count(const Cursor& at, int entries, int node_width, Workers& workers);
 
-Tally count_children(const Cursor& at, const Shares& shares, Workers& workers) {
+Tally count_children(const Cursor& at, const Shares& shares, int node_width, Workers& workers) {
     Tally left, right;
     if (at.forks()) {
-        workers.both([&] { left = count(at.left(), shares.left, workers); },
-                     [&] { right = count(at.right(), shares.right, workers); });
+        workers.both([&] { left = count(at.left(), shares.left, node_width, workers); },
+                     [&] { right = count(at.right(), shares.right, node_width, workers); });
         at.left_tally() = left;
     } else {
-        left = count(at.left(), shares.left, workers);
-        right = count(at.right(), shares.right, workers);
+        left = count(at.left(), shares.left, node_width, workers);
+        right = count(at.right(), shares.right, node_width, workers);
     }
     left += right;
     return left;
 }
 
-Tally count(const Cursor& at, int entries, Workers& workers) {
+Tally count(const Cursor& at, int entries, int node_width, Workers& workers) {
     const Shares shares = shares_of(at, entries);
-    if (shares.left > 0) return count_children(at, shares, workers);
+    if (shares.left > 0) return count_children(at, shares, node_width, workers);
     Tally tally;
     if (at.is_leaf()) {
         tally.blocks[static_cast<std::size_t>(at.node().kind)] = 1;
     } else {
-        tally = count_children(at, own_shares_of(at), workers);
+        tally = count_children(at, own_shares_of(at, node_width), node_width, workers);
         ++tally.nodes;
     }
     tally.entries = 1;
@@ -85,8 +85,8 @@ Tally count(const Cursor& at, int entries, Workers& workers) {
 
 class Emitter {
   public:
-    Emitter(const Positions& positions, const ShapeLists& lists, Workers& workers, Emission& to)
-        : positions_(positions), lists_(lists), workers_(workers), to_(to) {}
+    Emitter(const BinaryForest& forest, const ShapeLists& lists, Workers& workers, Emission& to)
+        : forest_(forest), lists_(lists), workers_(workers), to_(to) {}
 
     Child emit(const Cursor& root, Tally& next) {
         return root.is_leaf() ? emit_block(root.node(), next) : emit_node(root, next);
@@ -118,7 +118,7 @@ class Emitter {
         const std::uint32_t own = next.nodes++;
         to_.nodes[own] = WideNode();
         const int entries = std::exchange(next.entries, 0);
-        emit_children(at, own_shares_of(at), own, next);
+        emit_children(at, own_shares_of(at, forest_.node_width), own, next);
         next.entries = entries;
         return Child::node(own);
     }
@@ -130,7 +130,7 @@ class Emitter {
             to_.blocks<Shape>().fill(index, list, leaf.count, [&](int lane) {
                 const std::size_t at = leaf.first + static_cast<std::size_t>(lane);
                 fetch_ahead(list, at);
-                return positions_[at];
+                return forest_.positions[at];
             });
         });
         return Child::block(leaf.kind, index);
@@ -141,12 +141,12 @@ class Emitter {
     template <class Shape>
     void fetch_ahead(const ShapeList<Shape>& list, std::size_t at) const {
         constexpr auto ahead = std::size_t{4} * block_size;
-        if (at + ahead >= positions_.size()) return;
-        const std::uint32_t position = positions_[at + ahead];
+        if (at + ahead >= forest_.positions.size()) return;
+        const std::uint32_t position = forest_.positions[at + ahead];
         if (position < list.size()) list.prefetch(position); // it may belong to another kind
     }
 
-    const Positions& positions_;
+    const BinaryForest& forest_;
     const ShapeLists& lists_;
     Workers& workers_;
     Emission& to_;
@@ -170,19 +170,19 @@ Emission::Emission(const Tally& size, const std::array<bool, kind_count>& has_do
     });
 }
 
-Tally size_of(TreePart& tree, Workers& workers) {
-    return count(Cursor(tree), 1, workers);
+Tally size_of(TreePart& tree, int node_width, Workers& workers) {
+    return count(Cursor(tree), 1, node_width, workers);
 }
 
 Child emit(BinaryForest& forest, std::size_t tree, const ShapeLists& lists, Workers& workers,
            Tally& next, Emission& to) {
-    return Emitter(forest.positions, lists, workers, to).emit(Cursor(forest.trees[tree]), next);
+    return Emitter(forest, lists, workers, to).emit(Cursor(forest.trees[tree]), next);
 }
 
 Emission emit_all(BinaryForest& forest, const ShapeLists& lists,
                   const std::array<bool, kind_count>& has_doubles, Workers& workers) {
     const BinaryNode& root = forest.trees.front().nodes.front();
-    Tally size = size_of(forest.trees.front(), workers), next;
+    Tally size = size_of(forest.trees.front(), forest.node_width, workers), next;
     // A root that is a leaf still needs a wide node.
     if (root.is_leaf()) size.nodes = next.nodes = 1;
     Emission emission(size, has_doubles);

@@ -38,7 +38,7 @@ class Emission {
 };
 
 /// Returns the size of a tree that takes one entry of a wide node. Call it before emit().
-Tally size_of(TreePart& tree, Workers& workers);
+Tally size_of(TreePart& tree, int node_width, Workers& workers);
 
 /// Turns a tree of a forest into wide nodes with padded bounds, following its nodes' decisions, and
 /// its leaves into blocks of the lists' shapes. Numbers both by their position in the tree. `next`

@@ -71,9 +71,9 @@ Hierarchy hierarchy_of(BigArray<WideNode> nodes);
 
 /// Builds the hierarchy by the binned surface-area heuristic, whose cost counts blocks of 16 rather
 /// than shapes, and collapses the binary tree into wide nodes. Fills the tables: each leaf is one
-/// block, and each set of duplicates has one shape. The result depends on the shapes alone, not on
-/// the workers. No shape touches its bounds; rays bring the tolerance for a traversal's rounding
-/// errors.
+/// block, and each set of duplicates has one shape. The result depends on the shapes and on the
+/// workers' node_width() alone. No shape touches its bounds; rays bring the tolerance for a
+/// traversal's rounding errors.
 Hierarchy build_hierarchy(const ShapeLists& lists, const Duplicates& duplicates, Workers& workers,
                           Tables& tables);
 

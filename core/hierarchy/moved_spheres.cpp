@@ -278,7 +278,7 @@ class Rebuilder {
     Emission emit_between_kept(std::vector<float>& costs) {
         Tally size = kept_, next;
         for (TreePart& tree : forest_.trees)
-            size += size_of(tree, workers_);
+            size += size_of(tree, forest_.node_width, workers_);
         emission_ = Emission(size, has_doubles_);
         costs.assign(size.nodes, unknown_cost);
         keep(0, costs, next);

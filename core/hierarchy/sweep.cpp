@@ -104,7 +104,7 @@ EntryCosts Sweep::grow(int first, int last, std::uint32_t node) {
     BinaryNode& parent = (*nodes_)[node];
     parent.first = left;
     parent.count = 0;
-    return collapse(parent.bounds.half_area(), left_costs, right_costs, parent.shares);
+    return collapse(parent.bounds.half_area(), left_costs, right_costs, node_width_, parent.shares);
 }
 
 bool Sweep::has_several_kinds(int first, int last) const {

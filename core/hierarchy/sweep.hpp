@@ -26,6 +26,9 @@ class Sweep {
     EntryCosts build(std::span<Item> items, std::size_t first, std::vector<BinaryNode>& nodes,
                      std::uint32_t root);
 
+    /// `node_width`: see Workers.
+    explicit Sweep(int node_width) : node_width_(node_width) {}
+
   private:
     using Index = std::uint8_t;
     /// Number of blocks that the first or last i items need.
@@ -48,6 +51,7 @@ class Sweep {
     void count_blocks(int axis, int first, int last);
     void divide(int first, const Split& split, int last);
 
+    int node_width_;
     std::span<const Item> items_;
     std::size_t first_ = 0;
     std::vector<BinaryNode>* nodes_ = nullptr;

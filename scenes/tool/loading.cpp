@@ -104,9 +104,9 @@ std::optional<core::Scene> take(const std::string& place, int threads) {
 } // namespace
 
 core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions options,
-                               Verbosity verbosity, int threads) {
+                               Verbosity verbosity, int threads, std::optional<simd::Isa> isa) {
     const auto start = std::chrono::steady_clock::now();
-    Loader loader(threads);
+    Loader loader(threads, isa ? simd::node_width_of(*isa) : simd::node_width());
     core::Scene scene = [&] {
         const ProgressLine line(verbosity, [&] { return loader.text(); });
         return loader.load(path, std::move(options));

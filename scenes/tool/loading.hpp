@@ -4,16 +4,19 @@
 #include "scenes/formats/scene_file.hpp"
 #include "scenes/tool/options/scene_options.hpp"
 #include "scenes/tool/ranks/job.hpp"
+#include "simd/isa/isa.hpp"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 namespace raylane::scenes {
 
 /// Calls load_scene() with `threads` threads (0: default_threads()) and shows a line of progress.
+/// `isa`: the instruction set that will trace the scene; unset: the widest available one.
 /// Remarks on the file go to standard error, unless `verbosity` is quiet.
 core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions options,
-                               Verbosity verbosity, int threads);
+                               Verbosity verbosity, int threads, std::optional<simd::Isa> isa = {});
 
 /// Does the same with the options of a command, and returns the scene with the view that they
 /// request.

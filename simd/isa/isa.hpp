@@ -32,6 +32,17 @@ inline Isa narrowest_isa() {
     return available_isas().front();
 }
 
+/// Returns core::Workers::node_width() for an instruction set: 16 for registers of 16 lanes,
+/// otherwise 8.
+inline constexpr int node_width_of(Isa isa) {
+    return isa == Isa::avx512 ? 16 : 8;
+}
+
+/// Returns the one for the widest available instruction set.
+inline int node_width() {
+    return node_width_of(is_available(Isa::avx512) ? Isa::avx512 : Isa::avx2);
+}
+
 /// Returns the name that users see.
 inline constexpr std::string_view name_of(Isa isa) {
     constexpr std::string_view names[] = {"portable", "sse4.2", "avx2", "avx512", "neon"};

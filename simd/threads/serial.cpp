@@ -35,7 +35,7 @@ void isolate(const std::function<void()>& body) {
 }
 
 struct ParallelWorkers::Arena {};
-ParallelWorkers::ParallelWorkers(int threads) {
+ParallelWorkers::ParallelWorkers(int threads, int node_width) : Workers(node_width) {
     static_cast<void>(threads);
 }
 ParallelWorkers::~ParallelWorkers() = default;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/hierarchy/workers.hpp"
+#include "simd/isa/isa.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -44,7 +45,7 @@ void isolate(const std::function<void()>& body);
 /// Runs the tasks of a build on `threads` threads (0: default_threads()).
 class ParallelWorkers : public core::Workers {
   public:
-    explicit ParallelWorkers(int threads = 0);
+    explicit ParallelWorkers(int threads = 0, int node_width = simd::node_width());
     ~ParallelWorkers() override;
 
     void both(const Task& one, const Task& other) override;

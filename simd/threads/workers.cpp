@@ -11,8 +11,9 @@ struct ParallelWorkers::Arena {
     explicit Arena(int threads) : allowed(threads), arena(threads) {}
 };
 
-ParallelWorkers::ParallelWorkers(int threads)
-    : arena_(std::make_unique<Arena>(threads > 0 ? threads : default_threads())) {}
+ParallelWorkers::ParallelWorkers(int threads, int node_width)
+    : Workers(node_width),
+      arena_(std::make_unique<Arena>(threads > 0 ? threads : default_threads())) {}
 ParallelWorkers::~ParallelWorkers() = default;
 
 void ParallelWorkers::both(const Task& one, const Task& other) {

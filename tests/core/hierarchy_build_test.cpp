@@ -3,6 +3,7 @@
 #include "tests/shapes/shapes.hpp"
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -23,8 +24,8 @@ std::size_t count_of(const ShapeLists& lists) {
     return count;
 }
 
-Built build(const ShapeLists& lists) {
-    Workers alone;
+Built build(const ShapeLists& lists, int node_width = 16) {
+    Workers alone(node_width);
     Built built;
     // Each shape has its own material, so that none is a duplicate.
     MaterialIndices material_of;
@@ -68,6 +69,7 @@ class Audit {
     int wide = 0;                 // entries whose bounds are not one ulp larger than their content
     int gaps = 0;                 // entries or lanes that are filled behind empty ones
     std::size_t blocks = 0, nodes = 0;
+    int most = 0; // entries of a node
 
   private:
     /// Returns the bounds of the content.
@@ -85,6 +87,7 @@ class Audit {
                 continue;
             }
             if (ended) ++gaps;
+            most = std::max(most, entry + 1);
             above.push_back(node.bounds(entry));
             const Bounds inside =
                 child.is_block()
@@ -130,9 +133,10 @@ class Audit {
 };
 
 /// Checks that each shape keeps its values, and that each bounded shape occurs once.
-Audit check(const ShapeLists& lists) {
-    const Built built = build(lists);
+Audit check(const ShapeLists& lists, int node_width = 16) {
+    const Built built = build(lists, node_width);
     Audit audit(built);
+    CHECK(audit.most <= node_width);
     CHECK(audit.loose == 0);
     CHECK(audit.wide == 0);
     CHECK(audit.gaps == 0);
@@ -174,8 +178,11 @@ TEST_CASE("each bounded shape is once in the hierarchy and inside of all nodes a
     Random random(31);
     for (const bool lattice : {false, true})
         for (const int of_each : {1, 2, 16, 17, 150, 2000}) {
-            CAPTURE(lattice, of_each);
-            check(all_kinds(of_each, random, lattice));
+            const ShapeLists lists = all_kinds(of_each, random, lattice);
+            for (const int node_width : {16, 8}) {
+                CAPTURE(lattice, of_each, node_width);
+                check(lists, node_width);
+            }
         }
 }
 

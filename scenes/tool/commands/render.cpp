@@ -246,7 +246,7 @@ core::Scene load(Plan& plan, Outputs& outputs) {
         load_together(plan.job, *arguments.scene, plan.threads_to_load, [&](int threads) {
             if (!plan.is_frame())
                 return load_with_progress(*arguments.scene, plan.load_options, plan.verbosity,
-                                          threads);
+                                          threads, arguments.isa.value());
             SequenceFrame frame =
                 first_frame(*requested_sequence(arguments, threads, plan.verbosity));
             name = std::move(frame.name);

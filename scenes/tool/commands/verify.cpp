@@ -248,7 +248,8 @@ class Verifier {
         const SceneArguments& how = render_->scene_arguments;
         LoadOptions options = how.load_options();
         options.legend = annotator_.legend();
-        core::Scene scene = load_with_progress(*render_->scene, options, verbosity_, threads_);
+        core::Scene scene = load_with_progress(*render_->scene, options, verbosity_, threads_,
+                                               render_->isa.value());
         settings_ = render_->settings_of(scene.settings());
         return seen(std::move(scene), how.view.change(), settings_);
     }

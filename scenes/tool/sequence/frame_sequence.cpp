@@ -342,7 +342,8 @@ std::optional<FrameSequence> requested_sequence(const RenderArguments& arguments
     sequence.turn = frames.turn.value();
     sequence.fit_to = *frames.camera_from;
     LoadOptions options = arguments.scene_arguments.load_options();
-    sequence.workers = std::make_shared<simd::ParallelWorkers>(threads);
+    sequence.workers = std::make_shared<simd::ParallelWorkers>(
+        threads, arguments.isa ? simd::node_width_of(*arguments.isa) : simd::node_width());
     options.workers = sequence.workers.get();
     sequence.verbosity = verbosity;
     if (verbosity != Verbosity::quiet)

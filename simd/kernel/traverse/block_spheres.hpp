@@ -14,8 +14,9 @@ class BlockSpheres {
     const float *center[2][3], *radius[2]; ///< by end, for 16 shapes
     int ends;
 
-    void enclose(core::Kind kind, const float (*rows)[16]) {
-        with_shape(kind, [&]<class Shape>() { enclose<Shape>(rows); });
+    /// Encloses the shapes of a block up to lane `end` - 1.
+    void enclose(core::Kind kind, const float (*rows)[16], int end = 16) {
+        with_shape(kind, [&]<class Shape>() { enclose<Shape>(rows, end); });
     }
 
     BlockSpheres() = default;
@@ -30,7 +31,7 @@ class BlockSpheres {
 
   private:
     template <class Shape>
-    void enclose(const float (*rows)[16]) {
+    void enclose(const float (*rows)[16], int filled) {
         using Numbers = typename ShapeKernels<Shape>::template Numbers<Arch>;
         constexpr bool is_own = requires {
             Numbers::encloses_itself;
@@ -45,7 +46,7 @@ class BlockSpheres {
             radius[end] = is_own ? rows[3] : own_[end][3];
         }
         if constexpr (!is_own)
-            for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            for (int from = 0; from < filled; from += static_cast<int>(F::size)) {
                 const Numbers shapes(BlockReader<Arch>(rows, from));
                 if constexpr (has_ends)
                     for (int end = 0; end < 2; ++end)

@@ -52,7 +52,7 @@ struct Leaf : Streams<Arch> {
     [[gnu::always_inline]] static std::uint32_t may_meet(const Lanes16& block,
                                                          const RoundedRays& rays, std::size_t i) {
         std::uint32_t mask = 0;
-        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+        for (int from = 0, end = block.end(); from < end; from += static_cast<int>(F::size)) {
             M lanes = elsewhere(block.ids(from), rays, i);
             if constexpr (has_may_meet<Filter, typename Method::Rays>)
                 lanes = lanes & Filter(block.reader(from)).may_meet(Method::broadcast(rays, i));
@@ -70,7 +70,7 @@ struct Leaf : Streams<Arch> {
                                             LeafHits& hits) {
         const typename Method::Rays ray = Method::broadcast(rays, i);
         hits.lanes = 0;
-        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+        for (int from = 0, end = block.end(); from < end; from += static_cast<int>(F::size)) {
             const Filter filter(block.reader(from));
             const Bounds<Arch> bounds = bounds_of(filter, ray, rays, i, cut);
             const M counts =
@@ -122,7 +122,7 @@ struct Leaf : Streams<Arch> {
         const std::uint32_t counts = knows_cuts<Method> ? ~S::only_cut_lanes(scene, slot) : ~0U;
         const ClipPlanesView* cut = cut_of<Method>(scene, slot);
         std::uint8_t state = unblocked;
-        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+        for (int from = 0, end = block.end(); from < end; from += static_cast<int>(F::size)) {
             const Filter filter(block.reader(from));
             std::uint32_t asked =
                 Lanes<Arch>::bits(elsewhere(block.ids(from), rays, i)) & counts >> from;

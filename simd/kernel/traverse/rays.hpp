@@ -10,6 +10,18 @@ namespace raylane::simd {
 /// below the second certainly are. Both t_limit and the product are rounded.
 inline constexpr float perhaps_within = 1 + 4 * half_ulp, surely_within = 1 - 4 * half_ulp;
 
+/// Returns the end of the lanes that hold something, of 16 in registers of Arch: filled lanes come
+/// first. `ids`: of shapes, or the children of a node.
+template <class Arch>
+[[gnu::always_inline]] inline int end_of_filled(const std::uint32_t* ids) {
+    constexpr int lanes = static_cast<int>(Floats<Arch>::size);
+    static_assert(no_child == no_slot);
+    int end = lanes;
+    while (end < 16 && ids[end] != no_slot)
+        end += lanes;
+    return end;
+}
+
 /// The 16 shapes of a block in memory, where they are stored or have been unpacked to.
 template <class Arch>
 struct PlainLanes {
@@ -20,6 +32,9 @@ struct PlainLanes {
         : rows(reinterpret_cast<const float (*)[16]>(block)), values(table.values) {}
     BlockReader<Arch> reader(int from) const { return {rows, from}; }
     Floats<Arch> ids(int from) const { return Floats<Arch>::load_unaligned(rows[values] + from); }
+    int end() const {
+        return end_of_filled<Arch>(reinterpret_cast<const std::uint32_t*>(rows[values]));
+    }
 };
 
 /// Same for packed spheres, which are unpacked in registers.
@@ -34,6 +49,7 @@ struct PackedLanes {
         const typename Packed::BlockRows rows(packed, block, from);
         return select(rows.empty, rows.words, rows.ids());
     }
+    int end() const { return end_of_filled<Arch>(block.words); }
 };
 
 /// Memory for an unpacked block.

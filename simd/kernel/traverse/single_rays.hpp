@@ -79,7 +79,8 @@ struct SingleRays : Streams<Arch> {
     [[gnu::always_inline]] static std::uint32_t* enter(const NodeView& node, const BoxRay& box,
                                                        const BoxRay::Rows& rows, float t_limit,
                                                        std::uint32_t* top) {
-        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+        for (int from = 0, end = end_of_filled<Arch>(node.children); from < end;
+             from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
             const std::uint32_t bits = box.template enter<Arch>(node, rows, from, F(t_limit), near);
             Lanes<Arch>::compress_store(reinterpret_cast<float*>(top),

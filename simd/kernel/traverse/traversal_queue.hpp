@@ -40,7 +40,8 @@ struct TraversalQueue {
     [[gnu::always_inline]] void enter(const NodeView& node, const BoxRay& ray,
                                       const BoxRay::Rows& rows, float first) {
         const F t_limit(first * culling_slack);
-        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+        for (int from = 0, end = end_of_filled<Arch>(node.children); from < end;
+             from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
             const std::uint32_t bits = ray.template enter<Arch>(node, rows, from, t_limit, near);
             add(near, node.children + from, bits);

@@ -73,10 +73,11 @@ struct Told : simd::ParallelWorkers {
 } // namespace
 
 TEST_CASE("the hierarchy is the same to the bit on any number of threads", "[native]") {
-    for (const bool mixed : {false, true}) {
+    for (const int node_width : {8, 16}) {
+        const bool mixed = node_width == 8;
         const ManyShapes many(mixed);
         const ShapeLists& lists = many.lists;
-        Workers alone;
+        Workers alone(node_width);
         Tables tables;
         const MaterialIndices one_material = of_one_material(many.shape_count);
         const Duplicates duplicates(lists, one_material, {});
@@ -84,7 +85,7 @@ TEST_CASE("the hierarchy is the same to the bit on any number of threads", "[nat
         CHECK(hierarchy.nodes.size() > 400);
         for (const int threads : {1, 2, 3, 8}) {
             CAPTURE(mixed, threads);
-            Told workers(threads);
+            Told workers(threads, node_width);
             Tables others;
             const Hierarchy other = build_hierarchy(lists, duplicates, workers, others);
             CHECK(same_bits(hierarchy.nodes, other.nodes));

@@ -99,7 +99,8 @@ struct FrustumWalk : Streams<Arch> {
     void at_node(const NodeView& node, TraversalQueue<Arch>& queue,
                  const Prefetcher<Arch>& prefetcher) {
         ++counters.nodes;
-        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+        for (int from = 0, end = end_of_filled<Arch>(node.children); from < end;
+             from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
             const std::uint32_t bits = frustum.enter(node, from, F(largest_limit), near);
             const int before = queue.size;
@@ -131,8 +132,9 @@ struct FrustumWalk : Streams<Arch> {
             } else {
                 floats[b] = S::block_of(table, blocks[b] & child_index);
             }
-            spheres.enclose(kind, S::rows_of(floats[b]));
-            for (int from = 0; from < 16; from += static_cast<int>(F::size))
+            const int end = end_of_filled<Arch>(S::ids_of(table, floats[b]));
+            spheres.enclose(kind, S::rows_of(floats[b]), end);
+            for (int from = 0; from < end; from += static_cast<int>(F::size))
                 shape_count +=
                     list(numbers + from, static_cast<std::uint32_t>(b) << 4,
                          frustum.meet(spheres, from, furthest, seen[b]), shapes + shape_count);

@@ -68,7 +68,8 @@ class InFlightAll : InFlight<Arch, Method> {
 
     static void at_node(Lister& lister, const NodeView& node) {
         const F t_limit(lister.t_limit);
-        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+        for (int from = 0, end = end_of_filled<Arch>(node.children); from < end;
+             from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
             const std::uint32_t bits =
                 lister.box.template enter<Arch>(node, lister.rows, from, t_limit, near);

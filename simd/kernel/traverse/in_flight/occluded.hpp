@@ -69,7 +69,8 @@ class InFlightOccluded : InFlight<Arch, Method> {
 
     static void at_node(Shadow& shadow, const NodeView& node) {
         const F t_limit(shadow.t_limit);
-        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+        for (int from = 0, end = end_of_filled<Arch>(node.children); from < end;
+             from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
             const std::uint32_t bits =
                 shadow.box.template enter<Arch>(node, shadow.rows, from, t_limit, near);

@@ -126,7 +126,8 @@ class RayLists : protected Streams<Arch> {
     std::uint32_t enter(const NodeView& node, const Number* list, int count, Number* masks) const {
         static constexpr bool falls[] = {x_falls, y_falls, z_falls};
         std::uint32_t any = 0;
-        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+        for (int from = 0, end = end_of_filled<Arch>(node.children); from < end;
+             from += static_cast<int>(F::size)) {
             F near_planes[3], far_planes[3];
             for (int axis = 0; axis < 3; ++axis) {
                 near_planes[axis] = S::load((falls[axis] ? node.upper : node.lower)[axis] + from);

@@ -63,11 +63,11 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays, b
 }
 
 /// Checks that coherent rays see the same in a frustum as one by one.
-void check_frustum(const Kernels& kernels, const Coherence& coherence, int planes) {
+void check_frustum(const Kernels& kernels, const Coherence& coherence, int planes, int node_width) {
     CAPTURE(std::string(kernels.name), coherence.converging, coherence.parallel, coherence.beyond,
-            planes);
+            planes, node_width);
     Rays rays(1000, 12.0);
-    Traced traced(make_scene(false, planes), rays.padded);
+    Traced traced(make_scene(false, planes, node_width), rays.padded);
     const Vec3d apex(coherence.apex[0], coherence.apex[1], coherence.apex[2]);
     for (std::size_t i = 0; i < rays.count; ++i) {
         rays.stay_near(i);
@@ -179,6 +179,7 @@ TEST_CASE("rays see the same in a frustum as alone") {
                  Coherence{{0.0F, 0.0F, 0.0F}, false, true, false, false},    // parallel
              })
             for (const int planes : {0, 2}) // planes are in no tree and their t has no limit
-                check_frustum(kernels_of(isa), coherence, planes);
+                for (const int node_width : {16, 8})
+                    check_frustum(kernels_of(isa), coherence, planes, node_width);
     }
 }

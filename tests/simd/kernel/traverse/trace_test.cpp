@@ -39,10 +39,10 @@ EachWay nearest_each_way(const Kernels& kernels, const Traced& traced, const Ray
     return ways;
 }
 
-void check(const Kernels& kernels, bool overlapping) {
-    CAPTURE(std::string(kernels.name), overlapping);
+void check(const Kernels& kernels, bool overlapping, int node_width) {
+    CAPTURE(std::string(kernels.name), overlapping, node_width);
     Rays rays(sanitized ? 301 : 3001, overlapping ? 9.0 : 12.0);
-    Traced traced(make_scene(overlapping), rays.padded);
+    Traced traced(make_scene(overlapping, 0, node_width), rays.padded);
     REQUIRE(traced.data.has_tree());
     const RoundedRays rounded = rays.round(kernels);
 
@@ -83,10 +83,10 @@ void check(const Kernels& kernels, bool overlapping) {
 /// Checks rays that leave the shape that they would hit first, and in part those with the ids next
 /// to it. They must not find these shapes by brute force or by the hierarchy, which looks for them
 /// before it packs pairs.
-void check_departures(const Kernels& kernels, bool overlapping) {
-    CAPTURE(std::string(kernels.name), overlapping);
+void check_departures(const Kernels& kernels, bool overlapping, int node_width) {
+    CAPTURE(std::string(kernels.name), overlapping, node_width);
     Rays rays(sanitized ? 301 : 3001, overlapping ? 9.0 : 12.0);
-    Traced traced(make_scene(overlapping), rays.padded);
+    Traced traced(make_scene(overlapping, 0, node_width), rays.padded);
     for (std::size_t i = 0; i < rays.count; ++i) {
         const Hit<double> hit = traced.nearest(rays.get(i));
         if (!hit.any()) continue;
@@ -148,17 +148,17 @@ TEST_CASE("all traversals find crossings whose squares are too large for float")
 }
 
 TEST_CASE("the hierarchy loses no hit") {
-    for (const Isa isa : available_isas()) {
-        check(kernels_of(isa), false);
-        check(kernels_of(isa), true);
-    }
+    for (const Isa isa : available_isas())
+        for (const bool overlapping : {false, true})
+            for (const int node_width : {16, 8})
+                check(kernels_of(isa), overlapping, node_width);
 }
 
 TEST_CASE("no traversal finds the shape that a ray leaves") {
-    for (const Isa isa : available_isas()) {
-        check_departures(kernels_of(isa), false);
-        check_departures(kernels_of(isa), true);
-    }
+    for (const Isa isa : available_isas())
+        for (const bool overlapping : {false, true})
+            for (const int node_width : {16, 8})
+                check_departures(kernels_of(isa), overlapping, node_width);
 }
 
 TEST_CASE("random rays use lists if these are long or the hierarchy fits in the cache") {

@@ -29,9 +29,11 @@ void add(SceneBuilder& builder, Random& random, int count) {
 
 /// Returns a scene of shapes of each bounded kind, or, if `overlapping`, of spheres around one
 /// point, so that rays have the whole tree in front of them. Planes are in no tree.
-inline Scene make_scene(bool overlapping, int planes = 0) {
+inline Scene make_scene(bool overlapping, int planes = 0, int node_width = 16) {
     Random random(5);
+    Workers workers(node_width);
     SceneBuilder builder;
+    builder.workers = &workers;
     builder.wants_light = false;
     builder.add_material({});
     if (overlapping) {
