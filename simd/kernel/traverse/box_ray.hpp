@@ -37,12 +37,12 @@ struct BoxRay {
         return rows;
     }
 
-    /// Returns the boxes that are entered before t_limit, as bits, and in `near` where they are
-    /// entered. `near` must be 0 on input. NaN, as of infinity - infinity, bounds nothing.
+    /// Returns the boxes that are entered before t_limit, and in `near` where they are entered.
+    /// `near` must be 0 on input. NaN, as of infinity - infinity, bounds nothing.
     template <class Arch>
-    [[gnu::always_inline]] std::uint32_t
-    enter(const Floats<Arch> (&near_planes)[3], const Floats<Arch> (&far_planes)[3],
-          const Floats<Arch>& t_limit, Floats<Arch>& near) const {
+    [[gnu::always_inline]] Mask<Arch>
+    entered(const Floats<Arch> (&near_planes)[3], const Floats<Arch> (&far_planes)[3],
+            const Floats<Arch>& t_limit, Floats<Arch>& near) const {
         using F = Floats<Arch>;
         const auto at = [&](const F& plane, int axis, float offset) {
             if constexpr (Lanes<Arch>::has_mul_add)
@@ -55,14 +55,21 @@ struct BoxRay {
             near = max(at(near_planes[axis], axis, near_offset[axis]), near);
             far = min(at(far_planes[axis], axis, far_offset[axis]), far);
         }
-        return Lanes<Arch>::bits(near <= far * F(allowance));
+        return near <= far * F(allowance);
+    }
+    /// Returns the same as bits.
+    template <class Arch>
+    [[gnu::always_inline]] std::uint32_t
+    enter(const Floats<Arch> (&near_planes)[3], const Floats<Arch> (&far_planes)[3],
+          const Floats<Arch>& t_limit, Floats<Arch>& near) const {
+        return Lanes<Arch>::bits(entered<Arch>(near_planes, far_planes, t_limit, near));
     }
 
     /// Same for the entries of a node from `from` on.
     template <class Arch>
-    [[gnu::always_inline]] std::uint32_t enter(const NodeView& node, const Rows& rows, int from,
-                                               const Floats<Arch>& t_limit,
-                                               Floats<Arch>& near) const {
+    [[gnu::always_inline]] Mask<Arch> entered(const NodeView& node, const Rows& rows, int from,
+                                              const Floats<Arch>& t_limit,
+                                              Floats<Arch>& near) const {
         using F = Floats<Arch>;
         const float* const planes = node.lower[0] + from;
         const F near_planes[] = {F::load_unaligned(planes + rows.near[0]),
@@ -71,8 +78,14 @@ struct BoxRay {
         const F far_planes[] = {F::load_unaligned(planes + rows.far[0]),
                                 F::load_unaligned(planes + rows.far[1]),
                                 F::load_unaligned(planes + rows.far[2])};
-        return enter<Arch>(near_planes, far_planes, t_limit, near) &
-               Streams<Arch>::filled(node, from);
+        return entered<Arch>(near_planes, far_planes, t_limit, near) &
+               Streams<Arch>::filled(Streams<Arch>::load_bits(node.children + from));
+    }
+    template <class Arch>
+    [[gnu::always_inline]] std::uint32_t enter(const NodeView& node, const Rows& rows, int from,
+                                               const Floats<Arch>& t_limit,
+                                               Floats<Arch>& near) const {
+        return Lanes<Arch>::bits(entered<Arch>(node, rows, from, t_limit, near));
     }
 };
 

@@ -26,10 +26,10 @@ struct SingleRays : Streams<Arch> {
             const BoxRay::Rows rows = box.template rows<Arch>();
             Best best = Leaf<Arch, Method>::best_of(candidates, i);
             queue.size = 0;
-            for (std::uint32_t child = 0; child != no_child; child = queue.pop(best.first)) {
+            for (std::uint32_t child = 0; child != no_child;) {
                 if ((child & child_is_block) == 0) {
                     ++counters.nodes;
-                    queue.enter(scene.nodes[child], box, rows, best.first);
+                    child = queue.enter_next(scene.nodes[child], box, rows, best.first);
                     continue;
                 }
                 counters.shapes += 16;
@@ -37,6 +37,7 @@ struct SingleRays : Streams<Arch> {
                     find<Filter>(scene, S::table_of(scene, S::kind_of(child)), child & child_index,
                                  rays, i, best);
                 });
+                child = queue.pop(best.first);
             }
             Leaf<Arch, Method>::store(best, candidates, i);
         }

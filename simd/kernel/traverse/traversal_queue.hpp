@@ -48,6 +48,26 @@ struct TraversalQueue {
         }
     }
 
+    /// Does the same and returns the next child, for a ray that is traced alone: if the children
+    /// are in one register, the nearest of these, which does not go through memory.
+    [[gnu::always_inline]] std::uint32_t enter_next(const NodeView& node, const BoxRay& ray,
+                                                    const BoxRay::Rows& rows, float first) {
+        if (end_of_filled<Arch>(node.children) > static_cast<int>(F::size)) {
+            enter(node, ray, rows, first);
+            return pop(first);
+        }
+        F near = zero<Arch>();
+        const Mask<Arch> entered =
+            ray.template entered<Arch>(node, rows, 0, F(first * culling_slack), near);
+        const std::uint32_t bits = Lanes<Arch>::bits(entered);
+        if (bits == 0) return pop(first);
+        const F least(Lanes<Arch>::least(select(entered, near, S::infinity())));
+        const std::uint32_t nearest = Lanes<Arch>::bits(entered & (near <= least));
+        const std::uint32_t others = bits & ~(nearest & (0U - nearest));
+        add(near, node.children, others);
+        return node.children[__builtin_ctz(nearest)];
+    }
+
     /// Adds the wanted ones of a register's worth of children, entered at `near` >= 0.
     [[gnu::always_inline]] void add(const F& near, const std::uint32_t* children,
                                     std::uint32_t wanted) {
