@@ -13,6 +13,7 @@ constexpr float tolerance = 0.4F, min_distance = 0.4F;
 /// Uranium in U(C5H5)4 has 20 bonds by these distances. In diamond, the widest cells around an atom
 /// hold 700 atoms.
 constexpr std::size_t max_near = 4096;
+constexpr std::size_t max_others = 128; // of another kind near a metal atom; more are ignored
 
 /// Returns the largest distance at which two atoms are bonded. Two metals may be.
 float reach_of(Element a, Element b) {
@@ -24,29 +25,36 @@ bool is_between_metals(const Structure& structure, const Bond& bond) {
     return is_metal(structure.element(bond.a)) && is_metal(structure.element(bond.b));
 }
 
-/// Returns 1 for each element whose atoms form a metal, by the bonds of the first atoms.
-/// `near_others`: by element, the number of atoms that are no metals within reach of a metal.
-std::vector<char> metallic_elements(const Structure& structure, const std::vector<Bond>& bonds,
-                                    std::size_t count,
-                                    const std::vector<std::size_t>& near_others) {
-    std::vector<std::size_t> atoms(element_count), to_metals(element_count);
-    for (AtomIndex atom = 0; atom < count; ++atom)
-        ++atoms[structure.element(atom)];
-    for (const Bond& bond : bonds)
-        for (const AtomIndex atom : {bond.a, bond.b})
-            if (atom < count && is_between_metals(structure, bond))
-                ++to_metals[structure.element(atom)];
-    std::vector<char> is_metallic(element_count);
-    for (Element z = 1; z < element_count; ++z)
-        if (is_metal(z) && to_metals[z] > 0 && to_metals[z] >= atoms[z] &&
-            near_others[z] < 2 * atoms[z])
-            is_metallic[z] = 1;
-    return is_metallic;
-}
-
 float squared_distance(const Structure& structure, AtomIndex a, AtomIndex b) {
     const core::Vec3f apart = structure.positions[a] - structure.positions[b];
     return core::dot(apart, apart);
+}
+
+/// Returns 1 for each element whose atoms form a metal, by the bonds of the first atoms.
+/// `others`: the atoms near a metal atom that are no metals.
+std::vector<char> metallic_elements(const Structure& structure, const std::vector<Bond>& bonds,
+                                    std::size_t count,
+                                    const std::vector<std::vector<AtomIndex>>& others) {
+    const auto has_between = [&](const Bond& bond) {
+        const float apart = squared_distance(structure, bond.a, bond.b);
+        const std::vector<AtomIndex>& near = others[bond.a];
+        return std::any_of(near.begin(), near.end(), [&](AtomIndex other) {
+            return squared_distance(structure, bond.a, other) < apart &&
+                   squared_distance(structure, bond.b, other) < apart;
+        });
+    };
+    std::vector<std::size_t> atoms(element_count), to_metals(element_count);
+    for (AtomIndex atom = 0; atom < count; ++atom)
+        ++atoms[structure.element(atom)];
+    for (const Bond& bond : bonds) {
+        if (!is_between_metals(structure, bond) || has_between(bond)) continue;
+        for (const AtomIndex atom : {bond.a, bond.b})
+            if (atom < count) ++to_metals[structure.element(atom)];
+    }
+    std::vector<char> is_metallic(element_count);
+    for (Element z = 1; z < element_count; ++z)
+        if (is_metal(z) && to_metals[z] > 0 && to_metals[z] >= atoms[z]) is_metallic[z] = 1;
+    return is_metallic;
 }
 
 /// Returns the atoms whose bonds are found by distance.
@@ -88,7 +96,7 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
     };
     // Atoms that would have too many bonds, and among them those of metals with each other.
     std::vector<char> is_crowded(structure.size()), is_dense_metal(structure.size());
-    std::vector<std::size_t> near_others(element_count);
+    std::vector<std::vector<AtomIndex>> near_others(structure.size()); // metals
     const AtomGrid grid(structure.positions, atoms_to_bond(structure), longest_bond(structure));
     grid.for_each([&](AtomIndex a, const AtomGrid::Near& others) {
         if (a >= count) return; // an image
@@ -101,7 +109,9 @@ std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_at
             if (++looked_at > max_near) return false;
             const float squared = squared_distance(structure, a, b);
             const Element of_b = structure.element(b);
-            if (!is_metal(of_b) && squared <= reach_of_metal * reach_of_metal) ++near_others[of_a];
+            if (!is_metal(of_b) && squared <= reach_of_metal * reach_of_metal &&
+                near_others[a].size() < max_others)
+                near_others[a].push_back(b);
             const float most = reach_of(of_a, of_b);
             if (squared > most * most) return true;
             const bool is_too_near = squared < min_distance * min_distance;

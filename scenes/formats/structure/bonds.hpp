@@ -16,10 +16,10 @@ inline constexpr std::size_t max_bonds = 24; ///< of an atom, besides the file's
 ///
 /// Two metal atoms are bonded if they are nearer than 1.1 times the sum of their metallic radii and
 /// both elements are metallic. An element is metallic if its atoms have, on average, at least one
-/// metal atom so near, and less than two atoms that are not metals within 2.2 times its own
-/// metallic radius, bonded or not. So ions of salts and oxides are not bonded to each other, even
-/// if their bonds to the anions are too long to be found: Cs in CsSnCl3 has Cl at 3.9 angstrom and
-/// Cs at 5.6.
+/// metal atom so near without an atom of another kind between them: one that is no metal, and
+/// nearer to both than they are to each other. So ions of salts and oxides are not bonded to each
+/// other, even if their bonds to the anions are too long to be found: Cs in CsSnCl3 has Cl at 3.9
+/// angstrom and Cs at 5.6. A cluster in a solvent keeps its bonds.
 ///
 /// Some atoms have only the file's bonds:
 /// - atoms of unknown elements;

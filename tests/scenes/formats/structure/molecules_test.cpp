@@ -285,3 +285,54 @@ TEST_CASE("hydrogen bonds are dashed lines of visible atoms") {
     drawing.hide = {"index 4"};
     CHECK(count(drawing) == 0);
 }
+
+TEST_CASE("metal clusters in a solvent keep their bonds and salts have none between ions") {
+    // A tetrahedron of platinum with three waters on each atom.
+    std::string text = "Pt 0.98 0.98 0.98\nPt 0.98 -0.98 -0.98\nPt -0.98 0.98 -0.98\n"
+                       "Pt -0.98 -0.98 0.98\n";
+    int count = 4;
+    for (const Vec3d& corner :
+         {Vec3d(1, 1, 1), Vec3d(1, -1, -1), Vec3d(-1, 1, -1), Vec3d(-1, -1, 1)})
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3d way = 0.4 * corner;
+            way[axis] += corner[axis];
+            const Vec3d at = 0.98 * corner + 2.2 / raylane::core::length(way) * way;
+            for (const auto& [name, away] :
+                 {std::pair{"O", 0.0}, std::pair{"H", 0.7}, std::pair{"H", 0.9}}) {
+                Vec3d place = at + away / raylane::core::length(way) * way;
+                place[(axis + 1) % 3] += away * (away < 0.8 ? 0.7 : -0.5);
+                text += std::string(name) + " " + std::to_string(place.x) + " " +
+                        std::to_string(place.y) + " " + std::to_string(place.z) + "\n";
+                ++count;
+            }
+        }
+    const auto xyz = [](const std::string& atoms, int atom_count) {
+        return frames(open_xyz, std::to_string(atom_count) + "\n\n" + atoms).at(0);
+    };
+    const auto bonds_between_metals = [](const Structure& structure) {
+        const std::vector<Bond> bonds = find_bonds(structure);
+        return std::count_if(bonds.begin(), bonds.end(), [&](const Bond& bond) {
+            return is_metal(structure.element(bond.a)) && is_metal(structure.element(bond.b));
+        });
+    };
+    CHECK(bonds_between_metals(xyz(text, count)) == 6);
+    std::string salt;
+    count = 0;
+    const auto add = [&](const char* name, double x, double y, double z) {
+        salt += std::string(name) + " " + std::to_string(x) + " " + std::to_string(y) + " " +
+                std::to_string(z) + "\n";
+        ++count;
+    };
+    constexpr double edge = 5.56;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            for (int k = 0; k < 3; ++k) {
+                const double x = edge * i, y = edge * j, z = edge * k;
+                add("Cs", x + edge / 2, y + edge / 2, z + edge / 2);
+                add("Sn", x, y, z);
+                add("Cl", x + edge / 2, y, z);
+                add("Cl", x, y + edge / 2, z);
+                add("Cl", x, y, z + edge / 2);
+            }
+    CHECK(bonds_between_metals(xyz(salt, count)) == 0);
+}
