@@ -17,6 +17,15 @@ namespace raylane::scenes {
 /// Returns the parts of a text such as "1:2:3". There is at least one part; parts may be empty.
 std::vector<std::string_view> parts_of(std::string_view text, char separator);
 
+/// Returns "on" or "off" for other words of the same meaning, and other texts unchanged.
+inline std::string_view same_answer(std::string_view text) {
+    for (const std::string_view word : {"yes", "true", "1"})
+        if (text == word) return "on";
+    for (const std::string_view word : {"no", "false", "0", "none", "never"})
+        if (text == word) return "off";
+    return text;
+}
+
 /// Returns the value of the choice named `text`. Throws BadInput.
 template <class T>
 T choice_named(const std::string& option, const std::string& text,
@@ -28,7 +37,7 @@ T choice_named(const std::string& option, const std::string& text,
     }
     throw BadInput(option, "",
                    "must be " + alternatives(names) + ", got \"" + printable(text) + "\"" +
-                       suggestion(text, {names.begin(), names.end()}));
+                       suggestion(same_answer(text), {names.begin(), names.end()}));
 }
 
 } // namespace raylane::scenes

@@ -188,9 +188,40 @@ void read_texts(TIFF* tiff, Image& image) {
     }
 }
 
+/// Returns the pixels of rows in the order of an image's rows, of which `image` has the turned
+/// size: the first row or the first column may be at any edge (TIFF 6.0, section 8, Orientation).
+template <class Code>
+std::vector<Code> turned(std::vector<Code> codes, std::size_t channels, const Image& image,
+                         int orientation) {
+    if (orientation <= ORIENTATION_TOPLEFT || orientation > ORIENTATION_LEFTBOT) return codes;
+    const auto is_one_of = [&](std::initializer_list<int> values) {
+        return std::find(values.begin(), values.end(), orientation) != values.end();
+    };
+    const bool from_right = is_one_of(
+        {ORIENTATION_TOPRIGHT, ORIENTATION_BOTRIGHT, ORIENTATION_RIGHTTOP, ORIENTATION_RIGHTBOT});
+    const bool from_below = is_one_of(
+        {ORIENTATION_BOTRIGHT, ORIENTATION_BOTLEFT, ORIENTATION_RIGHTBOT, ORIENTATION_LEFTBOT});
+    const bool has_columns = orientation >= ORIENTATION_LEFTTOP; // in place of rows
+    const auto width = static_cast<std::size_t>(image.width),
+               height = static_cast<std::size_t>(image.height);
+    std::vector<Code> result;
+    result.reserve(codes.size());
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t across = from_right ? width - 1 - x : x;
+            const std::size_t down = from_below ? height - 1 - y : y;
+            const std::size_t pixel = has_columns ? across * height + down : down * width + across;
+            result.insert(result.end(), &codes[channels * pixel],
+                          &codes[channels * pixel] + channels);
+        }
+    return result;
+}
+
 /// Reads rows of codes of one type.
 template <class Code>
 void read_codes(TIFF* tiff, Image& image, bool has_alpha) {
+    std::uint16_t orientation = 0;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &orientation);
     const auto width = static_cast<std::size_t>(image.width);
     const std::size_t channels = has_alpha ? 4 : 3;
     std::vector<Code> rgb, alpha, row(channels * width);
@@ -203,8 +234,9 @@ void read_codes(TIFF* tiff, Image& image, bool has_alpha) {
             if (has_alpha) alpha.push_back(row[channels * x + 3]);
         }
     }
-    image.rgb = Components(std::move(rgb));
-    if (has_alpha) image.alpha = Components(std::move(alpha));
+    if (orientation >= ORIENTATION_LEFTTOP) std::swap(image.width, image.height);
+    image.rgb = Components(turned(std::move(rgb), 3, image, orientation));
+    if (has_alpha) image.alpha = Components(turned(std::move(alpha), 1, image, orientation));
 }
 
 } // namespace

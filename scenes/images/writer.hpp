@@ -15,6 +15,11 @@ namespace raylane::scenes {
 /// - PFM: linear floats, unchanged
 enum class ImageFormat : std::uint8_t { png, tiff, exr, hdr, pfm, tga, bmp, ppm };
 
+/// Returns true for the formats that store a film's alpha.
+constexpr bool stores_alpha(ImageFormat format) {
+    return format == ImageFormat::png || format == ImageFormat::tiff || format == ImageFormat::exr;
+}
+
 /// Returns the bytes of a file (scenes/images/exr.hpp, tiff.hpp). `aovs` may be null.
 using EncodeImage = std::string (*)(const core::Film& film, const core::Aovs* aovs,
                                     const ImageOptions& options);

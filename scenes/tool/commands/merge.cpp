@@ -111,14 +111,15 @@ class Merger {
         if (image.aovs && !is_exr)
             throw BadInput(name, "",
                            "was rendered with --aovs, which goes with an output that ends in .exr");
-        if (alpha && !is_exr && output_ != ImageFormat::png)
-            throw BadInput(name, "", "was rendered with --alpha, which goes with PNG or EXR");
+        if (alpha && !stores_alpha(output_))
+            throw BadInput(name, "",
+                           "was rendered without a background, which goes with PNG, TIFF or EXR");
     }
 
     void begin(const std::string& name, const ExrImage& image) {
         const auto arguments = recorded_arguments(name, image.texts, name);
         settings_ = arguments->settings_of({});
-        require_fit(name, image, arguments->image.alpha.is_given());
+        require_fit(name, image, settings_.alpha);
         // Nothing is rendered here, and parts may come from other processors.
         simd::RenderOptions options = arguments->render_options(/*with_isa=*/false);
         arguments->image.apply_to(options, settings_);

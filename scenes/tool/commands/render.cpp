@@ -119,7 +119,7 @@ Plan::Plan(const RenderArguments& given)
                 "goes with a single image, without --turn, ranges of --frames and sweeps of --set");
         const OutputFile writable(sequence->name(0),
                                   more_encoders); // throws at once if it cannot be written
-        given.image.require_fit(writable.format());
+        given.require_fit(writable.format());
     });
     if (sequence) {
         // The ranks of a part take turns, as the parts do.
@@ -233,7 +233,7 @@ void open_outputs(Outputs& outputs, Plan& plan) {
             throw BadInput("--part", "", "goes with an output that ends in .exr");
         // A part must keep the floats of the whole image.
         if (plan.tiles && plan.bits != 32) throw BadInput("--part", "", "goes with --bits 32");
-        plan.arguments.image.require_fit(format);
+        plan.arguments.require_fit(format);
         if (plan.arguments.stats) outputs.stats.emplace(*plan.arguments.stats);
     });
 }

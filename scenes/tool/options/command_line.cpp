@@ -13,6 +13,12 @@ namespace raylane::scenes {
 
 namespace {
 
+/// Throws if a value is the name of another option: that of this option is missing.
+void require_value(const CLI::App& command, const AnyOption& option, const std::string& text) {
+    if (text.starts_with("--") && command.get_option_no_throw(text) != nullptr)
+        throw CLI::ArgumentMismatch(option.name() + ": must have a value");
+}
+
 CLI::Option* add(CLI::App& command, AnyOption& option, const std::string& names) {
     if (option.properties().type.empty() && names.starts_with('-'))
         return command
@@ -23,7 +29,8 @@ CLI::Option* add(CLI::App& command, AnyOption& option, const std::string& names)
         return command
             .add_option_function<std::vector<std::string>>(
                 names,
-                [&option](const std::vector<std::string>& words) {
+                [&command, &option](const std::vector<std::string>& words) {
+                    require_value(command, option, words.front());
                     std::string text;
                     for (const std::string& word : words)
                         text.append(text.empty() ? "" : " ").append(word);
@@ -34,9 +41,19 @@ CLI::Option* add(CLI::App& command, AnyOption& option, const std::string& names)
     if (!option.is_list())
         // CLI11 itself would treat an empty text as a missing value.
         return command.add_option_function<std::string>(
-            names, [&option](const std::string& text) { option.give({text}); }, option.help());
+            names,
+            [&command, &option](const std::string& text) {
+                require_value(command, option, text);
+                option.give({text});
+            },
+            option.help());
     CLI::Option* const added = command.add_option_function<std::vector<std::string>>(
-        names, [&option](const std::vector<std::string>& texts) { option.give(texts); },
+        names,
+        [&command, &option](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts)
+                require_value(command, option, text);
+            option.give(texts);
+        },
         option.help());
     if (names.starts_with('-'))
         added->expected(1)->allow_extra_args(false)->multi_option_policy(

@@ -56,6 +56,23 @@ const AnyOption* argument_of(const OptionTable& options) {
     return nullptr;
 }
 
+/// Calls refuse(message) for a value with another option or a comment behind it. Quotes around the
+/// value make these a part of it.
+template <class Refuse>
+void require_alone(std::string_view value, const OptionTable& options, const Refuse& refuse) {
+    if (value != without_quotes(value)) return;
+    const std::vector<std::string_view> words = parts_of(value, ' ');
+    for (const std::string_view word : words) {
+        const bool is_color = word.find_first_not_of("0123456789abcdefABCDEF", 1) == word.npos;
+        if (word.data() != words[0].data() && word.starts_with('#') && (word == "#" || !is_color))
+            refuse("must have no comment behind a value: put the comment on another line, or "
+                   "the value between quotes");
+        if (word.starts_with("--") && option_in(word, options) != nullptr)
+            refuse("must be one option a line, got " + printable(word) +
+                   ", too: put it on another line, or the value between quotes");
+    }
+}
+
 /// Returns a suggestion for an unknown option.
 std::string suggestion_for(std::string_view name, const OptionTable& options) {
     std::vector<std::string_view> known;
@@ -127,6 +144,7 @@ void OptionFiles::read(const std::string& file, const OptionTable& options,
         if (option == nullptr && option_named(name, others) != nullptr) continue;
         if (option == nullptr)
             refuse("unknown option \"" + printable(name) + '"' + suggestion_for(name, options));
+        require_alone(trimmed(value), options, refuse);
         value = without_quotes(trimmed(value));
         if (takes_value(*option) == value.empty())
             refuse(option->name() + (value.empty()

@@ -126,8 +126,7 @@ void ImageArguments::require_fit(ImageFormat format) const {
     const bool is_exr = format == ImageFormat::exr;
     require_writable("--output", format);
     if (aovs && !is_exr) throw BadInput("--aovs", "", "goes with an output that ends in .exr");
-    if (alpha && !is_exr && format != ImageFormat::png && format != ImageFormat::tiff)
-        throw BadInput("--alpha", "", "goes with PNG, TIFF or EXR");
+    if (alpha && !stores_alpha(format)) throw BadInput("--alpha", "", "goes with PNG, TIFF or EXR");
     encoding.require_fit(format);
 }
 
@@ -158,13 +157,23 @@ core::Settings RenderArguments::settings_of(const core::Settings& own) const {
     if (draft) settings.grid = 1;
     if (draft) settings.light_samples = core::Settings::hard_light;
     if (print) settings.quality = 50.0F;
-    const Option<Background>& background = scene_arguments.view.background;
-    if (image.alpha || (background && !background->color)) settings.alpha = true;
+    if (image.alpha || has_no_background()) settings.alpha = true;
     if (settings.outline.any() || image.outline) return settings;
     for (const AnyOption* option : {static_cast<const AnyOption*>(&image.outline_color),
                                     static_cast<const AnyOption*>(&image.outline_creases)})
         if (option->is_given()) throw BadInput(option->name(), "", "goes with --outline");
     return settings;
+}
+
+bool RenderArguments::has_no_background() const {
+    const Option<Background>& background = scene_arguments.view.background;
+    return background && !background->color;
+}
+
+void RenderArguments::require_fit(ImageFormat format) const {
+    image.require_fit(format);
+    if (has_no_background() && !stores_alpha(format))
+        throw BadInput("--background", "", "none goes with PNG, TIFF or EXR");
 }
 
 std::optional<float> RenderArguments::dpi() const {

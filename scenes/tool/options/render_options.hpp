@@ -150,6 +150,10 @@ struct RenderArguments : OptionTable {
     /// Returns the settings of a scene with the changes that the options request. Throws BadInput
     /// for details of an outline without a width.
     core::Settings settings_of(const core::Settings& own) const;
+    /// Throws BadInput for options that the output's format does not support.
+    void require_fit(ImageFormat format) const;
+    /// Returns true if the background is transparent because of --background.
+    bool has_no_background() const;
     /// Returns engine, instruction set, precision, tile size and threads. `with_isa`: whether this
     /// processor must support --isa. Throws BadInput.
     simd::RenderOptions render_options(bool with_isa = true) const;

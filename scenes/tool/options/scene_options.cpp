@@ -169,11 +169,6 @@ Values<Background> backgrounds() {
 
 Values<core::Vec3f> upward_directions() {
     return {"WAY", "", [](const std::string& option, const std::string& text) {
-                constexpr std::pair<const char*, core::Vec3f> axes[] = {
-                    {"x", {1, 0, 0}},   {"y", {0, 1, 0}},   {"z", {0, 0, 1}},
-                    {"-x", {-1, 0, 0}}, {"-y", {0, -1, 0}}, {"-z", {0, 0, -1}}};
-                for (const auto& [name, axis] : axes)
-                    if (text == name) return axis;
                 const std::optional<core::Vec3f> direction = direction_in(text);
                 if (!direction)
                     refuse(option, "x, y, z, -x, -y or -z, or a direction such as 0,1,1", text);

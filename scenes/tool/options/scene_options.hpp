@@ -148,18 +148,20 @@ struct ViewArguments : OptionTable {
 
     Option<core::NamedView> view = {
         *this, "--view", views().otherwise(as_in_file, "front; crystals obliquely").recorded(),
-        "Frame all bounded shapes from front, back, left, right, top, bottom, x, y, z or "
-        "corner, or looking in a direction such as 1,-1,-0.5. With a cell: a, b or c has this edge "
+        "Frame all bounded shapes from front, back, left, right, top, bottom, x, y, z, -x, -y, "
+        "-z or corner, or looking in a direction such as 1,-1,-0.5. With a cell: a, b or c has "
+        "this edge "
         "towards the viewer, and c upward, or b for c. best shows the largest extent across the "
         "image, and the smallest in depth; of a crystal, it is that of a, b and c with the "
         "shortest edge in depth, c if all are equal."};
     Option<core::Camera> camera = {
         *this, "--camera", cameras().recorded().without({"--view", "--up"}),
         "Camera as JSON, in the form that the key c of raylane view prints."};
-    Option<Background> background = {
-        *this, "--background", backgrounds().recorded().otherwise("white for atoms"),
-        "Background of atoms: a colour, such as black or #204060, or none. none works for any "
-        "scene, and is the same as --alpha."};
+    Option<Background> background = {*this, "--background",
+                                     backgrounds().recorded().otherwise("white for atoms"),
+                                     "Background of atoms: a colour, such as black, #204060 or "
+                                     "linear 0.1,0.2,0.3, or none. none "
+                                     "works for any scene, and is the same as --alpha."};
     Option<core::Vec3f> up = {
         *this, "--up", upward_directions().otherwise("as in the view or the scene").recorded(),
         "Upward direction of the image: x, y, z, -x, -y or -z, or a direction such as "
@@ -266,7 +268,8 @@ struct DrawingArguments : OptionTable {
         "conditions."};
     Option<std::string> slab = {
         *this, "--slab", drawing_words("A B").of_words(2).recorded(),
-        "Show only the part between two depths in angstrom, such as -2 2. The middle of the atoms "
+        "Show only the part between two depths in angstrom: -2 2, -2:2 or -2,2. The middle of the "
+        "atoms "
         "has depth 0; depth grows towards the viewer. Works without --camera."};
     Flag cell = {*this, "--cell", flag().recorded(), "Show the edges of the unit cell."};
     Flag axes = {*this, "--axes", flag().recorded(),

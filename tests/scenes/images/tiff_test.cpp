@@ -35,6 +35,40 @@ TEST_CASE("an output file without an encoder refuses the ending .tif") {
 
 #include <tiffio.h>
 
+TEST_CASE("a TIFF is turned by its orientation") {
+    const TemporaryDirectory directory;
+    // Pixel k has the code k. The file's rows are 0 1 2 and 3 4 5.
+    const int upright[][6] = {{0, 1, 2, 3, 4, 5}, {2, 1, 0, 5, 4, 3}, {5, 4, 3, 2, 1, 0},
+                              {3, 4, 5, 0, 1, 2}, {0, 3, 1, 4, 2, 5}, {3, 0, 4, 1, 5, 2},
+                              {5, 2, 4, 1, 3, 0}, {2, 5, 1, 4, 0, 3}};
+    for (int orientation = 1; orientation <= 8; ++orientation) {
+        const std::string name = (directory.path() / "a.tif").string();
+        TIFF* const tiff = TIFFOpen(name.c_str(), "w");
+        REQUIRE(tiff != nullptr);
+        TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 3);
+        TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 2);
+        TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
+        TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
+        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+        TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+        TIFFSetField(tiff, TIFFTAG_ORIENTATION, orientation);
+        for (std::uint32_t y = 0; y < 2; ++y) {
+            std::uint8_t row[9];
+            for (std::uint32_t i = 0; i < 9; ++i)
+                row[i] = static_cast<std::uint8_t>(3 * y + i / 3);
+            REQUIRE(TIFFWriteScanline(tiff, row, y, 0) == 1);
+        }
+        TIFFClose(tiff);
+        const scenes::Image image = scenes::read_image(name);
+        CAPTURE(orientation);
+        CHECK(image.width == (orientation <= 4 ? 3 : 2));
+        CHECK(image.height == (orientation <= 4 ? 2 : 3));
+        for (std::size_t i = 0; i < 6; ++i)
+            CHECK(255.0F * image.rgb[3 * i + 1] ==
+                  Approx(static_cast<float>(upright[orientation - 1][i])));
+    }
+}
+
 TEST_CASE("a TIFF has the codes of a PNG and the resolution") {
     const TemporaryDirectory directory;
     for (const bool with_alpha : {false, true})

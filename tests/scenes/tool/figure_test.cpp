@@ -79,6 +79,10 @@ TEST_CASE("looks, backgrounds and views are recorded") {
     CHECK(fixture.drawn("b.png", joined(size, {"--background", "none"})).alpha[0] == 0.0F);
     CHECK(fixture.verifies("b.png"));
     CHECK(has(fixture.error({"--background", "blac"}), "did you mean \"black\"?"));
+    const scenes::Image parts = fixture.drawn("p.png", joined(size, {"--background", "0,1,0"}));
+    CHECK(parts.rgb[0] == 0.0F);
+    CHECK(parts.rgb[1] == 1.0F);
+    CHECK(fixture.verifies("p.png"));
     for (const std::string look : {"matte", "glossy", "flat", "print"}) {
         const scenes::Image image =
             fixture.drawn("c.png", joined(size, {"--look", look, "--view", "best"}));
@@ -88,6 +92,41 @@ TEST_CASE("looks, backgrounds and views are recorded") {
     const Outcome scene = fixture.render("e.png", {"--background", "black"});
     CHECK(scene.err == "raylane: --background: goes with a file of atoms, but scene.json is a "
                        "scene\n");
+}
+
+TEST_CASE("images without alpha have a background") {
+    const Figures fixture;
+    for (const char* name : {"a.tga", "a.bmp", "a.ppm", "a.hdr", "a.pfm"})
+        CHECK(fixture.figure(name, {"--size", "4x3", "--background", "none"}).err ==
+              "raylane: --background: none goes with PNG, TIFF or EXR\n");
+    CHECK(fixture.figure("a-%d.bmp", {"--size", "4x3", "--background", "none", "--turn", "360/2"})
+              .err == "raylane: --background: none goes with PNG, TIFF or EXR\n");
+}
+
+TEST_CASE("an option without its value does not take the next option") {
+    const Figures fixture;
+    const std::string end = "; see raylane render --help\n";
+    CHECK(fixture.error({"--transparent-shadows", "--size", "4x3"}) ==
+          "raylane: --transparent-shadows: must have a value, on|off" + end);
+    CHECK(fixture.error({"--cut", "--size", "4x3"}) ==
+          "raylane: --cut: must have a value, PLANE" + end);
+    CHECK(fixture.error({"--slab", "--size", "4x3"}) ==
+          "raylane: --slab: must have a value, A B" + end);
+    CHECK(has(fixture.error({"--transparent-shadows", "no"}), "did you mean \"off\"?"));
+    CHECK(has(fixture.error({"--transparent-shadows", "yes"}), "did you mean \"on\"?"));
+}
+
+TEST_CASE("views along negative axes are opposite to those along axes") {
+    const Figures fixture;
+    const Options size = {"--size", "40x30"};
+    const auto view = [&](const char* name, const Options& words) {
+        return fixture.drawn(name, joined(size, words)).rgb;
+    };
+    CHECK(view("a.png", {"--view", "-y"})
+              .is_same(view("b.png", {"--view", "0,1,0", "--up", "0,0,1"})));
+    CHECK(fixture.verifies("a.png"));
+    CHECK(view("a.png", {"--view", "-z"}).is_same(view("b.png", {"--view", "back"})));
+    CHECK(!view("a.png", {"--view", "-z"}).is_same(view("b.png", {"--view", "z"})));
 }
 
 TEST_CASE("a TIFF is verified and compared like a PNG") {
@@ -126,6 +165,14 @@ TEST_CASE("cuts and slabs are recorded") {
     CHECK(fixture.figure("c.png", {"--size", "4x3", "--slab", "-1:1", "--view", "best"}).code == 0);
     CHECK(fixture.verifies("c.png"));
     CHECK(has(fixture.error({"--cut", "z<-9"}), "--cut: must leave a part of the atoms"));
+    const Options words[] = {{"--slab", "-1", "0.1"}, {"--slab", "-1:0.1"}, {"--slab=-1:0.1"},
+                             {"--slab", "-1,0.1"},    {"--slab=-1,0.1"},    {"--slab", "-1 0.1"}};
+    for (const Options& slab : words) {
+        CAPTURE(slab);
+        CHECK(cut.rgb.is_same(
+            fixture.drawn("d.png", joined({"--size", "40x30", "--cut", "z<0.2"}, slab)).rgb));
+        CHECK(fixture.verifies("d.png"));
+    }
 }
 
 TEST_CASE("annotations in a file leave the image as it is") {

@@ -28,6 +28,10 @@ class Figures : public ToolFixture {
     }
 };
 
+bool names(const std::string& message, const std::string& part) {
+    return message.find(part) != std::string::npos;
+}
+
 } // namespace
 
 TEST_CASE("a file of options has the effect of the command line") {
@@ -111,4 +115,25 @@ TEST_CASE("a value that begins with @ is not a file") {
     const Figures fixture;
     CHECK(fixture.run({"render", "water.xyz", "--select", "@none"}).err.find("no such file") ==
           std::string::npos);
+}
+
+TEST_CASE("a comment or another option behind a value gets a hint") {
+    const Figures fixture;
+    const std::string alone = ": put it on another line, or the value between quotes";
+    CHECK(names(fixture.figure("water.xyz\n--size 20x10 --spp 4\n").err,
+                "figure.txt:2: must be one option a line, got --spp, too" + alone));
+    CHECK(names(fixture.figure("water.xyz\n--size 20x10 --spp=4\n").err,
+                "figure.txt:2: must be one option a line, got --spp=4, too" + alone));
+    CHECK(names(fixture.figure("water.xyz\n--orthographic --size 20x10\n").err,
+                "figure.txt:2: must be one option a line, got --size, too" + alone));
+    for (const char* comment : {"# for the paper", "#small"})
+        CHECK(names(fixture.figure(std::string("water.xyz\n--size 20x10 ") + comment + "\n").err,
+                    "figure.txt:2: must have no comment behind a value: put the comment on another "
+                    "line, or the value between quotes"));
+    fixture.write("a # b --size.xyz", water);
+    REQUIRE(
+        fixture.figure("\"a # b --size.xyz\"\n--size 20x10\n--show all: sticks #ff0000\n").code ==
+        0);
+    CHECK(fixture.records("--size 20x10"));
+    CHECK(fixture.records("--show \"all: sticks #ff0000\""));
 }

@@ -230,7 +230,7 @@ TEST_CASE("parts with alpha or AOVs are not merged into a format without them") 
         CAPTURE(output);
         const Outcome outcome = fixture.run(merged({2, 1}, output));
         CHECK(outcome.code == 2);
-        CHECK(outcome.err == "raylane: part-2.exr: was rendered with " + message + "\n");
+        CHECK(outcome.err == "raylane: part-2.exr: was rendered " + message + "\n");
     };
     const auto becomes = [&](const std::string& output) {
         CAPTURE(output);
@@ -241,10 +241,10 @@ TEST_CASE("parts with alpha or AOVs are not merged into a format without them") 
     const Options without_alpha = {"a.pfm", "a.hdr", "a.ppm", "a.tga", "a.bmp"};
     draw_parts(fixture, 2, {"--alpha"});
     for (const std::string& output : without_alpha)
-        refused("out/" + output, "--alpha, which goes with PNG or EXR");
+        refused("out/" + output, "without a background, which goes with PNG, TIFF or EXR");
     draw_parts(fixture, 2, {"--aovs"});
     for (const std::string& output : joined(without_alpha, {"a.png"}))
-        refused("out/" + output, "--aovs, which goes with an output that ends in .exr");
+        refused("out/" + output, "with --aovs, which goes with an output that ends in .exr");
     CHECK(fixture.is_output_empty());
     becomes("a.exr");
     // If the scene itself has alpha, other formats show it over black, as render does.
