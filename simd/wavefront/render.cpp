@@ -70,32 +70,60 @@ core::Survey* survey_of(Surveys& surveys, std::size_t image) {
     return surveys.empty() ? nullptr : &surveys[image];
 }
 
-/// `scenes`: one for each survey. `scene`: null if nothing needs first hits.
-template <class Tracer>
-Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
-                    std::span<const core::Scene> scenes, const core::Settings& settings,
-                    const RenderOptions& options, const SceneData* scene) {
-    const TileGrid grid = grid_of(settings, options);
-    const core::Region part = grid.part(), crop = options.crop.value_or(part);
-    Rendering rendering{core::Film(part, settings.alpha), {}, {}};
-    if (options.aovs) rendering.aovs = {crop.x1 - crop.x0, crop.y1 - crop.y0};
+Surveys surveys_of(std::span<const core::Scene> scenes, const core::Settings& settings) {
     Surveys surveys;
     if (settings.quality != 0.0F)
         for (const core::Scene& of_image : scenes)
             surveys.emplace_back(of_image, settings);
+    return surveys;
+}
+
+bool is_stopped(const RenderOptions& options) {
+    return options.progress != nullptr && (options.progress->abandon || options.progress->stop);
+}
+
+/// Takes the samples of all surveys, unless the image is stopped.
+template <class Tracer>
+void take_samples(Surveys& surveys, PerThread<Tracer>& tracers, const RenderOptions& options) {
+    if (surveys.empty() || is_stopped(options)) return;
+    for (const auto pass : core::Survey::passes) {
+        // Each wavelength has a survey, whose number of batches may differ.
+        std::size_t batches = 0;
+        for (const core::Survey& survey : surveys)
+            batches = std::max(batches, survey.batches(pass));
+        on_threads(options.threads, [&] {
+            parallel_for(batches, [&](std::size_t batch) {
+                if (!is_stopped(options)) tracers.local().survey(pass, batch);
+            });
+        });
+        if (is_stopped(options)) break; // the pass may be incomplete; no tile is rendered then
+        for (core::Survey& survey : surveys)
+            survey.end(pass);
+    }
+}
+
+/// `scenes`: one for each survey. `scene`: null if nothing needs first hits. `complete_ones`:
+/// surveys, or null.
+template <class Tracer>
+Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
+                    std::span<const core::Scene> scenes, const core::Settings& settings,
+                    const RenderOptions& options, const SceneData* scene,
+                    const Surveys* complete_ones = nullptr) {
+    const TileGrid grid = grid_of(settings, options);
+    const core::Region part = grid.part(), crop = options.crop.value_or(part);
+    Rendering rendering{core::Film(part, settings.alpha), {}, {}};
+    if (options.aovs) rendering.aovs = {crop.x1 - crop.x0, crop.y1 - crop.y0};
+    Surveys surveys = complete_ones != nullptr ? *complete_ones : surveys_of(scenes, settings);
     PerThread<Tracer> tracers([&] { return make_tracer(surveys); });
     PerThread<FirstHitPasses> passes(
         [&] { return FirstHitPasses(*scene, settings, kernels_of(options.isa)); });
     const auto is_abandoned = [&] {
         return options.progress != nullptr && options.progress->abandon;
     };
-    const auto is_stopped = [&] {
-        return is_abandoned() || (options.progress != nullptr && options.progress->stop);
-    };
     PerThread<EngineCounters> recalled([] { return EngineCounters(); });
     std::atomic<bool> complete = true;
     const auto draw = [&](const core::Region& region) {
-        if (is_stopped()) {
+        if (is_stopped(options)) {
             complete = false;
             return;
         }
@@ -128,21 +156,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
         if (options.after_tile)
             isolate([&] { options.after_tile({region, rendering.film, rendering.aovs, of_tile}); });
     };
-    if (!surveys.empty() && !is_stopped())
-        for (const auto pass : core::Survey::passes) {
-            // Each wavelength has a survey, whose number of batches may differ.
-            std::size_t batches = 0;
-            for (const core::Survey& survey : surveys)
-                batches = std::max(batches, survey.batches(pass));
-            on_threads(options.threads, [&] {
-                parallel_for(batches, [&](std::size_t batch) {
-                    if (!is_stopped()) tracers.local().survey(pass, batch);
-                });
-            });
-            if (is_stopped()) break; // the pass may be incomplete; no tile is rendered then
-            for (core::Survey& survey : surveys)
-                survey.end(pass);
-        }
+    if (complete_ones == nullptr) take_samples(surveys, tracers, options);
     // Not counted: each process that renders a part of an image repeats the survey.
     EngineCounters surveyed;
     tracers.for_each([&](const Tracer& tracer) { surveyed += tracer.counters(); });
@@ -221,6 +235,20 @@ const std::atomic<bool>* abandon_of(const RenderOptions& options) {
     return options.progress != nullptr ? &options.progress->abandon : nullptr;
 }
 
+/// Returns the survey of an image by the vector engine.
+Surveys surveys_by_vector(const core::Scene& scene, const core::Settings& settings,
+                          const RenderOptions& options) {
+    Surveys surveys = surveys_of({&scene, 1}, settings);
+    if (surveys.empty()) return surveys;
+    const SceneData data(scene);
+    const Tracing tracing{&kernels_of(options.isa), options.precision};
+    PerThread<Wavefront> tracers([&] {
+        return Wavefront(data, settings, tracing, survey_of(surveys, 0), abandon_of(options));
+    });
+    take_samples(surveys, tracers, options);
+    return surveys;
+}
+
 template <class Real>
 Rendering render_reference(const core::Scene& scene, const core::Settings& settings,
                            const RenderOptions& options) {
@@ -241,12 +269,14 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
             },
             spectrum.scenes, settings, options, seen);
     }
+    std::optional<Surveys> surveyed;
+    if (options.surveys_by_vector) surveyed = surveys_by_vector(scene, settings, options);
     return render_by<Tracer>(
         [&](Surveys& surveys) {
             return Tracer(scene, settings, core::Search::hierarchy, options.precision,
                           survey_of(surveys, 0), abandon_of(options));
         },
-        {&scene, 1}, settings, options, seen);
+        {&scene, 1}, settings, options, seen, surveyed ? &*surveyed : nullptr);
 }
 
 /// Wavefronts cannot be moved; this holder can.

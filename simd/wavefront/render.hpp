@@ -65,6 +65,9 @@ struct RenderOptions {
     /// image.
     std::optional<core::Region> crop{};
     bool aovs = false; ///< true: render AOVs, too
+    /// True: the vector engine makes the survey also for the reference engine, for which it takes
+    /// longer than a few tiles. Scenes with wavelengths ignore it.
+    bool surveys_by_vector = false;
     Progress* progress = nullptr;
     /// Called before each tile by the thread that is to render it, so by several threads at a time.
     /// If it returns true, it has filled the tile, and nothing is rendered.

@@ -1,3 +1,4 @@
+#include "core/beams/region_samples.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/images/exr.hpp"
@@ -21,6 +22,7 @@
 #include <memory>
 #include <numeric>
 #include <random>
+#include <set>
 #include <unordered_set>
 
 namespace raylane::scenes {
@@ -32,8 +34,10 @@ struct VerifyArguments : OptionTable {
                                  "PNG, TIFF or EXR rendered by raylane. It names its options."};
     Option<std::string> scene = {*this, "SCENE", file_argument(),
                                  "Scene that the image was rendered from."};
-    Option<int> pixels = {*this, "--pixels", scenes::whole(1, 100'000'000).initially(1000),
-                          "Number of pixels to render again."};
+    Option<int> pixels = {
+        *this, "--pixels", scenes::whole(1, 100'000'000).initially(1000),
+        "Number of pixels to render again. Images of a quality are rendered again in "
+        "squares of 16 x 16 pixels, one for each 64 of these."};
     Option<int> seed = {*this, "--seed", scenes::whole(0, 2'147'483'647).otherwise("random"),
                         "Random seed of the choice of pixels."};
     Flag whole = {*this, "--whole", flag(),
@@ -150,6 +154,7 @@ class Verifier {
     Verdict sample() {
         simd::RenderOptions options = options_;
         if (is_exact()) options.engine = simd::Engine::reference;
+        options.surveys_by_vector = true;
         return drawn_again(options, choose());
     }
 
@@ -192,7 +197,7 @@ class Verifier {
   private:
     Verdict drawn_again(simd::RenderOptions options, const std::vector<std::size_t>& pixels) const {
         options.aovs = false;
-        if (is_exact()) options.tile = 8; // renders the fewest additional pixels
+        if (is_exact()) options.tile = side_of_tile();
         const simd::TileGrid tiles = simd::grid_of(settings_, options);
         std::unordered_set<std::size_t> wanted;
         for (const std::size_t pixel : pixels) {
@@ -293,8 +298,38 @@ class Verifier {
         std::iota(all.begin(), all.end(), std::size_t{0});
         return all;
     }
-    /// Returns distinct random pixels.
+    /// Returns the side of tiles that hold the fewest pixels besides the chosen ones.
+    int side_of_tile() const {
+        constexpr std::size_t max_tiles = 4'000'000;
+        if (settings_.quality != 0.0F) return core::RegionSamples::square_size;
+        int side = 1;
+        while (all_pixels().size() / (static_cast<std::size_t>(side) * side) > max_tiles)
+            side *= 2;
+        return side;
+    }
+    /// Returns distinct random pixels. The samples of a pixel of an image of a quality depend on
+    /// the square around it, so these images have random squares.
     std::vector<std::size_t> choose() const {
+        if (!is_exact() || settings_.quality == 0.0F) return choose_each();
+        constexpr int side = core::RegionSamples::square_size;
+        constexpr std::size_t share = 4; // of the pixels of a square
+        const std::size_t squares =
+            (share * static_cast<std::size_t>(count_) + side * side - 1) / (side * side);
+        std::vector<std::size_t> pixels = all_pixels();
+        const auto square_of = [&](std::size_t pixel) {
+            return std::pair(x_of(pixel) / side, y_of(pixel) / side);
+        };
+        std::set<std::pair<int, int>> chosen;
+        std::mt19937_64 random(seed_);
+        for (std::size_t i = 0; i < pixels.size() && chosen.size() < squares; ++i) {
+            std::swap(pixels[i], pixels[i + random() % (pixels.size() - i)]);
+            chosen.insert(square_of(pixels[i]));
+        }
+        pixels = all_pixels();
+        std::erase_if(pixels, [&](std::size_t i) { return !chosen.contains(square_of(i)); });
+        return pixels;
+    }
+    std::vector<std::size_t> choose_each() const {
         std::vector<std::size_t> pixels = all_pixels();
         std::mt19937_64 random(seed_);
         const std::size_t total = pixels.size();
