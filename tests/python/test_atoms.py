@@ -315,16 +315,28 @@ def test_options_have_the_words_of_the_command_line(tmp_path):
 
 def test_looks_cuts_backgrounds_and_views_have_the_words_of_the_command_line(tmp_path):
     atoms = lambda **options: raylane.from_atoms(*PEROVSKITE, cell_edges=False, style="spheres", **options)
-    assert atoms(cut="z<-1").shape_count == 4 + 1 + 2  # Sr, O, a plane for each
-    assert atoms(cut=["z<-1", "x < -1"]).shape_count == 2 + 2  # Sr, two planes
-    assert atoms(view="c", slab=(-1, 1)).shape_count == atoms(view="best", slab="-1:1").shape_count
+    assert atoms(cut="z<-1").shape_count == 5 + 5  # four Sr and an O, and their faces
+    cuts = ["z<-1", "x < -1"]
+    counts = {atoms(cut=cut).shape_count for cut in (cuts, tuple(cuts), [(0, 0, 1, -1), (1, 0, 0, -1)])}
+    assert len(counts) == 1 and 0 not in counts
+    planes = ((0, 0, 1, -1), [0, 0, 1, -1], np.array([0, 0, 1, -1.0]), "0,0,1,-1")
+    assert {atoms(cut=plane).shape_count for plane in planes} == {10}
+    slabs = ((-1, 1), [-1, 1], np.array([-1, 1]), "-1:1", "-1 1", "-1,1")
+    assert len({atoms(view="c", slab=slab).shape_count for slab in slabs}) == 1
+    for background in ((0.25, 0.5, 1), [0.25, 0.5, 1.0], np.array([0.25, 0.5, 1]), "0.25,0.5,1"):
+        assert atoms(background=background).background == (0.25, 0.5, 1)
     atoms(view="c", look="flat", background="#204060").save(tmp_path / "a.json")
     scene = json.loads((tmp_path / "a.json").read_text())
     assert scene["camera"]["view"] == [0, 0, -1]
     assert scene["background"] == pytest.approx([0.0144, 0.0513, 0.117], abs=1e-3)
     assert all(material["diffuse"] == 0 for material in scene["materials"].values())
-    with pytest.raises(raylane.BadInput, match="--cut: must leave a part of the atoms, got none"):
+    with pytest.raises(raylane.BadInput, match="^cut: must leave a part of the atoms, got none") as caught:
         atoms(cut="z<-9")
+    assert caught.value.errors[0].file == "cut"
+    with pytest.raises(raylane.BadInput, match='^hydrogen_bonds: must be on or off, got "maybe"'):
+        atoms(hydrogen_bonds="maybe")
+    with pytest.raises(raylane.BadInput, match="^cut and slab: must leave a part"):
+        atoms(cut="z<-1.5", view="z", slab=(1, 2), radius=0.1)
 
 
 def test_unknown_options_are_refused(tmp_path):

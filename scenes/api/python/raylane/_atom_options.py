@@ -6,12 +6,18 @@ import re
 from numbers import Real
 from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, TypeVar
 
+import numpy as np
+
 from ._errors import BadInput, InvalidValue
 
 _T = TypeVar("_T")
 
 _LISTS = ("show", "hide", "polyhedra", "cut")  # options of which several values are meant
-_SEPARATORS = {"repeat": "x", "view": ","}
+_SEPARATORS = {"repeat": "x", "view": ",", "cut": ",", "background": ","}
+
+
+def _is_numbers(value: Any) -> bool:
+    return isinstance(value, (list, tuple)) and len(value) > 0 and all(isinstance(x, Real) for x in value)
 
 
 def _text(name: str, value: Any) -> str:
@@ -22,7 +28,7 @@ def _text(name: str, value: Any) -> str:
         return "on" if value else "off"
     if isinstance(value, Real):
         return repr(value)
-    if isinstance(value, (list, tuple)) and value and all(isinstance(x, Real) for x in value):
+    if _is_numbers(value):
         return _SEPARATORS.get(name, " ").join(repr(x) for x in value)
     raise InvalidValue(name, f"must be a text, a number, True or False, got {value!r:.40}")
 
@@ -56,9 +62,16 @@ def atom_options(
     for name, value in options.items():
         if value is None:
             continue
-        several = name in _LISTS and isinstance(value, (list, tuple))
+        if isinstance(value, (np.ndarray, np.generic)):
+            value = value.tolist()
+        several = name in _LISTS and isinstance(value, (list, tuple)) and not _is_numbers(value)
         texts += [(name, _text(name, one)) for one in (value if several else [value])]
     return texts
+
+
+def _in_python(message: str) -> str:
+    """Returns a message with the names of options in Python: hydrogen_bonds in place of --hydrogen-bonds."""
+    return re.sub(r"(?<![\w-])--([a-z][a-z-]*)", lambda name: name[1].replace("-", "_"), message)
 
 
 def _of_style(message: str) -> str:
@@ -78,10 +91,12 @@ def read_atoms(
 ) -> _T:
     """Returns ``read(texts, on_remark)`` for options. Messages name the style if there is one."""
     texts = atom_options(style, representations, options)
-    if style is None:
-        return read(texts, on_remark)
+
+    def named(message: str) -> str:
+        return _in_python(message if style is None else _of_style(message))
+
     try:
-        return read(texts, lambda remark: on_remark(_of_style(remark)))
+        return read(texts, lambda remark: on_remark(named(remark)))
     except BadInput as error:
-        mistakes = [each._replace(file=_of_style(each.file)) for each in error.errors]
-        raise BadInput(_of_style(str(error)), mistakes) from None
+        mistakes = [each._replace(file=named(each.file), message=named(each.message)) for each in error.errors]
+        raise BadInput(named(str(error)), mistakes) from None
