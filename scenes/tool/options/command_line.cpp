@@ -16,7 +16,8 @@ namespace {
 /// Throws if a value is the name of another option: that of this option is missing.
 void require_value(const CLI::App& command, const AnyOption& option, const std::string& text) {
     if (text.starts_with("--") && command.get_option_no_throw(text) != nullptr)
-        throw CLI::ArgumentMismatch(option.name() + ": must have a value");
+        throw CLI::ArgumentMismatch(option.name() + ": must have a value, " +
+                                    option.properties().type);
 }
 
 CLI::Option* add(CLI::App& command, AnyOption& option, const std::string& names) {
@@ -169,6 +170,9 @@ std::string wrong_count(const CLI::Option& option) {
 }
 
 std::string message_of(const CLI::App& app, const CLI::App* command, const CLI::ParseError& error) {
+    // The value that the next option lacks is left over.
+    if (const std::string_view text = error.what(); text.find(": must have a value") != text.npos)
+        return error.what();
     if (const std::vector<std::string> extras = app.remaining(); !extras.empty()) {
         const std::string name = option_name(extras.front());
         if (command != nullptr && contains(option_names(*command), name))
