@@ -141,7 +141,7 @@ void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, double rad
     }
     const Vec3d at = (across.least - radius - 0.35 * length - across_axes.most) * right +
                      (upward.least - upward_axes.least) * up +
-                     0.5 * (depth.least + depth.most) * forward;
+                     (depth.least - radius) * forward; // before the depth cue pales colours
     CellShapes shapes(builder, atoms_of_shape);
     Palette palette(builder, 1.0F, atoms.finish);
     constexpr std::uint32_t colors[] = {0xC83C32, 0x3C9646, 0x325AC8};

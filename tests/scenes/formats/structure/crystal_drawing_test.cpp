@@ -458,10 +458,16 @@ TEST_CASE("axes are arrows along the edges, left of the atoms") {
             if (arrow.axis[k] > 0.0) directions |= 1 << k;
         CHECK(arrow.axis.x + arrow.axis.y + arrow.axis.z ==
               Approx(raylane::core::length(arrow.axis)));
-        for (const auto& ball : crystal.all<raylane::core::Sphere>("atom"))
+        const Vec3d origin = arrow.base - 0.68 / 0.32 * arrow.axis;
+        for (const auto& ball : crystal.all<raylane::core::Sphere>("atom")) {
             CHECK(raylane::core::dot(right, arrow.base + arrow.axis) <
                   raylane::core::dot(right, ball.center) -
                       ball.radius * raylane::core::length(right));
+            // In front of the atoms, which the depth cue makes paler.
+            CHECK(raylane::core::dot(forward, origin) <
+                  raylane::core::dot(forward, ball.center) -
+                      0.9 * ball.radius * raylane::core::length(forward));
+        }
     }
     CHECK(directions == 7);
     CHECK(message_of<BadInput>([] {
