@@ -138,6 +138,15 @@ raylane_optional(gemmi ${found} "${GEMMI_VERSION}" "gemmi-dev tao-pegtl-dev" STA
                  INCLUDES ${GEMMI_INCLUDE_DIR} ${PEGTL_INCLUDE_DIR})
 raylane_part("PDB, mmCIF and CIF files" "" gemmi)
 
+# Debian's libpango1.0-dev comes with pkg-config.
+find_package(PkgConfig QUIET)
+if(PkgConfig_FOUND AND NOT CMAKE_CROSSCOMPILING)
+  pkg_check_modules(Pango QUIET IMPORTED_TARGET pangocairo)
+endif()
+raylane_optional(Pango "${Pango_FOUND}" "${Pango_VERSION}" libpango1.0-dev
+                 HEADERS pango/pangocairo.h LIBRARIES PkgConfig::Pango)
+raylane_part("annotations in images" "" Pango)
+
 if(RAYLANE_TOOL)
   find_package(OpenEXR 3.1 CONFIG QUIET)
   raylane_optional(OpenEXR "${OpenEXR_FOUND}" "${OpenEXR_VERSION}" libopenexr-dev
@@ -148,13 +157,6 @@ if(RAYLANE_TOOL)
   find_package(TIFF 4.5 QUIET)
   raylane_optional(TIFF "${TIFF_FOUND}" "${TIFF_VERSION_STRING}" libtiff-dev
                    HEADERS tiffio.h LIBRARIES TIFF::TIFF)
-  # Debian's libpango1.0-dev comes with pkg-config.
-  find_package(PkgConfig QUIET)
-  if(PkgConfig_FOUND AND NOT CMAKE_CROSSCOMPILING)
-    pkg_check_modules(Pango QUIET IMPORTED_TARGET pangocairo)
-  endif()
-  raylane_optional(Pango "${Pango_FOUND}" "${Pango_VERSION}" libpango1.0-dev
-                   HEADERS pango/pangocairo.h LIBRARIES PkgConfig::Pango)
   find_package(SDL2 QUIET)
   raylane_optional(SDL2 "${SDL2_FOUND}" "${SDL2_VERSION}" libsdl2-dev
                    HEADERS SDL.h LIBRARIES SDL2::SDL2)
@@ -189,7 +191,6 @@ endif()
 raylane_excluded(excluded RAYLANE_TOOL)
 raylane_part("OpenEXR images" "${excluded}" OpenEXR)
 raylane_part("TIFF images" "${excluded}" TIFF)
-raylane_part("annotations in images" "${excluded}" Pango)
 raylane_part("raylane view" "${excluded}" SDL2)
 raylane_part("ranks on several hosts" "${excluded}" MPI)
 

@@ -2,8 +2,8 @@
 
 #include "scenes/files/atomic_file.hpp"
 #include "scenes/files/errors.hpp"
+#include "scenes/files/module.hpp"
 #include "scenes/formats/structure/colors.hpp"
-#include "scenes/tool/system.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,8 +3,6 @@
 #include "scenes/files/errors.hpp"
 
 #include <cerrno>
-#include <dlfcn.h>
-#include <filesystem>
 #include <string>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -51,26 +49,6 @@ std::size_t read_at(int descriptor, std::int64_t place, std::span<char> bytes) {
         have += static_cast<std::size_t>(count);
     }
     return have;
-}
-
-void* function_of(const Module& module, const std::string& what_fails) {
-    const auto refuse = [&](const std::string& why) {
-        throw SystemRefused(what_fails + ": " + printable(why, 400));
-    };
-    std::error_code unknown;
-    const std::filesystem::path folder =
-        std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
-    for (const char* place : {".", RAYLANE_MODULE_FOLDER}) {
-        const std::filesystem::path path = folder / place / module.file;
-        if (!std::filesystem::exists(path, unknown)) continue;
-        void* const loaded = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-        if (loaded == nullptr) refuse(::dlerror());
-        void* const function = ::dlsym(loaded, module.function);
-        if (function == nullptr) refuse(std::string(module.file) + " belongs to another version");
-        return function;
-    }
-    refuse("missing module " + std::string(module.file) + ", which needs " + module.built_where);
-    return nullptr;
 }
 
 } // namespace raylane::scenes

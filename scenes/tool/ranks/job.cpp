@@ -2,6 +2,7 @@
 
 #include "scenes/files/atomic_file.hpp"
 #include "scenes/files/errors.hpp"
+#include "scenes/files/module.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/tool/exit.hpp"
 #include "scenes/tool/ranks/ranks.hpp"
