@@ -2,14 +2,12 @@
 
 #include "scenes/files/atomic_file.hpp"
 #include "scenes/files/errors.hpp"
-#include "scenes/files/module.hpp"
 #include "scenes/formats/structure/colors.hpp"
+#include "scenes/tool/sequence/frame_sequence.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <vector>
 
 namespace raylane::scenes {
 
@@ -23,65 +21,62 @@ std::string code_of(std::uint32_t color) {
 
 } // namespace
 
+Overlay overlay_for(const std::string& what_fails, const std::optional<std::string>& font,
+                    const OnRemark& on_remark) {
+    Overlay overlay(what_fails);
+    const auto used = font ? overlay.replaced_font(*font) : std::nullopt;
+    if (used && on_remark)
+        on_remark("--font: \"" + printable(*font) + "\" is not installed: texts are in " +
+                  printable(*used));
+    return overlay;
+}
+
 Annotator::Annotator(const RenderArguments& arguments)
     : annotations_(arguments.annotations()), file_(arguments.annotation.annotations.value_or("")),
       first_option_(arguments.annotation.first_given()),
       wants_legend_(annotations_.any() || arguments.stats) {
     legend_.wants_atoms = annotations_.any();
-    if (!annotations_.any()) {
-        if (!first_option_.empty())
-            throw BadInput(first_option_, "",
-                           "goes with --legend, --scale-bar, --triad, --label or --distance");
+    if (!annotations_.any()) return;
+    if (!file_.empty()) {
+        // The name for a single image has no number.
+        file_names_ = [file = file_](std::size_t) { return file; };
+        if (arguments.has_sequence() || arguments.frames.is_one())
+            file_names_ = numbered_names("--annotations", file_, arguments.has_sequence());
         return;
     }
-    if (!file_.empty()) return;
-    const auto function = [&](const char* name) {
-        return function_of(
-            {"raylane-annotation.so", name, "pango at build time (Debian: libpango1.0-dev)"},
-            first_option_ + ": cannot write on an image; --annotations FILE.svg can");
-    };
-    render_ = reinterpret_cast<RenderSheet>(function(render_sheet_name));
-    if (!arguments.annotation.font) return;
-    const auto replaced = reinterpret_cast<ReplacedFont>(function(replaced_font_name));
-    if (const char* const used = replaced(annotations_.font.c_str()))
-        remark_ = "--font: \"" + printable(annotations_.font) +
-                  "\" is not installed: texts are in " + printable(used);
+    overlay_ = overlay_for(first_option_ + ": cannot write on an image; --annotations FILE.svg can",
+                           arguments.annotation.font.value(),
+                           [this](const std::string& remark) { remarks_.push_back(remark); });
 }
 
-void Annotator::require_single() const {
+void Annotator::require_whole() const {
     if (annotations_.any())
-        throw BadInput(
-            first_option_, "",
-            "goes with a single image, without --turn, --frames, --part and sweeps of --set");
+        throw BadInput(first_option_, "", "goes with a whole image, without --part");
 }
 
-void Annotator::compose(const core::Scene& scene, const core::Settings& settings,
-                        const OnRemark& on_remark) {
+void Annotator::compose(const core::Scene& scene, const Legend& legend,
+                        const core::Settings& settings, const OnRemark& on_remark) {
     if (!annotations_.any()) return;
-    constexpr int most = 32767; // of a surface of cairo
-    if (covers_image() && std::max(settings.width, settings.height) > most)
+    if (covers_image() && std::max(settings.width, settings.height) > Overlay::most)
         throw BadInput("--size", "",
-                       "must be at most " + std::to_string(most) +
+                       "must be at most " + std::to_string(Overlay::most) +
                            " pixels on each side with annotations, unless --annotations puts them "
                            "into a file");
-    if (!remark_.empty() && on_remark) on_remark(remark_);
+    for (const std::string& remark : remarks_)
+        if (on_remark) on_remark(remark);
     const core::Color background = settings.alpha ? core::Color(1.0F) : scene.background();
-    sheet_ =
-        sheet_of(annotations_, legend_,
-                 {scene.camera(), settings.width, settings.height, background, &scene}, on_remark);
+    sheet_ = SheetComposer(annotations_, legend, on_remark)
+                 .compose({scene.camera(), settings.width, settings.height, background, &scene},
+                          on_remark);
 }
 
 void Annotator::cover(core::Film& film, const core::Region& part, core::Transfer transfer) const {
-    std::vector<std::uint32_t> pixels(static_cast<std::size_t>(sheet_.width) *
-                                      static_cast<std::size_t>(sheet_.height));
-    if (const char* const why = render_(&sheet_, pixels.data()))
-        throw SystemRefused(std::string("annotations: cannot be rendered: ") + why);
-    blend(pixels, sheet_.width, part, transfer, film);
+    overlay_->cover(sheet_, part, transfer, film);
 }
 
-void Annotator::write_file() const {
+void Annotator::write_file(std::size_t number) const {
     if (file_.empty()) return;
-    AtomicFile file(file_);
+    AtomicFile file(file_names_(number));
     file.write(svg_of(sheet_));
     file.commit();
 }

@@ -101,6 +101,7 @@ class SceneFromAtoms {
             throw BadInput(drawing_.cuts.empty() ? "--slab" : "--cut", "",
                            "must leave a part of the atoms, got none");
         find_places();
+        find_atoms_in_chains();
         if (drawing_.show_cell) {
             require_cell("--cell", "to show");
             add_cell_edges(atoms_, builder_, atoms_of_shape_);
@@ -150,10 +151,33 @@ class SceneFromAtoms {
         const bool are_in_file = atoms_.originals.empty() && atoms_.images.size() == 1;
         if (atoms_of_shape_ == nullptr || are_in_file) return;
         atoms_.for_each([&](AtomIndex atom, const Vec3f& at) {
-            scale_.places.push_back({atom, at});
+            if (!is_cut_away(atom, at)) scale_.places.push_back({atom, at});
         });
         std::stable_sort(scale_.places.begin(), scale_.places.end(),
                          [](const auto& a, const auto& b) { return a.atom < b.atom; });
+    }
+
+    /// Returns true if planes leave nothing of an atom's ball.
+    bool is_cut_away(AtomIndex atom, const Vec3f& at) const {
+        if (atoms_.cuts.empty()) return false;
+        double radius = 0.0;
+        for (const AtomLayer& layer : layers_)
+            if (layer.has(atoms_, atom))
+                radius = std::max(radius, static_cast<double>(layer.radii.of(atom)));
+        return std::any_of(atoms_.cuts.begin(), atoms_.cuts.end(), [&](const CutPlane& plane) {
+            return core::dot(plane.normal, core::convert<double>(at)) >
+                   plane.offset + radius * core::length(plane.normal);
+        });
+    }
+
+    void find_atoms_in_chains() {
+        if (atoms_of_shape_ == nullptr) return;
+        for (const AtomLayer& layer : layers_) {
+            if (!shows_chains(*layer.look.style)) continue;
+            scale_.is_in_chain.resize(structure_.size());
+            for (AtomIndex i = 0; i < structure_.size(); ++i)
+                if (layer.has(atoms_, i)) scale_.is_in_chain[i] = 1;
+        }
     }
 
     /// Reports a remark on the file, once for all frames.
@@ -447,7 +471,7 @@ class SceneFromAtoms {
 
     /// Finds the meanings of the colours.
     void find_keys() {
-        constexpr std::size_t most = 64;
+        constexpr std::size_t most = max_key_entries;
         std::map<std::string, std::uint32_t> entries;
         std::unordered_set<std::uint32_t> known;
         for (const AtomLayer& layer : layers_) {
@@ -463,6 +487,7 @@ class SceneFromAtoms {
                 if (known.insert(color).second) entries.emplace(layer.colors.meaning_of(i), color);
             }
         }
+        scale_.has_too_many_colors = entries.size() > most;
         if (!entries.empty() && entries.size() <= most)
             scale_.keys.push_back({.entries = {entries.begin(), entries.end()}});
     }

@@ -26,6 +26,9 @@ struct ColorKey {
     std::vector<std::pair<std::string, std::uint32_t>> entries{}; ///< names and sRGB colours
 };
 
+/// The maximum number of names of a key.
+inline constexpr std::size_t max_key_entries = 64;
+
 /// The place of a copy of an atom.
 struct AtomPlace {
     AtomIndex atom;
@@ -39,9 +42,13 @@ struct DrawingScale {
     std::map<std::string, ColorRange> ranges; ///< of the properties that colours stand for
     std::optional<core::NamedView> view = {}; ///< of the frame, if the drawing names one
     std::vector<ColorKey> keys = {};          ///< of this frame's colours, each once
-    /// All copies of this frame's atoms, by ascending atom, in the first cell first; empty: the
-    /// atoms are where the file has them. Kept if the atoms of shapes are.
+    bool has_too_many_colors = false;         ///< for a key of names
+    /// The copies of this frame's atoms of which planes leave a part, by ascending atom, in the
+    /// first cell first; empty: the atoms are where the file has them. Kept if the atoms of shapes
+    /// are.
     std::vector<AtomPlace> places = {};
+    /// 1 for atoms that a cartoon, tube or trace shows. Only some of them have shapes. Empty: none.
+    std::vector<char> is_in_chain = {};
 
     /// Widens the ranges to those of another frame.
     void include(const DrawingScale& other);

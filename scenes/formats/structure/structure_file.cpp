@@ -79,18 +79,6 @@ std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
     throw BadInput(file.name(), "", "must be a file of atoms");
 }
 
-core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
-                           const std::string& file, core::Workers* workers, DrawingScale* scale,
-                           const OnRemark& on_remark) {
-    core::SceneBuilder builder;
-    builder.workers = workers;
-    return of_file(file, [&] {
-        const DrawingScale drawn = draw(structure, drawing, file, builder, nullptr, on_remark);
-        if (scale != nullptr) *scale = drawn;
-        return std::move(builder).build();
-    });
-}
-
 namespace {
 
 /// Removes names whose colours no shape has: planes may have cut all atoms of an element away, and
@@ -112,7 +100,43 @@ void keep_shown(std::vector<ColorKey>& keys, const core::Scene& scene) {
                   [](const ColorKey& key) { return key.property.empty() && key.entries.empty(); });
 }
 
+/// Draws a frame, and sets its legend, unless that is null.
+DrawingScale draw_with(core::SceneBuilder& builder, const Structure& structure,
+                       const Drawing& drawing, const std::string& file, Legend* legend,
+                       const OnRemark& on_remark) {
+    std::vector<AtomPair> atoms;
+    const bool keeps_atoms = legend != nullptr && legend->wants_atoms;
+    DrawingScale drawn =
+        draw(structure, drawing, file, builder, keeps_atoms ? &atoms : nullptr, on_remark);
+    if (legend == nullptr) return drawn;
+    legend->colors = drawn.keys;
+    legend->has_too_many_colors = drawn.has_too_many_colors;
+    legend->places = std::move(drawn.places);
+    legend->is_in_chain = std::move(drawn.is_in_chain);
+    legend->atoms_of_shape = std::move(atoms);
+    return drawn;
+}
+
+core::Scene built(core::SceneBuilder&& builder, Legend* legend) {
+    core::Scene scene = std::move(builder).build();
+    if (legend != nullptr) keep_shown(legend->colors, scene);
+    return scene;
+}
+
 } // namespace
+
+core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
+                           const std::string& file, core::Workers* workers, DrawingScale* scale,
+                           const OnRemark& on_remark, Legend* legend) {
+    core::SceneBuilder builder;
+    builder.workers = workers;
+    return of_file(file, [&] {
+        DrawingScale drawn = draw_with(builder, structure, drawing, file, legend, on_remark);
+        if (scale != nullptr) *scale = std::move(drawn);
+        if (legend != nullptr && legend->wants_atoms) legend->structure = structure;
+        return built(std::move(builder), legend);
+    });
+}
 
 core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& options,
                            const Drawing& drawing, core::Workers* workers, Legend* legend) {
@@ -127,20 +151,10 @@ core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& 
                 throw BadInput(
                     file.name(), "",
                     "has no atoms in its first frame; \"--frames 1\" selects the next one, if any");
-            std::vector<AtomPair> atoms;
-            const bool keeps_atoms = legend != nullptr && legend->wants_atoms;
-            DrawingScale drawn = draw(structure, drawing, file.name(), builder,
-                                      keeps_atoms ? &atoms : nullptr, options.on_remark);
-            if (legend != nullptr) legend->colors = std::move(drawn.keys);
-            if (keeps_atoms) {
-                legend->places = std::move(drawn.places);
-                legend->structure = std::move(structure);
-                legend->atoms_of_shape = std::move(atoms);
-            }
+            draw_with(builder, structure, drawing, file.name(), legend, options.on_remark);
+            if (legend != nullptr && legend->wants_atoms) legend->structure = std::move(structure);
         } // frees the structure before the hierarchy takes memory
-        core::Scene scene = std::move(builder).build();
-        if (legend != nullptr) keep_shown(legend->colors, scene);
-        return scene;
+        return built(std::move(builder), legend);
     });
 }
 

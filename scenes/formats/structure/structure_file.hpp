@@ -15,8 +15,10 @@ struct Legend {
     Structure structure;
     std::vector<AtomPair> atoms_of_shape; ///< by shape id; empty: not from a file of atoms
     std::vector<ColorKey> colors{};       ///< of shapes in the scene
-    std::vector<AtomPlace> places{};      ///< as in DrawingScale
-    bool wants_atoms = true;              ///< false: only the colours are kept
+    std::vector<AtomPlace> places{};      ///< this and the next two: as in DrawingScale
+    std::vector<char> is_in_chain{};
+    bool has_too_many_colors = false;
+    bool wants_atoms = true; ///< false: only the colours are kept
 
     /// Returns "atom 12, CA of ALA 25 in chain A (C)" and the like; empty if the shape is not an
     /// atom's.
@@ -28,10 +30,11 @@ std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
                                             const ReaderOptions& options = {});
 
 /// Returns the scene of a frame. `file` is the name in messages. `scale` receives the result of
-/// draw().
+/// draw(), and `legend` the meaning of the shapes, unless they are null.
 core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
                            const std::string& file, core::Workers* workers = nullptr,
-                           DrawingScale* scale = nullptr, const OnRemark& on_remark = {});
+                           DrawingScale* scale = nullptr, const OnRemark& on_remark = {},
+                           Legend* legend = nullptr);
 
 /// Returns the scene of a file's first frame of atoms. `legend`, unless null, receives the meaning
 /// of its shapes. Throws BadInput, with the line, and SystemRefused.

@@ -23,7 +23,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -45,7 +47,8 @@ struct Plan {
 
     const RenderArguments& arguments;
     simd::RenderOptions options;
-    std::string output; ///< of a frame: with number 0, until its number is known
+    std::string output;     ///< of a frame: with number 0, until its number is known
+    std::size_t number = 0; ///< in names of files
     LoadOptions load_options;
     Job job; // joins after the checks above
     Verbosity verbosity;
@@ -107,12 +110,11 @@ Plan::Plan(const RenderArguments& given)
       bits(given.image.encoding.bits.value_or(0)) {
     load_options.legend = annotator.legend();
     if (!given.threads) options.threads = job.share_of_threads(options.threads);
-    if (is_frame() || given.part) annotator.require_single();
     if (*given.scene == "-") job.share_standard_input();
     job.together([&] {
         if (!is_frame()) sequence = requested_sequence(given, options.threads, verbosity);
         if (!sequence) return;
-        annotator.require_single();
+        sequence->wants_legends = annotator.has_any();
         if (given.stats)
             throw BadInput(
                 "--stats", "",
@@ -127,6 +129,7 @@ Plan::Plan(const RenderArguments& given)
         sequence->share = {part.number - 1 + part.count * static_cast<std::size_t>(job.rank()),
                            part.count * static_cast<std::size_t>(job.size())};
     } else if (given.part) {
+        annotator.require_whole();
         tiles = *given.part;
         if (bits == 0) bits = 32;
     }
@@ -202,12 +205,27 @@ std::string write(const Plan& plan, const Target& image, ResumableRendering& dra
     return pixels;
 }
 
+/// Returns a callback that prints remarks on standard error. Those that differ only in digits are
+/// printed once, so not for each image of a sequence.
+OnRemark remarks_of(const Plan& plan) {
+    if (plan.verbosity == Verbosity::quiet) return {};
+    const auto told = std::make_shared<std::set<std::string>>();
+    return [told](const std::string& remark) {
+        std::string words = remark;
+        std::erase_if(words, [](char c) { return c >= '0' && c <= '9'; });
+        if (told->insert(words).second)
+            std::fprintf(stderr, is_terminal() ? "\r%s\x1B[K\n" : "%s\n", remark.c_str());
+    };
+}
+
 void render_sequence(Plan& plan) {
-    plan.sequence->draw = [&](const core::Scene& scene, std::size_t place, const std::string& name,
-                              simd::Progress& progress) {
-        OutputFile output(name, more_encoders);
+    plan.sequence->draw = [&, on_remark = remarks_of(plan)](const SequenceImage& of,
+                                                            simd::Progress& progress) {
+        OutputFile output(of.name, more_encoders);
         output.be_durable(); // a resumed sequence takes existing files as complete
-        const Target image = target_of(plan, scene, name, place);
+        const Target image = target_of(plan, of.scene, of.name, of.place);
+        plan.annotator.compose(of.scene, of.legend, image.settings, on_remark);
+        plan.annotator.write_file(of.number);
         ResumableRendering drawing = resumable(plan, image);
         write(plan, image, drawing, drawing.draw(progress), output);
         drawing.end_if_signalled();
@@ -247,9 +265,10 @@ core::Scene load(Plan& plan, Outputs& outputs) {
             if (!plan.is_frame())
                 return load_with_progress(*arguments.scene, plan.load_options, plan.verbosity,
                                           threads, arguments.isa.value());
-            SequenceFrame frame =
-                first_frame(*requested_sequence(arguments, threads, plan.verbosity));
+            SequenceFrame frame = first_frame(
+                *requested_sequence(arguments, threads, plan.verbosity), plan.annotator.legend());
             name = std::move(frame.name);
+            plan.number = frame.number;
             return std::move(frame.scene);
         });
     plan.job.together([&] {
@@ -341,10 +360,8 @@ void render_single(Plan& plan) {
     plan.job.require_same(image.fingerprint + comment_of(plan, image), "the scene");
     const core::Region part = part_of(plan, image);
     if (plan.job.is_first()) {
-        plan.annotator.compose(scene, image.settings, [&](const std::string& remark) {
-            if (plan.verbosity != Verbosity::quiet) std::fprintf(stderr, "%s\n", remark.c_str());
-        });
-        plan.annotator.write_file();
+        plan.annotator.compose(scene, image.settings, remarks_of(plan));
+        plan.annotator.write_file(plan.number);
     }
     if (outputs.image) outputs.image->reserve(part.x1 - part.x0, part.y1 - part.y0);
     work.load = lap();

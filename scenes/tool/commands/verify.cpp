@@ -272,8 +272,11 @@ class Verifier {
         sequence->overwrites = true;
         sequence->name = [](std::size_t) { return std::string(); }; // nothing is written
         std::optional<core::Scene> result;
-        sequence->draw = [&](const core::Scene& scene, std::size_t, const std::string&,
-                             simd::Progress&) { result = scene; };
+        sequence->wants_legends = annotator_.has_any();
+        sequence->draw = [&](const SequenceImage& image, simd::Progress&) {
+            result = image.scene;
+            if (Legend* const legend = annotator_.legend()) *legend = image.legend;
+        };
         scenes::draw(*sequence);
         if (!result)
             throw BadInput(image_.name, "",

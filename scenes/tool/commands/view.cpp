@@ -3,6 +3,7 @@
 #include "scenes/files/errors.hpp"
 #include "scenes/files/module.hpp"
 #include "scenes/images/writer.hpp"
+#include "scenes/tool/annotator.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/options/option.hpp"
@@ -43,7 +44,20 @@ struct ViewCommandArguments : OptionTable {
     Option<std::pair<int, int>> size = {*this, "--size", image_size(),
                                         "Window width and height in pixels."};
     ThreadsOption threads{*this};
+    AnnotationArguments annotation{*this};
     SceneArguments scene_arguments{*this};
+};
+
+/// The meaning of a scene's shapes, and its annotations.
+struct AnnotatedScene {
+    Legend legend;
+    std::optional<SheetComposer> composer; ///< unset: no annotations
+
+    std::optional<Sheet> sheet(const core::Scene& scene, const core::Settings& settings) const {
+        if (!composer) return std::nullopt;
+        return composer->compose(
+            {scene.camera(), settings.width, settings.height, scene.background(), &scene}, {});
+    }
 };
 
 /// Returns a name that no file has yet: "scene-1.png", "scene-2.png", ...
@@ -64,7 +78,14 @@ class Viewer {
         : arguments_(arguments), name_(*arguments.scene),
           verbosity_(arguments.scene_arguments.verbosity.verbosity()),
           threads_(arguments.threads.count()), written_(time_of_file()) {
-        core::Scene scene = loaded(legend_);
+        annotations_ = arguments.annotation.annotations_at(
+            std::nullopt, arguments.scene_arguments.drawing.axes.is_given());
+        annotations_.is_steady = true;
+        if (annotations_.any())
+            overlay_ =
+                overlay_for(arguments.annotation.first_given() + ": cannot write on an image",
+                            arguments.annotation.font.value(), remarks());
+        core::Scene scene = loaded(annotated_);
         settings_ = scene.settings();
         if (arguments.size) std::tie(settings_.width, settings_.height) = *arguments.size;
         scene = seen(std::move(scene), arguments_.scene_arguments.view.change(), settings_);
@@ -73,8 +94,8 @@ class Viewer {
         window_ = open_window(title(), settings_.width, settings_.height);
         simd::RenderOptions options;
         options.threads = threads_;
-        maker_ =
-            std::make_unique<ImageMaker>(std::move(scene), options, [this] { window_->wake(); });
+        maker_ = std::make_unique<ImageMaker>(std::move(scene), overlays(), options,
+                                              [this] { window_->wake(); });
         begin();
     }
 
@@ -82,7 +103,7 @@ class Viewer {
         while (!is_closed_) {
             act(window_->wait(longest_wait));
             maker_->rethrow();
-            if (std::optional<ImageMaker::Image> image = maker_->take()) show(image->film);
+            if (std::optional<ImageMaker::Image> image = maker_->take()) show(*image);
             reload_if_written();
             if (is_moved_) begin();
         }
@@ -91,10 +112,30 @@ class Viewer {
   private:
     std::string title() const { return printable(name_, 200) + " - raylane"; }
 
-    core::Scene loaded(Legend& legend) const {
+    OnRemark remarks() const {
+        if (verbosity_ == Verbosity::quiet) return {};
+        return [](const std::string& remark) { std::fprintf(stderr, "%s\n", remark.c_str()); };
+    }
+
+    core::Scene loaded(std::shared_ptr<const AnnotatedScene>& annotated) const {
         LoadOptions options = arguments_.scene_arguments.load_options();
-        options.legend = &legend;
-        return load_with_progress(name_, std::move(options), verbosity_, threads_);
+        const auto result = std::make_shared<AnnotatedScene>();
+        options.legend = &result->legend;
+        core::Scene scene = load_with_progress(name_, std::move(options), verbosity_, threads_);
+        if (annotations_.any()) result->composer.emplace(annotations_, result->legend, remarks());
+        annotated = result;
+        return scene;
+    }
+
+    /// Returns a function that the thread of the image maker calls.
+    MakeOverlay overlays() const {
+        if (!annotations_.any()) return {};
+        return [annotated = annotated_, &overlay = *overlay_](const core::Scene& scene,
+                                                              const core::Settings& settings) {
+            const std::optional<Sheet> sheet = annotated->sheet(scene, settings);
+            return std::make_shared<const ImageOverlay>(
+                ImageOverlay{sheet->width, sheet->height, overlay.pixels(*sheet)});
+        };
     }
 
     std::filesystem::file_time_type time_of_file() const {
@@ -107,14 +148,40 @@ class Viewer {
         maker_->show(orbit_->view(), settings_);
     }
 
-    void show(const core::Film& film) {
+    void show(const ImageMaker::Image& image) {
         const core::Encoder encode(settings_.transfer);
+        const core::Film& film = image.film;
         std::vector<std::uint32_t> pixels;
         pixels.reserve(film.pixels().size());
         for (const core::Color& color : film.pixels())
             pixels.push_back(static_cast<std::uint32_t>(encode(color.x)) << 16 |
                              static_cast<std::uint32_t>(encode(color.y)) << 8 | encode(color.z));
-        window_->show(pixels.data(), film.width(), film.height());
+        if (image.overlay == nullptr) {
+            window_->show(pixels.data(), film.width(), film.height());
+            return;
+        }
+        const std::vector<std::uint32_t> covered =
+            covered_by(*image.overlay, pixels, film.width(), film.height());
+        window_->show(covered.data(), image.overlay->width, image.overlay->height);
+    }
+
+    /// Returns pixels of an overlay over pixels of an image, which may be coarser.
+    static std::vector<std::uint32_t> covered_by(const ImageOverlay& overlay,
+                                                 const std::vector<std::uint32_t>& pixels,
+                                                 int width, int height) {
+        const auto size = [](int pixels_of_side) {
+            return static_cast<std::size_t>(pixels_of_side);
+        };
+        std::vector<std::uint32_t> result;
+        result.reserve(overlay.pixels.size());
+        for (std::size_t y = 0; y < size(overlay.height); ++y)
+            for (std::size_t x = 0; x < size(overlay.width); ++x) {
+                const std::size_t row = y * size(height) / size(overlay.height);
+                const std::size_t column = x * size(width) / size(overlay.width);
+                result.push_back(
+                    over(overlay.pixels[result.size()], pixels[row * size(width) + column]));
+            }
+        return result;
     }
 
     void reload_if_written() {
@@ -122,9 +189,8 @@ class Viewer {
         if (time == written_) return;
         written_ = time;
         try {
-            Legend legend;
-            maker_->replace(loaded(legend));
-            legend_ = std::move(legend);
+            core::Scene scene = loaded(annotated_);
+            maker_->replace(std::move(scene), overlays());
             is_moved_ = true;
         } catch (const BadInput& bad) { // the file may be incomplete while it is written
             std::fprintf(stderr, "raylane: %s\n", bad.what());
@@ -150,8 +216,9 @@ class Viewer {
             break;
         case Kind::clicked:
             maker_->with_scene([&](const core::Scene& scene) {
-                std::printf("%s\n",
-                            what_is_at(scene, settings_, event.x, event.y, legend_).c_str());
+                std::printf(
+                    "%s\n",
+                    what_is_at(scene, settings_, event.x, event.y, annotated_->legend).c_str());
             });
             std::fflush(stdout);
             break; // with_scene() stopped the rendering, so start again
@@ -197,7 +264,11 @@ class Viewer {
             OutputFile output(name);
             simd::RenderOptions options;
             options.threads = threads_;
-            output.commit(simd::render(scene, settings_, options).film, settings_.transfer);
+            core::Film film = simd::render(scene, settings_, options).film;
+            if (const auto sheet = annotated_->sheet(scene, settings_))
+                overlay_->cover(*sheet, {0, 0, film.width(), film.height()}, settings_.transfer,
+                                film);
+            output.commit(film, settings_.transfer);
         });
         window_->set_title(title().c_str());
         std::printf("%s\n", name.c_str());
@@ -209,7 +280,9 @@ class Viewer {
     Verbosity verbosity_;
     int threads_;
     std::filesystem::file_time_type written_;
-    Legend legend_;
+    Annotations annotations_;
+    std::optional<Overlay> overlay_;
+    std::shared_ptr<const AnnotatedScene> annotated_;
     core::Settings settings_;
     core::View first_;
     std::optional<Orbit> orbit_;

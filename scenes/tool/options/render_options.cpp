@@ -72,12 +72,7 @@ Values<core::Color> colors() {
 }
 
 Values<double> bar_lengths() {
-    return {"LENGTH", "", [](const std::string& option, const std::string& text) {
-                if (text == "auto") return 0.0;
-                const float length = to_float(text).value_or(0.0F);
-                if (!(length > 0.0F)) refuse(option, "auto or a length above 0", text);
-                return static_cast<double>(length);
-            }};
+    return {"LENGTH", "", bar_length_of};
 }
 
 Values<LabelWords> label_texts() {
@@ -182,23 +177,37 @@ std::optional<float> RenderArguments::dpi() const {
     return usual;
 }
 
-Annotations RenderArguments::annotations() const {
-    constexpr double usual = 300.0, points = 72.0; // per inch
-    const double resolution = static_cast<double>(dpi().value_or(0.0F));
+Annotations AnnotationArguments::annotations_at(std::optional<float> dpi,
+                                                bool axes_on_right) const {
+    const auto resolution = static_cast<double>(dpi.value_or(0.0F));
     Annotations result;
-    result.legend = annotation.legend.is_given() || annotation.legend_title.is_given();
-    result.legend_title = annotation.legend_title.value_or("");
-    result.scale_bar = annotation.scale_bar.value();
-    result.axes = annotation.axes.value();
-    result.axes_on_right = scene_arguments.drawing.axes.is_given();
-    result.labels = *annotation.label;
-    result.distances = *annotation.distance;
-    result.font = annotation.font.value_or(result.font);
-    if (annotation.font_size)
-        result.font_size = static_cast<double>(*annotation.font_size) *
-                           (resolution > 0.0 ? resolution : usual) / points;
+    result.legend = legend.is_given() || legend_title.is_given();
+    result.is_legend_implied = !legend.is_given();
+    result.legend_title = legend_title.value_or("");
+    result.scale_bar = scale_bar.value();
+    result.axes = axes.value();
+    result.axes_on_right = axes_on_right;
+    result.labels = *label;
+    result.distances = *distance;
+    result.font = font.value_or(result.font);
+    if (font_size) result.font_size = pixels_of_points(static_cast<double>(*font_size), resolution);
     result.dpi = resolution;
+    const std::string first = first_given();
+    if (!result.any() && !first.empty())
+        throw BadInput(first, "",
+                       "goes with --legend, --scale-bar, --triad, --label or --distance");
     return result;
+}
+
+Annotations RenderArguments::annotations() const {
+    Annotations result = annotation.annotations_at(dpi(), scene_arguments.drawing.axes.is_given());
+    result.is_steady = has_sequence();
+    return result;
+}
+
+bool RenderArguments::has_sequence() const {
+    return !frames.is_one() &&
+           (frames.frames || frames.turn || scene_arguments.parameters.has_sweep());
 }
 
 simd::RenderOptions RenderArguments::render_options(bool with_isa) const {

@@ -100,32 +100,36 @@ Values<double> bar_lengths();
 Values<LabelWords> label_texts();
 Values<DistanceWords> distance_texts();
 
-/// Options for legends and labels.
+/// Options for legends and labels on images.
 struct AnnotationArguments : OptionTable {
     explicit AnnotationArguments(OptionTable& parent)
         : OptionTable(parent, "Annotations (of atoms)") {}
+
+    /// Returns the annotations of images with a resolution in pixels per inch, if that is known.
+    /// `axes_on_right`: as arrows of the cell are on the left. Throws BadInput for details without
+    /// annotations.
+    Annotations annotations_at(std::optional<float> dpi, bool axes_on_right) const;
 
     Flag legend = {
         *this, "--legend", flag().recorded(),
         "Explain the colours by a bar with numbers, or by the names of elements or chains."};
     Option<std::string> legend_title = {*this, "--legend-title",
                                         word("TEXT").recorded().otherwise("the name of the number"),
-                                        "Text above the bar of colours."};
+                                        "Text above the legend."};
     Option<double> scale_bar = {
         *this, "--scale-bar", bar_lengths().recorded(),
         "Bar of this length in angstrom, within the image; auto: of a round "
         "length. Scenes that are not of atoms have no unit."};
-    Option<Axes> axes = {*this, "--triad",
-                         choice<Axes>({{"xyz", Axes::of_space}, {"abc", Axes::of_cell}}).recorded(),
+    Option<Axes> axes = {*this, "--triad", choice(named_axes()).recorded(),
                          "Arrows along the axes of space or of the cell: on the left, or on the "
-                         "right beside the arrows of --axes."};
+                         "right beside the arrows of --axes. auto: of the cell, if there is one."};
     ListOption<LabelWords> label = {
         *this, "--label", label_texts().recorded(),
         "Label at the middle of the selected atoms, as \"SELECTION: TEXT\". With {element}, {name} "
         "or "
         "{index} in the text, each copy of each atom has a label; with {resn} or {resi}, each "
         "residue; with {chain}, each chain. Labels with fields are left out where other atoms hide "
-        "them."};
+        "them, and all at atoms that the image does not show."};
     ListOption<DistanceWords> distance = {
         *this, "--distance", distance_texts().recorded(),
         "Dashed line with the distance between the middles of two selections, as \"SELECTION: "
@@ -135,12 +139,22 @@ struct AnnotationArguments : OptionTable {
                                 "installed."};
     Option<float> font_size = {
         *this, "--font-size",
-        number(1.0F, 1000.0F, "POINTS").recorded().otherwise("1/32 of the image's height"),
+        number(1.0F, 1000.0F, "POINTS")
+            .recorded()
+            .otherwise("1/32 of the image's height, at least 10 pixels"),
         "Size of texts in points, at the resolution of --dpi, or of 300 pixels per inch. A "
-        "remark tells if they are too small or too large for the image."};
+        "remark tells if they are too small or too large for the image. Legend, axes and scale bar "
+        "have smaller ones where they have no room."};
+};
+
+/// These options, and one for a file of annotations.
+struct AnnotationFileArguments : AnnotationArguments {
+    using AnnotationArguments::AnnotationArguments;
+
     Option<std::string> annotations = {
         *this, "--annotations", file_name(),
-        "Write the annotations to an SVG file of the image's size, and leave them off the image."};
+        "Write the annotations to an SVG file of the image's size, and leave them off the image. "
+        "The name for several images has a number, as that of --output."};
 };
 
 /// Options of render.
@@ -160,6 +174,8 @@ struct RenderArguments : OptionTable {
     /// Returns the resolution to store. A size on paper has one.
     std::optional<float> dpi() const;
     Annotations annotations() const;
+    /// Returns true if the options request several images, of which each has a number.
+    bool has_sequence() const;
 
     Option<std::string> scene = {
         *this, "SCENE", file_argument(),
@@ -292,7 +308,7 @@ struct RenderArguments : OptionTable {
         "Render part K of N, for N processes or machines: some tiles of an image, in an "
         "EXR for merge; of a sequence, every N-th image from the K-th on."};
     ImageArguments image{*this};
-    AnnotationArguments annotation{*this};
+    AnnotationFileArguments annotation{*this};
     FrameArguments frames{*this};
     SceneArguments scene_arguments{*this, true};
 };

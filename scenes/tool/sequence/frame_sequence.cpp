@@ -23,9 +23,10 @@ namespace {
 
 /// An image of the sequence.
 struct Frame {
-    std::size_t place;
+    std::size_t place, number;
     std::string name;
-    std::optional<core::Scene> scene; ///< empty if the file exists already
+    std::optional<core::Scene> scene;     ///< empty if the file exists already
+    std::shared_ptr<const Legend> legend; ///< of the scene
 };
 
 /// Makes the scenes one after the other, each with its camera.
@@ -45,11 +46,12 @@ class Stage {
     /// Returns true if there were any images, including those of other processes.
     bool has_any() const { return made_ > 0; }
 
-    /// Returns the scene and the file name of the first image.
-    SequenceFrame first() {
+    /// Returns the first image, and the meaning of its shapes, unless `legend` is null.
+    SequenceFrame first(Legend* legend) {
         const std::optional<std::size_t> number = sequence_.source->next();
         if (!number) refuse_none();
-        return {scene(made_++), sequence_.name(is_still() && sequence_.turn ? 0 : *number)};
+        const std::size_t shown = is_still() && sequence_.turn ? 0 : *number;
+        return {scene(made_++, legend), shown, sequence_.name(shown)};
     }
 
     std::optional<Frame> next() {
@@ -73,13 +75,16 @@ class Stage {
             const bool is_ours = sequence_.only
                                      ? place == *sequence_.only
                                      : place % sequence_.share.of == sequence_.share.number;
-            Frame image{place, sequence_.name(is_still() && sequence_.turn ? place : number_),
-                        std::nullopt};
-            if (is_ours && is_wanted(image.name)) image.scene = scene(place);
+            const std::size_t number = is_still() && sequence_.turn ? place : number_;
+            Frame image{place, number, sequence_.name(number), std::nullopt, legend_};
+            if (is_ours && is_wanted(image.name)) {
+                image.scene = scene_with_legend(place);
+                image.legend = legend_;
+            }
             // The view of the first image fixes that of the others, so its scene is needed in any
             // case.
             else if (place == 0 && sequence_.fit_to == FitTo::first && !is_still())
-                static_cast<void>(scene(place));
+                static_cast<void>(scene(place, nullptr));
             if (is_ours) return image;
         }
     }
@@ -104,9 +109,19 @@ class Stage {
                std::filesystem::file_size(name, unknown) == 0;
     }
 
-    core::Scene scene(std::size_t place) {
+    /// Returns a scene. Sets `legend_` if the sequence wants legends, except for a scene that is
+    /// used again.
+    core::Scene scene_with_legend(std::size_t place) {
+        if (!sequence_.wants_legends || still_) return scene(place, nullptr);
+        const auto legend = std::make_shared<Legend>();
+        core::Scene result = scene(place, legend.get());
+        legend_ = legend;
+        return result;
+    }
+
+    core::Scene scene(std::size_t place, Legend* legend) {
         core::Scene scene =
-            still_ ? *std::exchange(still_, std::nullopt) : sequence_.source->scene();
+            still_ ? *std::exchange(still_, std::nullopt) : sequence_.source->scene(legend);
         if (place == 0 && sequence_.fit_to == FitTo::first) sequence_.source->keep_scale();
         if (!is_still() || !is_set_up_) {
             const core::Settings settings = sequence_.settings(scene.settings());
@@ -139,7 +154,7 @@ class Stage {
         const ProgressLine line(sequence_.verbosity,
                                 [&] { return std::to_string(count) + " frames surveyed"; });
         for (; sequence_.source->next(); ++count) {
-            const core::Scene scene = sequence_.source->scene();
+            const core::Scene scene = sequence_.source->scene(nullptr);
             core::Camera camera = scene.camera();
             const core::AutoCamera auto_camera = change_.auto_camera(scene, camera);
             if (auto_camera.fit_camera) {
@@ -159,6 +174,7 @@ class Stage {
     std::optional<core::Frame> frame_; // contains the shapes of all scenes
     std::optional<core::View> fixed_;
     std::optional<core::Scene> still_;
+    std::shared_ptr<const Legend> legend_ = std::make_shared<Legend>(); // of the last scene
     bool is_set_up_ = false;
     std::size_t made_ = 0, number_ = 0;
 };
@@ -208,9 +224,8 @@ class StripProgress {
 /// stands for one %.
 class NumberedName {
   public:
-    /// Throws BadInput for --output if the pattern is malformed. `needs_number`: false if a pattern
-    /// without a number is acceptable, for a single file.
-    NumberedName(const std::string& pattern, bool needs_number);
+    /// See numbered_names().
+    NumberedName(const std::string& option, const std::string& pattern, bool needs_number);
     std::string operator()(std::size_t number) const;
 
   private:
@@ -220,10 +235,11 @@ class NumberedName {
     char fill_ = ' ';
 };
 
-NumberedName::NumberedName(const std::string& pattern, bool needs_number) {
+NumberedName::NumberedName(const std::string& option, const std::string& pattern,
+                           bool needs_number) {
     const auto refuse = [&] {
         throw BadInput(
-            "--output", "",
+            option, "",
             "must have one placeholder for the image number, such as %05d, and %% for a %, got \"" +
                 printable(pattern, 4096) + "\"");
     };
@@ -271,12 +287,12 @@ void refuse_turn(const Turn& turn, const std::string& otherwise) {
                        std::to_string(turn.count));
 }
 
-SequenceFrame first_frame(const FrameSequence& sequence) {
+SequenceFrame first_frame(const FrameSequence& sequence, Legend* legend) {
     const auto start = std::chrono::steady_clock::now();
     const ProgressLine line(sequence.verbosity, [start] {
         return "reading the frame: " + duration_text(seconds_since(start));
     });
-    return Stage(sequence).first();
+    return Stage(sequence).first(legend);
 }
 
 void draw(const FrameSequence& sequence) {
@@ -295,8 +311,9 @@ void draw(const FrameSequence& sequence) {
             // If there is only one scene, the next image reuses it after this one is rendered.
             if (!stage.is_still()) next = std::async(std::launch::async, make_next);
             if (image->scene) {
-                sequence.draw(*image->scene, image->place, image->name,
-                              progress.of_image(sequence.settings(image->scene->settings())));
+                sequence.draw(
+                    {*image->scene, *image->legend, image->place, image->number, image->name},
+                    progress.of_image(sequence.settings(image->scene->settings())));
                 progress.drawn();
                 stage.take_back(*std::move(image->scene));
             } else {
@@ -317,10 +334,15 @@ void draw(const FrameSequence& sequence) {
 }
 
 std::function<std::string(std::size_t)>
+numbered_names(const std::string& option, const std::string& pattern, bool needs_number) {
+    return NumberedName(option, pattern, needs_number);
+}
+
+std::function<std::string(std::size_t)>
 image_names(const std::string& scene, const std::optional<std::string>& output, bool is_one) {
     const std::string standard =
         with_percents_doubled(default_output(scene, "")) + (is_one ? ".png" : "-%05d.png");
-    const NumberedName name(output.value_or(standard), !is_one);
+    const NumberedName name("--output", output.value_or(standard), !is_one);
     return [=](std::size_t number) {
         std::string file = name(number);
         require_other_than_scene("--output", file, scene);

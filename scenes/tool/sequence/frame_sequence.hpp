@@ -12,6 +12,15 @@
 
 namespace raylane::scenes {
 
+/// An image of a sequence.
+struct SequenceImage {
+    const core::Scene& scene;
+    const Legend& legend; ///< empty unless the sequence wants legends
+    std::size_t place;    ///< in the sequence, from 0
+    std::size_t number;   ///< in the names of its files
+    const std::string& name;
+};
+
 /// Several images that belong together: frames of atoms, values of parameters, views of a turn.
 struct FrameSequence {
     std::shared_ptr<core::Workers> workers; ///< used by `source`
@@ -30,30 +39,36 @@ struct FrameSequence {
     Verbosity verbosity = Verbosity::normal;
     /// Returns the settings to use for a scene, given the scene's own.
     std::function<core::Settings(const core::Settings&)> settings;
-    /// Renders the scene of the image at a place, from 0, into a file.
-    std::function<void(const core::Scene&, std::size_t place, const std::string& name,
-                       simd::Progress&)>
-        draw;
+    bool wants_legends = false; ///< with atoms
+    /// Renders an image into its file.
+    std::function<void(const SequenceImage&, simd::Progress&)> draw;
 };
 
 /// Throws BadInput. `otherwise`: the number of images without the turn.
 [[noreturn]] void refuse_turn(const Turn& turn, const std::string& otherwise);
 
-/// The scene of an image and the name of its file.
+/// The scene of an image, the number in the names of its files, and the name of its file.
 struct SequenceFrame {
     core::Scene scene;
+    std::size_t number;
     std::string name;
 };
 
-/// Returns the scene and file name of the first image, whether or not that file exists. The
-/// caller renders it. Exceptions of the source propagate.
-SequenceFrame first_frame(const FrameSequence& sequence);
+/// Returns the first image, whether or not its file exists. The caller renders it. `legend`, unless
+/// null, receives the meaning of its shapes. Exceptions of the source propagate.
+SequenceFrame first_frame(const FrameSequence& sequence, Legend* legend);
 
 /// Renders all images. The scene of the next one is made while one is rendered. Exceptions of the
 /// source and of `sequence.draw` propagate after the previous images are drawn. Throws BadInput
 /// if the turn has another number of images than the source: before the first image too many,
 /// or after the last one.
 void draw(const FrameSequence& sequence);
+
+/// Returns a function from the number of an image to the name of a file, which an option gives by
+/// a pattern such as "frame-%05d.png". `needs_number`: false if a pattern without a number is
+/// acceptable, for a single file. Throws BadInput, with the option, for a malformed pattern.
+std::function<std::string(std::size_t)>
+numbered_names(const std::string& option, const std::string& pattern, bool needs_number);
 
 /// Returns a function from the number of an image to the name of its file, according to --output.
 /// `is_one`: there is a single image, whose name needs no number. Both functions throw BadInput

@@ -24,7 +24,10 @@ class Sweep : public SceneSource {
         options_.parameters = parameters_[next_];
         return next_++;
     }
-    core::Scene scene() override { return load_scene(path_, options_); }
+    core::Scene scene(Legend* legend) override {
+        options_.legend = legend;
+        return load_scene(path_, options_);
+    }
     void rewind() override { next_ = 0; }
     std::size_t count() const override { return parameters_.size(); }
 
@@ -62,15 +65,16 @@ class Trajectory : public SceneSource {
         at_ = wanted;
         return at_;
     }
-    core::Scene scene() override {
+    core::Scene scene(Legend* legend) override {
         DrawingScale scale;
-        core::Scene scene =
-            draw_structure(structure_, options_.drawing, file_.name(), options_.workers, &scale,
-                           [this](const std::string& remark) {
-                               // Only once for all frames.
-                               if (!std::exchange(has_remarked_, true) && options_.on_remark)
-                                   options_.on_remark(remark);
-                           });
+        core::Scene scene = draw_structure(
+            structure_, options_.drawing, file_.name(), options_.workers, &scale,
+            [this](const std::string& remark) {
+                // Only once for all frames.
+                if (!std::exchange(has_remarked_, true) && options_.on_remark)
+                    options_.on_remark(remark);
+            },
+            legend);
         if (scale_)
             scale_->include(scale);
         else

@@ -21,8 +21,8 @@ class SceneSource {
     /// Advances to the next scene and returns the number in its image's name, or nothing at the
     /// end.
     virtual std::optional<std::size_t> next() = 0;
-    /// Returns the current scene.
-    virtual core::Scene scene() = 0;
+    /// Returns the current scene. `legend`, unless null, receives the meaning of its shapes.
+    virtual core::Scene scene(Legend* legend) = 0;
     /// Returns to the start.
     virtual void rewind() = 0;
     /// Returns the maximum number of scenes, or 0 if it is unknown.

@@ -19,9 +19,10 @@ double samples_of(const core::Settings& settings) {
 
 } // namespace
 
-ImageMaker::ImageMaker(core::Scene scene, simd::RenderOptions options,
+ImageMaker::ImageMaker(core::Scene scene, MakeOverlay make_overlay, simd::RenderOptions options,
                        std::function<void()> on_image)
-    : options_(std::move(options)), on_image_(std::move(on_image)), scene_(std::move(scene)) {
+    : options_(std::move(options)), on_image_(std::move(on_image)), scene_(std::move(scene)),
+      make_overlay_(std::move(make_overlay)) {
     options_.progress = &progress_;
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -46,10 +47,11 @@ void ImageMaker::show(core::View view, const core::Settings& settings) {
     wake_.notify_all();
 }
 
-void ImageMaker::replace(core::Scene scene) {
+void ImageMaker::replace(core::Scene scene, MakeOverlay make_overlay) {
     interrupt();
     const std::lock_guard lock(scene_mutex_);
     scene_ = std::move(scene);
+    make_overlay_ = std::move(make_overlay);
 }
 
 std::optional<ImageMaker::Image> ImageMaker::take() {
@@ -108,6 +110,7 @@ void ImageMaker::draw(const std::stop_token& stop, const core::Settings& setting
     while (seconds_per_sample_ > 0.0 && level + 1 < levels.size() - 1 &&
            samples_of(settings_of(levels[level + 1])) * seconds_per_sample_ < soon)
         ++level;
+    const auto overlay = make_overlay_ ? make_overlay_(scene_, settings) : nullptr;
     for (; level < levels.size(); ++level) {
         const bool is_last = level + 1 == levels.size();
         const auto start = std::chrono::steady_clock::now();
@@ -119,7 +122,7 @@ void ImageMaker::draw(const std::stop_token& stop, const core::Settings& setting
             const std::lock_guard lock(mutex_);
             if (stop.stop_requested() || is_interrupted_ || !rendering.complete) return;
             if (of_level.quality == 0.0F) seconds_per_sample_ = seconds / samples_of(of_level);
-            image_ = Image{std::move(rendering.film), is_last};
+            image_ = Image{std::move(rendering.film), is_last, overlay};
         }
         on_image_();
     }

@@ -1,12 +1,16 @@
 #include "core/scene/camera_rays.hpp"
 #include "core/scene/transfer.hpp"
-#include "scenes/annotation/annotations.hpp"
+#include "scenes/annotation/composer.hpp"
+#include "scenes/annotation/furniture.hpp"
+#include "scenes/annotation/overlay.hpp"
 #include "scenes/annotation/projector.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/scene_file.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/files/message_of.hpp"
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <random>
 
@@ -37,6 +41,11 @@ Drawn drawn_of(const std::string& name, const std::string& text,
 
 Drawn drawn(const std::string& color) {
     return drawn_of("a.xyz", atoms, [&](Drawing& d) { d.color = color; });
+}
+
+Sheet sheet_of(const Annotations& annotations, const Legend& legend, const AnnotatedView& view,
+               const OnRemark& on_remark) {
+    return SheetComposer(annotations, legend, on_remark).compose(view, on_remark);
 }
 
 AnnotatedView view_of(const Drawn& of) {
@@ -219,12 +228,15 @@ TEST_CASE("annotations that have no effect or no room are reported or refused") 
         return remarks.empty() ? "" : remarks[0];
     };
     CHECK(remark({.legend = true}).empty());
-    CHECK(remark({.legend = true, .legend_title = "Charge"}) ==
-          "--legend-title is ignored, because no colour stands for a number");
+    CHECK(remark({.legend = true, .legend_title = "Atoms"}).empty());
+    CHECK(has(svg({.legend = true, .legend_title = "Atoms"}, of), ">Atoms</text>"));
     CHECK(remark({.legend = true, .font_size = 400.0}) ==
           "--font-size: texts are 400 pixels high in an image of 800 x 600: too large for it");
     CHECK(remark({.legend = true, .font_size = 2.5}) ==
           "--font-size: texts are 2.5 pixels high in an image of 800 x 600: too small to read");
+    CHECK(remark({.legend = true, .font_size = 7.0}) ==
+          "--font-size: texts are 7 pixels high in an image of 800 x 600: too small to read");
+    CHECK(remark({.legend = true, .font_size = 8.0}).empty());
     for (const double length : {1e-3, 1e3})
         CHECK(has(tests::message_of<BadInput>([&] { svg({.scale_bar = length}, of); }),
                   "--scale-bar: must be auto or in the image, which is"));
@@ -333,4 +345,233 @@ TEST_CASE("an overlay is blended in the codes of the image") {
     CHECK(std::abs(clear.alpha_at(0, 0) - 128.0F / 255.0F) < 1e-6F);
     CHECK(core::encode(clear.at(0, 0).x / clear.alpha_at(0, 0), core::Transfer::srgb) == 255);
     CHECK(clear.at(0, 0).y == 0.0F);
+}
+
+TEST_CASE("legend, axes, scale bar, labels and distances do not meet") {
+    const Drawn of = GENERATE(drawn("element"), drawn("charge"));
+    Annotations annotations{.legend = true,
+                            .scale_bar = 0.0,
+                            .axes = Axes::of_space,
+                            .labels = {label_words_of("--label", "element O: {element}"),
+                                       label_words_of("--label", "element H: {element}{index}")},
+                            .distances = {distance_words_of("--distance", "index 3: index 4")}};
+    annotations.is_steady = GENERATE(false, true);
+    annotations.axes_on_right = GENERATE(false, true);
+    const auto [width, height] = GENERATE(std::pair(800, 600), std::pair(300, 225),
+                                          std::pair(160, 120), std::pair(120, 160));
+    AnnotatedView view = view_of(of);
+    view.width = width;
+    view.height = height;
+    std::vector<std::string> remarks;
+    const Sheet sheet = sheet_of(annotations, of.legend, view,
+                                 [&](const std::string& remark) { remarks.push_back(remark); });
+    CAPTURE(width, height, annotations.is_steady);
+    struct Part {
+        std::string name;
+        Box box;
+    };
+    std::vector<Part> parts;
+    for (const MarkGroup& group : sheet.groups)
+        for (const Mark& mark : group.marks)
+            // The line of a distance may cross others.
+            if (!group.name.starts_with("distance") || std::holds_alternative<SheetText>(mark))
+                parts.push_back({group.name, box_of(mark)});
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto& [name, box] = parts[i];
+        const bool is_at_atoms = name.starts_with("label") || name.starts_with("distance");
+        const bool is_in =
+            box.left >= 0.0 && box.top >= 0.0 && box.right <= width && box.bottom <= height;
+        CHECK((is_at_atoms || is_in));
+        for (std::size_t j = 0; j < i; ++j) {
+            CAPTURE(name, parts[j].name);
+            const bool are_labels = name.starts_with("label") && parts[j].name.starts_with("label");
+            CHECK((are_labels || name == parts[j].name || !box.meets(parts[j].box)));
+        }
+    }
+    const bool has_all = has(svg_of(sheet), "id=\"axes\"") &&
+                         has(svg_of(sheet), "id=\"scale-bar\"") &&
+                         has(svg_of(sheet), "id=\"legend");
+    const bool is_reported = std::any_of(remarks.begin(), remarks.end(), [](const auto& remark) {
+        return has(remark, "no room in an image of");
+    });
+    CHECK(has_all != is_reported);
+    CHECK((has_all || width < 300));
+}
+
+TEST_CASE("annotations without room are reported") {
+    const Drawn of = drawn("element");
+    AnnotatedView view = view_of(of);
+    view.width = 40;
+    view.height = 30;
+    std::vector<std::string> remarks;
+    const Sheet sheet =
+        sheet_of({.legend = true, .scale_bar = 0.0, .axes = Axes::of_space}, of.legend, view,
+                 [&](const std::string& remark) { remarks.push_back(remark); });
+    CHECK(sheet.groups.size() < 3);
+    CHECK(std::any_of(remarks.begin(), remarks.end(), [](const auto& remark) {
+        return has(remark, "no room in an image of 40 x 30");
+    }));
+}
+
+TEST_CASE("the texts of a distance and of a label are not on one place") {
+    const Drawn of = drawn("element");
+    Annotations annotations;
+    annotations.labels = {label_words_of("--label", "element H: a long label at the middle")};
+    annotations.distances = {distance_words_of("--distance", "index 3: index 4"),
+                             distance_words_of("--distance", "index 4: index 3")};
+    const Sheet sheet = sheet_of(annotations, of.legend, view_of(of), {});
+    REQUIRE(sheet.groups.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            CHECK(
+                !box_of(sheet.groups[i].marks.back()).meets(box_of(sheet.groups[j].marks.back())));
+}
+
+TEST_CASE("atoms that the image does not show have no labels and distances") {
+    const auto cut = [](Drawing& d) {
+        d.style = Style::spheres;
+        d.cuts = {cut_plane_of("--cut", "x<1.4")}; // O is at 3, with a radius of 1.52
+    };
+    const auto hide = [](Drawing& d) { d.hide = {"element O"}; };
+    const auto slab = [](Drawing& d) {
+        d.style = Style::spheres;
+        d.view = core::NamedView{"", {-1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}};
+        d.slab = std::pair(-3.0, -0.3); // depths grow with x; the middle is 1.5
+    };
+    const Drawn of = drawn_of(
+        "a.xyz", atoms, GENERATE_COPY(values<std::function<void(Drawing&)>>({cut, hide, slab})));
+    std::vector<std::string> remarks;
+    CHECK(labels_of(of, "all: {element}{index}", remarks) == "C1 H3 H4 ");
+    CHECK(remarks.empty());
+    CHECK(labels_of(of, "element O: {element}", remarks).empty());
+    REQUIRE(remarks.size() == 1);
+    CHECK(remarks[0] == "--label \"element O\" is left out, as the image shows none of its atoms");
+    Annotations distances;
+    distances.distances = {distance_words_of("--distance", "index 1: index 2")};
+    CHECK(remarks_of(distances, of) ==
+          std::vector<std::string>{"--distance \"index 1: index 2\" is left out, as the image "
+                                   "shows no atoms of one of its ends"});
+    CHECK(svg(distances, of).find("3.00") == std::string::npos);
+    CHECK(has(svg(distances, drawn("element")), "3.00"));
+}
+
+TEST_CASE("copies of atoms that planes cut away have no labels") {
+    const Drawn of = drawn_of(
+        "a.xyz", "1\nLattice=\"4 0 0 0 4 0 0 0 4\" pbc=\"T T T\"\nCs 0 0 0\n", [](Drawing& d) {
+            d.style = Style::spheres;
+            d.radius = "0.5";
+            d.cuts = {cut_plane_of("--cut", "x<2")};
+            d.view = core::NamedView{"", {-1.0F, -0.3F, -0.2F}, {0.0F, 0.0F, 1.0F}};
+        });
+    std::vector<std::string> remarks;
+    CHECK(labels_of(of, "all: {element}", remarks) == "Cs Cs Cs Cs ");
+}
+
+TEST_CASE("the label of a chain is not at its ligand that a cartoon does not show") {
+    Legend legend;
+    LoadOptions options;
+    options.legend = &legend;
+    options.drawing.style = Style::cartoon;
+    const core::Scene scene = load_scene(RAYLANE_SOURCE_DIR "/scenes/protease.pdb.gz", options);
+    core::Camera camera;
+    camera.from = {0.0F, 0.0F, 200.0F};
+    camera.at = {0.0F, 0.0F, 0.0F};
+    const auto place_of = [&](const std::string& label) {
+        Annotations annotations;
+        annotations.labels = {label_words_of("--label", label)};
+        const Sheet sheet =
+            sheet_of(annotations, legend, {camera, 800, 600, core::Color(1.0F), &scene}, {});
+        REQUIRE(sheet.groups.at(0).marks.size() == 1);
+        const Point at = std::get<SheetText>(sheet.groups[0].marks[0]).at;
+        return std::pair(at.x, at.y);
+    };
+    CHECK(place_of("chain A: {chain}") == place_of("chain A and not ligand: {chain}"));
+    std::vector<std::string> remarks;
+    SheetComposer({.labels = {{"ligand", "L"}}}, legend,
+                  [&](const std::string& remark) { remarks.push_back(remark); });
+    CHECK(remarks.size() == 1);
+}
+
+TEST_CASE("legend and axes stay while the camera moves, if they are steady") {
+    const Drawn of = drawn("element");
+    Annotations annotations{.legend = true,
+                            .axes = Axes::of_space,
+                            .labels = {label_words_of("--label", "all: {index}")},
+                            .is_steady = true};
+    std::vector<Sheet> sheets;
+    for (const float x : {-3.0F, 0.5F, 4.0F}) {
+        core::Camera camera = of.scene.camera();
+        camera.from.x += x;
+        camera.at.x += 0.2F * x;
+        sheets.push_back(sheet_of(annotations, of.legend, {camera, 300, 225, {}}, {}));
+    }
+    const auto origin = [](const Sheet& sheet) {
+        for (const MarkGroup& group : sheet.groups)
+            if (group.name == "axes")
+                for (const Mark& mark : group.marks)
+                    if (const auto* const line = std::get_if<SheetLine>(&mark)) return line->from;
+        return Point{-1.0, -1.0};
+    };
+    for (const Sheet& sheet : sheets) {
+        CHECK(std::abs(origin(sheet).x - origin(sheets[0]).x) < 1e-9);
+        CHECK(std::abs(origin(sheet).y - origin(sheets[0]).y) < 1e-9);
+    }
+}
+
+TEST_CASE("a legend that is refused says why") {
+    const auto message = [](const Drawn& of, const Annotations& annotations) {
+        return tests::message_of<BadInput>([&] { svg(annotations, of); });
+    };
+    CHECK(message(drawn("orange"), {.legend = true, .is_legend_implied = true}) ==
+          "--legend-title: must have colours of elements, chains or numbers to explain, but the "
+          "atoms have colours by name");
+    const Drawn scene =
+        drawn_of("a.json", R"({"camera": "auto", "materials": {"a": {}}, "objects": [{"type":)"
+                           R"("sphere", "center": [0, 0, 0], "radius": 1, "material": "a"}]})");
+    CHECK(message(scene, {.legend = true}) ==
+          "--legend: goes with a file of atoms, not with a scene");
+    Drawn rainbow = drawn("orange");
+    rainbow.legend.has_too_many_colors = true;
+    CHECK(message(rainbow, {.legend = true}) ==
+          "--legend: must have at most 64 colours to explain, got more: colours of residues have "
+          "no legend");
+    CHECK(tests::message_of<BadInput>([] { label_words_of("--label", "index 1: {element"); }) ==
+          "--label: must have a } behind each {, got \"{element\"");
+}
+
+TEST_CASE("options of annotations have the words of the command line") {
+    Annotations annotations;
+    annotations.has_dashes = false;
+    for (const auto& [name, text] : {std::pair<std::string, std::string>{"legend", "on"},
+                                     {"legend_title", "Atoms"},
+                                     {"scale_bar", "2.5"},
+                                     {"triad", "on"},
+                                     {"labels", "index 1: a"},
+                                     {"labels", "all: b"},
+                                     {"--distance", "index 1: index 2"},
+                                     {"font", "serif"},
+                                     {"font_size", "12"}})
+        CHECK(set_option(annotations, name, text));
+    CHECK(annotations.legend);
+    CHECK(!annotations.is_legend_implied);
+    CHECK(annotations.legend_title == "Atoms");
+    CHECK(*annotations.scale_bar == 2.5);
+    CHECK(*annotations.axes == Axes::automatic);
+    CHECK(annotations.labels.at(1).option == "labels/1");
+    CHECK(annotations.distances.at(0).to == "index 2");
+    CHECK(annotations.font_size == 50.0); // 12 points at 300 pixels per inch
+    CHECK(annotations.option("scale-bar") == "scale_bar");
+    CHECK(!set_option(annotations, "style", "balls"));
+    for (const auto& [name, text] : {std::pair<std::string, std::string>{"legend", "yes"},
+                                     {"scale_bar", "0"},
+                                     {"triad", "abx"},
+                                     {"labels", "all"},
+                                     {"font_size", "0.5"}})
+        CHECK_THROWS_AS(set_option(annotations, name, text), BadInput);
+}
+
+TEST_CASE("an overlay of codes is blended over codes") {
+    CHECK(over(0, 0x123456) == 0x123456);
+    CHECK(over(0xFFABCDEF, 0x123456) == 0xABCDEF);
+    CHECK(over(0x80800000U, 0xFFFFFF) == 0xFF7F7F);
 }

@@ -201,8 +201,8 @@ TEST_CASE("annotations in a file leave the image as it is") {
     CHECK(has(fixture.error({"--label", "all: {elemnt}"}), "did you mean \"{element}\"?"));
     CHECK(has(fixture.error({"--label", "element Fe: x", "--annotations", "b.svg"}),
               "--label: \"element Fe\" selects none of 3 atoms"));
-    const Outcome outcome = fixture.figure("t%d.png", joined(annotated, {"--turn", "360/2"}));
-    CHECK(has(outcome.err, "goes with a single image"));
+    CHECK(has(fixture.error({"--legend", "--part", "1/2", "--bits", "32"}),
+              "--legend: goes with a whole image, without --part"));
     // Texts on the image need a module, which may be missing.
     const Outcome over = fixture.figure("over.png", annotated);
     if (over.code != 0) {
@@ -214,4 +214,38 @@ TEST_CASE("annotations in a file leave the image as it is") {
     CHECK(has(other.err, "--font: \"No Such Font\" is not installed: texts are in "));
     CHECK(!scenes::read_image(fixture.path() / "over.png").rgb.is_same(plain.rgb));
     CHECK(fixture.verifies("over.png"));
+}
+
+TEST_CASE("each image of a sequence has its annotations") {
+    const Figures fixture;
+    fixture.write("two.xyz", "2\n\nO 0 0 0\nC 3 0 0\n2\n\nO 0 0 0\nC 4 0 0\n");
+    const Options options = {
+        "--size",     "160x120",          "--spp",       "1",   "--label", "element C: carbon",
+        "--distance", "index 1: index 2", "--scale-bar", "auto"};
+    const auto render = [&](const Options& more) {
+        return fixture.run(joined(joined({"render", "two.xyz"}, options), more));
+    };
+    const auto file = [&](const std::string& name) { return content_of(fixture.path() / name); };
+    const Outcome outcome = render({"-o", "f%d.png", "--frames", ":", "--annotations", "f%d.svg"});
+    REQUIRE(outcome.code == 0);
+    CHECK(has(file("f0.svg"), ">3.00 \u00c5</text>"));
+    CHECK(has(file("f1.svg"), ">4.00 \u00c5</text>"));
+    CHECK(has(file("f1.svg"), ">carbon</text>"));
+    // The remark on perspective is printed once.
+    CHECK(outcome.err.find("--scale-bar holds") == outcome.err.rfind("--scale-bar holds"));
+    CHECK(has(outcome.err, "--scale-bar holds"));
+    REQUIRE(render({"-o", "t%d.png", "--turn", "360/2", "--annotations", "t%d.svg"}).code == 0);
+    CHECK(file("t0.svg") != file("t1.svg"));
+    REQUIRE(render({"-o", "one%d.png", "--frames", "1", "--annotations", "one%d.svg"}).code == 0);
+    CHECK(has(file("one1.svg"), ">4.00 \u00c5</text>"));
+    REQUIRE(render({"-o", "one.png", "--frames", "1", "--annotations", "one.svg"}).code == 0);
+    CHECK(file("one.svg") == file("one1.svg"));
+    const Outcome unnumbered = render({"-o", "u%d.png", "--frames", ":", "--annotations", "u.svg"});
+    CHECK(unnumbered.code == 2);
+    CHECK(has(unnumbered.err, "--annotations: must have one placeholder for the image number"));
+    if (render({"-o", "over%d.png", "--frames", ":"}).code != 0) return; // without Pango
+    CHECK(!scenes::read_image(fixture.path() / "over1.png")
+               .rgb.is_same(scenes::read_image(fixture.path() / "f1.png").rgb));
+    CHECK(fixture.run({"verify", "over1.png", "two.xyz", "--whole", "-q"}).code == 0);
+    CHECK(fixture.run({"verify", "over0.png", "two.xyz", "--whole", "-q"}).code == 0);
 }

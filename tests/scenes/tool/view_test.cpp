@@ -3,6 +3,7 @@
 #include "tests/scenes/tool/tool_fixture.hpp"
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
@@ -134,6 +135,44 @@ TEST_CASE("a window shows the image of render and follows changes of the scene")
     }
     viewer.send(SIGTERM);
     CHECK(viewer.wait().code == 128 + SIGTERM);
+}
+
+TEST_CASE("a window shows annotations over the image") {
+    const ToolFixture fixture;
+    std::filesystem::create_directory(fixture.path() / "screen");
+    const Display display(fixture.path() / "screen");
+    if (display.name().empty()) {
+        WARN("skipped: Xvfb is missing");
+        return;
+    }
+    fixture.write("two.xyz", "2\n\nO 0 0 0\nC 3 0 0\n");
+    const Options options = {
+        "two.xyz",     "--size", "640x480",  "--label",    "element C: {element}",
+        "--scale-bar", "auto",   "--legend", "--distance", "index 1: index 2"};
+    const Outcome rendered = fixture.run(joined(joined({"render"}, options), {"-o", "out/a.ppm"}));
+    if (rendered.code != 0) {
+        WARN("skipped: pango is missing");
+        return;
+    }
+    Process viewer(joined({"view"}, options), [&] {
+        Setup setup = on_display(display.name());
+        setup.directory = fixture.path();
+        return setup;
+    }());
+    const auto expected =
+        pixels_of(fixture.output() / "a.ppm", std::size_t{3} * screen_width * screen_height);
+    // The window blends codes, and files have rounded floats of them.
+    CHECK(comes_true([&] {
+        const auto pixels = display.pixels();
+        return std::equal(pixels.begin(), pixels.end(), expected.begin(), expected.end(),
+                          [](int a, int b) { return std::abs(a - b) <= 1; });
+    }));
+    viewer.send(SIGTERM);
+    CHECK(viewer.wait().code == 128 + SIGTERM);
+    const Outcome wrong =
+        fixture.run({"view", "two.xyz", "--label", "element Fe: iron"}, on_display(display.name()));
+    CHECK(wrong.code == 2);
+    CHECK(wrong.err == "raylane: --label: \"element Fe\" selects none of 2 atoms\n");
 }
 
 TEST_CASE("A click names the material of the object") {
