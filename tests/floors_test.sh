@@ -30,7 +30,7 @@ scenes/formats/built: core/* scenes/files scenes/formats/json scenes/export
 scenes/export: core/* scenes/files scenes/formats/built scenes/formats/json scenes/formats/pov
 scenes/annotation: core/* scenes/files scenes/formats/structure
 scenes/tool/*: scenes/annotation core/* simd/* scenes/export scenes/files scenes/formats/* scenes/images scenes/api/cpp/raylane
-scenes/api/cpp: core/* simd/* scenes/export scenes/files scenes/formats scenes/formats/structure scenes/images raylane
+scenes/api/cpp: core/* simd/* scenes/annotation scenes/export scenes/files scenes/formats scenes/formats/structure scenes/images raylane
 scenes/api/cpp/raylane scenes/api/examples: raylane
 scenes/api/c: raylane scenes/api/cpp
 scenes/api/python: raylane core/scene/fields.hpp

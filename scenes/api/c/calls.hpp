@@ -43,6 +43,9 @@ namespace raylane::c {
 /// empty.
 RAYLANE_API raylane_status failed(raylane_status status, const char* text) noexcept;
 
+/// Clears the remarks of raylane_remarks(), and returns a callback that keeps those of a call.
+RAYLANE_API OnRemark keeping_remarks();
+
 /// Runs `call` and converts its exceptions to a status.
 template <class Call>
 raylane_status guarded(const Call& call) noexcept {

@@ -10,17 +10,6 @@ using namespace raylane::c;
 
 namespace {
 
-thread_local std::string kept_remarks; // NOLINT: in place of a callback
-
-/// Clears the remarks, and returns a callback that keeps those of a call.
-OnRemark keeping_remarks() {
-    kept_remarks.clear();
-    return [](const std::string& remark) {
-        if (!kept_remarks.empty()) kept_remarks += '\n';
-        kept_remarks += remark;
-    };
-}
-
 AtomOptions options_of(const raylane_atom_option* options, std::size_t count) {
     AtomOptions result;
     for (const raylane_atom_option& option : span_of("options", options, count))
@@ -29,10 +18,6 @@ AtomOptions options_of(const raylane_atom_option* options, std::size_t count) {
 }
 
 } // namespace
-
-const char* raylane_remarks(void) {
-    return kept_remarks.c_str();
-}
 
 raylane_status raylane_load(const char* path, raylane_scene** scene) {
     return scene_of(scene, [&, on_remark = keeping_remarks()] {

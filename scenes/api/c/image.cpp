@@ -34,6 +34,8 @@ raylane_status render_to(const raylane_scene* scene, const raylane_render_option
         options.crop = {from.crop_x, from.crop_y, from.crop_width, from.crop_height};
     options.aovs = to.depth != nullptr || to.normal != nullptr || to.shape_id != nullptr ||
                    to.material != nullptr || to.samples != nullptr;
+    if (from.annotations != nullptr) options.annotations = from.annotations;
+    options.on_remark = keeping_remarks();
     const std::optional<Image> image = render(drawn, options, [&](const Progress& done) {
         if (from.progress == nullptr) return true;
         const raylane_progress told = to_c(done);
@@ -58,12 +60,13 @@ raylane_status raylane_render(const raylane_scene* scene, const raylane_settings
     return guarded([&] {
         raylane_image image{};
         image.rgb = &checked("rgb", rgb);
-        return render_to(scene, {settings, threads, precision, 0, 0, 0, 0, progress, user}, image);
+        return render_to(scene, {settings, threads, precision, 0, 0, 0, 0, progress, user, nullptr},
+                         image);
     });
 }
 
 raylane_render_options raylane_default_render_options(void) {
-    return {nullptr, 0, RAYLANE_EXACT, 0, 0, 0, 0, nullptr, nullptr};
+    return {nullptr, 0, RAYLANE_EXACT, 0, 0, 0, 0, nullptr, nullptr, nullptr};
 }
 
 raylane_status raylane_render_image(const raylane_scene* scene,

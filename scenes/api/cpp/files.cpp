@@ -1,14 +1,21 @@
 #include "raylane/image.hpp"
 #include "raylane/scene.hpp"
+#include "scenes/annotation/composer.hpp"
+#include "scenes/annotation/overlay.hpp"
 #include "scenes/api/cpp/convert.hpp"
 #include "scenes/api/cpp/internals.hpp"
 #include "scenes/api/cpp/translate.hpp"
 #include "scenes/export/export.hpp"
+#include "scenes/files/atomic_file.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/scene_file.hpp"
 #include "scenes/images/writer.hpp"
 #include "simd/threads/threads.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,13 +49,92 @@ std::filesystem::path file_named(const std::filesystem::path& path) {
     return path == "-" ? "./-" : path;
 }
 
-scenes::LoadOptions atom_options(const AtomOptions& options, core::Workers& workers,
-                                 const OnRemark& on_remark) {
-    scenes::LoadOptions result;
-    result.workers = &workers;
-    result.on_remark = on_remark;
-    result.set_drawing(options);
+class AtomAnnotations final : public library::SceneAnnotations {
+  public:
+    explicit AtomAnnotations(scenes::Annotations annotations)
+        : annotations_(std::move(annotations)) {}
+
+    /// Returns the legend that loading the scene has to fill in for prepare().
+    scenes::Legend& legend() { return legend_; }
+    void prepare(const OnRemark& on_remark) { composer_.emplace(annotations_, legend_, on_remark); }
+
+    std::function<void(core::Film&)>
+    of_image(const core::Scene& scene, const core::Settings& settings, const core::Region& part,
+             const std::filesystem::path& file, const OnRemark& on_remark) const override {
+        return with_file_errors([&]() -> std::function<void(core::Film&)> {
+            const core::Color background = settings.alpha ? core::Color(1.0F) : scene.background();
+            const auto compose = [&] {
+                return composer_->compose(
+                    {scene.camera(), settings.width, settings.height, background, &scene},
+                    on_remark);
+            };
+            if (!file.empty()) {
+                const auto output = std::make_shared<scenes::AtomicFile>(file);
+                return [output, text = scenes::svg_of(compose())](core::Film&) {
+                    with_file_errors([&] {
+                        output->write(text);
+                        output->commit();
+                    });
+                };
+            }
+            const scenes::Overlay overlay(
+                "annotations: cannot write on an image; an SVG file can have them");
+            if (std::max(settings.width, settings.height) > scenes::Overlay::most)
+                throw InvalidValue("settings/" + std::string(settings.width > settings.height
+                                                                 ? "width"
+                                                                 : "height"),
+                                   "must be at most " + std::to_string(scenes::Overlay::most) +
+                                       " with annotations over the image");
+            const auto used = overlay.replaced_font(annotations_.font);
+            if (used && on_remark)
+                on_remark("font: \"" + scenes::printable(annotations_.font) +
+                          "\" is not installed: texts are in " + scenes::printable(*used));
+            return
+                [overlay, part, transfer = settings.transfer, sheet = compose()](core::Film& film) {
+                    with_file_errors([&] { overlay.cover(sheet, part, transfer, film); });
+                };
+        });
+    }
+
+  private:
+    scenes::Annotations annotations_;
+    scenes::Legend legend_;
+    std::optional<scenes::SheetComposer> composer_; // of both
+};
+
+/// Moves options of annotations from `options` to a new value. Throws scenes::BadInput.
+scenes::Annotations taken_annotations(AtomOptions& options) {
+    scenes::Annotations result;
+    result.has_dashes = false;
+    std::string first; // option
+    std::erase_if(options, [&](const auto& option) {
+        if (!scenes::set_option(result, option.first, option.second)) return false;
+        if (first.empty() && option.second != "off") first = option.first;
+        return true;
+    });
+    if (!result.any() && !first.empty())
+        throw scenes::BadInput(first, "", "goes with legend, scale_bar, triad, label or distance");
     return result;
+}
+
+/// Loads a scene of atoms by load(options).
+template <class Load>
+Scene with_options(AtomOptions options, const OnRemark& on_remark, const Load& load) {
+    return with_file_errors([&] {
+        simd::ParallelWorkers workers;
+        scenes::LoadOptions loading;
+        loading.workers = &workers;
+        loading.on_remark = on_remark;
+        scenes::Annotations annotations = taken_annotations(options);
+        loading.set_drawing(options);
+        if (!annotations.any()) return owning(load(loading));
+        annotations.axes_on_right = loading.drawing.show_axes;
+        const auto shared = std::make_shared<AtomAnnotations>(std::move(annotations));
+        loading.legend = &shared->legend();
+        core::Scene scene = load(loading);
+        shared->prepare(on_remark);
+        return owning(std::move(scene), shared);
+    });
 }
 
 void require_side(const char* field, int pixels) {
@@ -69,10 +155,8 @@ Scene load(const std::filesystem::path& path, const OnRemark& on_remark) {
 
 Scene load_atoms(const std::filesystem::path& path, const AtomOptions& options,
                  const OnRemark& on_remark) {
-    return with_file_errors([&] {
-        simd::ParallelWorkers workers;
-        return owning(
-            scenes::load_scene(file_named(path), atom_options(options, workers, on_remark)));
+    return with_options(options, on_remark, [&](const scenes::LoadOptions& loading) {
+        return scenes::load_scene(file_named(path), loading);
     });
 }
 
@@ -86,16 +170,16 @@ Scene parse(std::string_view text, const std::string& name, const OnRemark& on_r
 
 Scene parse_atoms(std::string_view text, const std::string& name, const AtomOptions& options,
                   const OnRemark& on_remark) {
-    return with_file_errors([&] {
-        simd::ParallelWorkers workers;
-        return owning(scenes::parse_scene(name, text, atom_options(options, workers, on_remark)));
+    return with_options(options, on_remark, [&](const scenes::LoadOptions& loading) {
+        return scenes::parse_scene(name, text, loading);
     });
 }
 
 void save(const Scene& scene, const std::filesystem::path& path, const OnRemark& on_remark) {
     const std::filesystem::path file = file_named(path);
-    const std::vector<std::string> differences =
+    std::vector<std::string> differences =
         with_file_errors([&] { return scenes::export_scene(file, library::Internals::of(scene)); });
+    if (library::Internals::annotations_of(scene) != nullptr) differences.push_back("annotations");
     if (on_remark)
         for (const std::string& what : differences)
             on_remark(file.string() +

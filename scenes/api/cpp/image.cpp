@@ -1,5 +1,6 @@
 #include "raylane/image.hpp"
 
+#include "core/scene/validate.hpp"
 #include "scenes/api/cpp/convert.hpp"
 #include "scenes/api/cpp/internals.hpp"
 #include "scenes/api/cpp/translate.hpp"
@@ -7,6 +8,7 @@
 #include "simd/wavefront/render.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -54,6 +56,32 @@ simd::RenderOptions inner_options(const core::Settings& settings, const RenderOp
     return inner;
 }
 
+/// Returns a function that puts a scene's annotations over a film or into a file. It is empty for a
+/// scene without annotations.
+std::function<void(core::Film&)> annotating(const Scene& scene, const core::Settings& settings,
+                                            const std::optional<core::Region>& crop,
+                                            const RenderOptions& options) {
+    const auto& annotations = library::Internals::annotations_of(scene);
+    if (annotations != nullptr &&
+        (options.annotations.empty() || options.annotations.extension() == ".svg")) {
+        try {
+            core::validate(settings);
+        } catch (const core::InvalidValue& invalid) {
+            throw InvalidValue("settings/" + invalid.field, invalid.expectation);
+        }
+        const core::Region part =
+            crop.value_or(core::Region{0, 0, settings.width, settings.height});
+        return annotations->of_image(library::Internals::of(scene), settings, part,
+                                     options.annotations, options.on_remark);
+    }
+    if (options.annotations.empty()) return {};
+    throw InvalidValue("annotations",
+                       annotations != nullptr
+                           ? "must end with .svg, got \"" + options.annotations.string() + '"'
+                           : "goes with a scene of atoms that has annotations, "
+                             "such as label or scale_bar");
+}
+
 template <class Vector>
 std::vector<float> components_of(const std::vector<Vector>& vectors) {
     std::vector<float> components;
@@ -89,7 +117,11 @@ Tile tile_of(const core::Film& film, const core::Region& region) {
 
 Image render(const Scene& scene, const RenderOptions& options) {
     const core::Settings settings = settings_for(scene, options);
-    return image_of(render_with(scene, settings, inner_options(settings, options)));
+    const simd::RenderOptions inner = inner_options(settings, options);
+    const auto annotate = annotating(scene, settings, inner.crop, options);
+    simd::Rendering rendering = render_with(scene, settings, inner);
+    if (annotate) annotate(rendering.film);
+    return image_of(std::move(rendering));
 }
 
 std::optional<Image> render(const Scene& scene, const RenderOptions& options,
@@ -97,6 +129,7 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
     if (!progress) return render(scene, options);
     const core::Settings settings = settings_for(scene, options);
     simd::RenderOptions inner = inner_options(settings, options);
+    const auto annotate = annotating(scene, settings, inner.crop, options);
     const core::Region drawn = simd::drawn_part(settings, inner.crop);
     const std::int64_t total = std::int64_t{drawn.x1 - drawn.x0} * (drawn.y1 - drawn.y0);
     simd::Progress made;
@@ -112,6 +145,7 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
     };
     simd::Rendering rendering = render_with(scene, settings, inner);
     if (!rendering.complete || has_ended) return std::nullopt;
+    if (annotate) annotate(rendering.film);
     return image_of(std::move(rendering));
 }
 

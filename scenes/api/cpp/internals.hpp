@@ -3,6 +3,7 @@
 #include "core/scene/scene.hpp"
 #include "raylane/scene.hpp"
 #include "raylane/solid.hpp"
+#include "scenes/api/cpp/scene_annotations.hpp"
 
 #include <memory>
 #include <utility>
@@ -12,8 +13,15 @@ namespace raylane::library {
 
 /// Gives the library access to the private core objects of Scene and Solid.
 struct Internals {
-    static Scene scene(std::shared_ptr<const core::Scene> scene) { return Scene(std::move(scene)); }
+    static Scene scene(std::shared_ptr<const core::Scene> scene,
+                       std::shared_ptr<const SceneAnnotations> annotations) {
+        return Scene(std::move(scene), std::move(annotations));
+    }
     static const core::Scene& of(const Scene& scene) { return *scene.scene_; }
+    /// Returns the annotations of a scene's images, or null.
+    static const std::shared_ptr<const SceneAnnotations>& annotations_of(const Scene& scene) {
+        return scene.annotations_;
+    }
     static Solid solid(core::Solid solid) {
         return Solid(std::make_shared<const core::Solid>(std::move(solid)));
     }
@@ -22,9 +30,11 @@ struct Internals {
     static const core::Transform& of(const Transform& transform) { return *transform.transform_; }
 };
 
-/// Returns the public scene that shares the ownership of a core scene.
-inline Scene owning(core::Scene&& scene) {
-    return Internals::scene(std::make_shared<const core::Scene>(std::move(scene)));
+/// Returns the public scene that shares the ownership of a core scene and of its annotations.
+inline Scene owning(core::Scene&& scene,
+                    std::shared_ptr<const SceneAnnotations> annotations = nullptr) {
+    return Internals::scene(std::make_shared<const core::Scene>(std::move(scene)),
+                            std::move(annotations));
 }
 
 } // namespace raylane::library

@@ -73,7 +73,9 @@ core::AutoCamera core_auto_camera(const AutoCamera& camera) {
 
 } // namespace
 
-Scene::Scene(std::shared_ptr<const core::Scene> scene) : scene_(std::move(scene)) {}
+Scene::Scene(std::shared_ptr<const core::Scene> scene,
+             std::shared_ptr<const library::SceneAnnotations> annotations)
+    : scene_(std::move(scene)), annotations_(std::move(annotations)) {}
 
 std::size_t Scene::shape_count() const {
     return scene_->shape_count();
@@ -155,8 +157,9 @@ Settings Scene::settings() const {
 }
 
 Scene Scene::seen_by(const Camera& camera) const {
-    return translated(
-        [&] { return owning(core::Scene(*scene_).seen_by(converted<core::Camera>(camera))); });
+    return translated([&] {
+        return owning(core::Scene(*scene_).seen_by(converted<core::Camera>(camera)), annotations_);
+    });
 }
 
 Scene Scene::with_positions(std::span<const Vec3> positions) const {

@@ -112,11 +112,17 @@ auto by_keywords(const Call& call) {
 
 py::object render_image(const Scene& scene, const py::object& settings, const py::object& threads,
                         const py::object& precision, const py::object& crop, const py::object& aovs,
-                        const py::object& progress) {
-    RenderOptions options{.settings = settings_from(settings),
-                          .threads = threads_from(threads),
-                          .precision = precision_from(precision),
-                          .aovs = bool_from(aovs, "aovs")};
+                        const py::object& progress,
+                        const std::optional<std::filesystem::path>& annotations,
+                        const py::object& on_remark) {
+    std::vector<std::string> remarks; // of the thread that renders
+    RenderOptions options{
+        .settings = settings_from(settings),
+        .threads = threads_from(threads),
+        .precision = precision_from(precision),
+        .aovs = bool_from(aovs, "aovs"),
+        .annotations = annotations.value_or(""),
+        .on_remark = [&](const std::string& remark) { remarks.push_back(remark); }};
     if (!crop.is_none()) {
         try {
             const auto [x, y, width, height] = py::cast<std::array<int, 4>>(py::tuple(crop));
@@ -145,6 +151,8 @@ py::object render_image(const Scene& scene, const py::object& settings, const py
         }
         image = drawing.take();
     }
+    for (const std::string& remark : remarks)
+        on_remark(remark);
     return arrays_of(std::move(image));
 }
 
@@ -176,14 +184,17 @@ void write_arrays(const std::filesystem::path& path, const py::object& rgb, cons
 } // namespace
 
 void bind_image(py::module_& module) {
-    module.def("render", [](const Scene& scene, const py::object& settings,
-                            const py::object& threads, const py::object& precision,
-                            const py::object& crop, const py::object& aovs,
-                            const py::object& progress) {
-        return by_keywords([&] {
-            return render_image(scene, settings, threads, precision, crop, aovs, progress);
-        });
-    });
+    module.def("render",
+               [](const Scene& scene, const py::object& settings, const py::object& threads,
+                  const py::object& precision, const py::object& crop, const py::object& aovs,
+                  const py::object& progress,
+                  const std::optional<std::filesystem::path>& annotations,
+                  const py::object& on_remark) {
+                   return by_keywords([&] {
+                       return render_image(scene, settings, threads, precision, crop, aovs,
+                                           progress, annotations, on_remark);
+                   });
+               });
     module.def("write_image", &write_arrays);
 }
 

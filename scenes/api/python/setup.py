@@ -33,6 +33,9 @@ class Build(build_ext):
         to = pathlib.Path(self.get_ext_fullpath(ext.name))
         to.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(build / "python" / "raylane" / to.name, to)
+        annotation = build / "python" / "raylane" / "raylane-annotation.so"
+        if annotation.exists():  # raylane was built with Pango
+            shutil.copy(annotation, to.parent)
 
 
 setup(

@@ -411,6 +411,27 @@ TEST_CASE("atoms are read with options in C") {
     says(raylane_load_atoms(file.path().c_str(), wrong, 1, &none), "options: must not be NULL");
 }
 
+TEST_CASE("annotations are written to a file in C") {
+    const std::string atoms = "2\n\nC 0 0 0\nO 1.2 0 0\n";
+    const raylane_atom_option labels[] = {{"label", "element O: {element}"}, {"scale_bar", "auto"}};
+    const SceneHandle scene = made<SceneHandle>([&](raylane_scene** to) {
+        return raylane_parse_atoms(atoms.data(), atoms.size(), "a.xyz", labels, 2, to);
+    });
+    const TemporaryFile file("", ".svg");
+    const std::string name = file.path().string();
+    raylane_settings settings = raylane_default_settings();
+    settings.width = settings.height = 64;
+    std::vector<float> rgb(std::size_t{3} * 64 * 64);
+    raylane_render_options options = raylane_default_render_options();
+    options.settings = &settings;
+    options.annotations = name.c_str();
+    raylane_image image{};
+    image.rgb = rgb.data();
+    REQUIRE(raylane_render_image(scene.get(), &options, &image) == RAYLANE_OK);
+    CHECK(content_of(name).find(">O</text>") != std::string::npos);
+    CHECK(std::string(raylane_remarks()).starts_with("scale_bar holds at the depth"));
+}
+
 TEST_CASE("remarks on files can be read in C") {
     const std::string pov = "camera { location <0, 0, -5> look_at 0 }\n"
                             "light_source { <1, 2, -3> color rgb 1 shadowless }\n"

@@ -15,6 +15,10 @@ using namespace raylane;
 
 namespace {
 
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
 std::string with_objects(const std::string& objects) {
     return R"({"camera": {"from": [0, 0, 90], "at": [0, 0, 0]},
         "lights": [{"type": "directional", "direction": [0, -1, 0]}], "materials": {"m": {}},
@@ -317,4 +321,72 @@ TEST_CASE("parsing reports features of a file that the scene does not have") {
     CHECK(remarks ==
           std::vector<std::string>{"a.pov:2:39: shadowless is ignored: the lights cast shadows"});
     CHECK(parse(pov, "a.pov").shape_count() == 1);
+}
+
+TEST_CASE("images of atoms have annotations, or an SVG file has them") {
+    const std::string atoms = "2\n\nC 0 0 0\nO 3 0 0\n";
+    const Scene plain = parse_atoms(atoms, "a.xyz", {});
+    const Scene scene = parse_atoms(atoms, "a.xyz",
+                                    {{"labels", "element C: {element}{index}"},
+                                     {"distance", "index 1: index 2"},
+                                     {"scale_bar", "auto"},
+                                     {"legend", "on"}});
+    const tests::TemporaryDirectory directory;
+    RenderOptions options{.settings = scene.settings()};
+    options.settings->width = 160;
+    options.settings->height = 120;
+    options.settings->grid = 1;
+    options.settings->quality = 0.0F;
+    const Image bare = render(plain, options);
+    options.annotations = directory.path() / "a.svg";
+    std::vector<std::string> remarks;
+    options.on_remark = [&](const std::string& remark) { remarks.push_back(remark); };
+    CHECK(render(scene, options).rgb == bare.rgb);
+    const std::string svg = tests::content_of(options.annotations);
+    CHECK(has(svg, ">C1</text>"));
+    CHECK(has(svg, ">3.00 \u00c5</text>"));
+    CHECK(has(svg, "id=\"scale-bar\""));
+    REQUIRE(remarks.size() == 1);
+    CHECK(remarks[0] == "scale_bar holds at the depth of the point that the camera looks at; "
+                        "orthographic makes it hold everywhere");
+    // They follow the camera.
+    Camera camera = scene.camera();
+    camera.from.x += 3.0F;
+    CHECK(render(scene.seen_by(camera), options).rgb ==
+          render(plain.seen_by(camera), options = {.settings = options.settings}).rgb);
+    options.annotations = directory.path() / "b.svg";
+    render(scene.seen_by(camera), options);
+    CHECK(tests::content_of(options.annotations) != svg);
+
+    const auto message = [&](const Scene& of, const char* file) {
+        options.annotations = file;
+        return tests::message_of<InvalidValue>([&] { render(of, options); });
+    };
+    CHECK(message(plain, "a.svg") == "annotations: goes with a scene of atoms that has "
+                                     "annotations, such as label or scale_bar");
+    CHECK(message(scene, "a.png") == "annotations: must end with .svg, got \"a.png\"");
+    const auto refusal = [&](const AtomOptions& annotations) {
+        return refusal_of([&] { parse_atoms(atoms, "a.xyz", annotations); });
+    };
+    CHECK(refusal({{"labels", "all: a"}, {"labels", "element Fe: a"}}) ==
+          "labels/1: \"element Fe\" selects none of 2 atoms");
+    CHECK(refusal({{"labels", "all"}}) ==
+          "labels/0: must be SELECTION: TEXT, such as \"residue 25: Asp 25\", got \"all\"");
+    CHECK(refusal({{"font", "serif"}}) ==
+          "font: goes with legend, scale_bar, triad, label or distance");
+    CHECK(refusal({{"triad", "abc"}}) == "triad: must be xyz: the atoms have no cell");
+    std::vector<std::string> differences;
+    save(scene, directory.path() / "a.json",
+         [&](const std::string& remark) { differences.push_back(remark); });
+    REQUIRE(differences.size() == 1);
+    CHECK(differences[0].ends_with("cannot express: annotations"));
+
+    options.annotations.clear();
+    try {
+        CHECK(render(scene, options).rgb != bare.rgb);
+        options.crop = PixelRect{0, 0, 80, 120};
+        CHECK(render(scene, options).width == 80);
+    } catch (const SystemRefused& refused) { // built without Pango
+        CHECK(has(refused.what(), "libpango1.0-dev"));
+    }
 }

@@ -63,6 +63,12 @@ struct RenderOptions {
     /// The part of the image to render. It has the same bits as in the whole image. Unset: all.
     std::optional<PixelRect> crop{};
     bool aovs = false; ///< true: fill Image::aovs
+    /// The name of an SVG file, ".svg", that receives the annotations of a scene of atoms
+    /// (AtomOptions). Empty: they are put over the image, which needs Pango. The file has the size
+    /// of the whole image, and appears complete or not at all.
+    std::filesystem::path annotations{};
+    /// Receives remarks on annotations that are left out, too small or too large.
+    OnRemark on_remark{};
 };
 
 /// A finished tile, in the memory of the image that is being rendered. Valid only during the
@@ -96,7 +102,13 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 /// Renders the image of a scene. With Precision::exact the same scene and settings give the same
 /// bits for any number of threads and on any processor. Throws InvalidValue if an option is out of
 /// range (fields "settings/width", ..., "crop", "threads", "precision") or the environment variable
-/// RAYLANE_THREADS is invalid (field "RAYLANE_THREADS"). Throws std::bad_alloc. Thread-safe.
+/// RAYLANE_THREADS is invalid (field "RAYLANE_THREADS"). Throws std::bad_alloc.
+///
+/// The annotations of a scene of atoms (AtomOptions) are put over the image after it is rendered:
+/// the colours of callbacks do not have them. Throws BadInput for a scale bar that is not in the
+/// image, and SystemRefused if raylane was built without Pango, or if the file of annotations
+/// cannot be written. Throws InvalidValue, field "annotations", for the file of a scene without
+/// annotations and for another ending. Thread-safe.
 RAYLANE_API Image render(const Scene& scene, const RenderOptions& options = {});
 
 /// Renders the image and reports its progress. The thread that has finished a tile, typically of

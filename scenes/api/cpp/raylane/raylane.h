@@ -594,9 +594,10 @@ RAYLANE_API raylane_status raylane_set_keep_from(raylane_builder* builder, size_
  * environment variable RAYLANE_THREADS is invalid. */
 RAYLANE_API raylane_status raylane_build(raylane_builder* builder, raylane_scene** scene);
 /** Returns the remarks of the calling thread's last call of raylane_load(), raylane_parse(), their
- * variants for atoms or raylane_save(), one a line; empty without remarks. These are warnings:
- * contents of a file that raylane ignores, a scene without objects, or a feature that a format
- * cannot express. Valid until the next such call of this thread. */
+ * variants for atoms, raylane_save(), raylane_render() or raylane_render_image(), one a line; empty
+ * without remarks. These are warnings: contents of a file that raylane ignores, a scene without
+ * objects, a feature that a format cannot express, or annotations that are left out. Valid until
+ * the next such call of this thread. */
 RAYLANE_API const char* raylane_remarks(void);
 /** Reads a scene from a file. `path` is in the system's encoding; "-" is a file of that name. */
 RAYLANE_API raylane_status raylane_load(const char* path, raylane_scene** scene);
@@ -605,7 +606,7 @@ RAYLANE_API raylane_status raylane_load(const char* path, raylane_scene** scene)
 RAYLANE_API raylane_status raylane_parse(const char* text, size_t length, const char* name,
                                          raylane_scene** scene);
 /** An option of scenes from atoms, same as AtomOptions in scene.hpp: {"style", "balls"},
- * {"representations", "ligand: sticks"}. */
+ * {"representations", "ligand: sticks"}, {"scale_bar", "auto"}. */
 typedef struct raylane_atom_option {
     const char *name, *value;
 } raylane_atom_option;
@@ -926,13 +927,15 @@ RAYLANE_API raylane_status raylane_render(const raylane_scene* scene,
 
 /** Options of raylane_render_image(), same as RenderOptions in image.hpp. `settings` and `progress`
  * may be NULL. The image has the part with these sides and this upper left pixel, or, if
- * crop_width and crop_height are 0, all pixels. */
+ * crop_width and crop_height are 0, all pixels. annotations: the name of an SVG file for the
+ * annotations of a scene of atoms; NULL: they are put over the image. */
 typedef struct raylane_render_options {
     const raylane_settings* settings;
     int threads, precision;
     int crop_x, crop_y, crop_width, crop_height;
     raylane_progress_callback progress;
     void* user;
+    const char* annotations;
 } raylane_render_options;
 /** Returns the default values of the C++ struct. */
 RAYLANE_API raylane_render_options raylane_default_render_options(void);

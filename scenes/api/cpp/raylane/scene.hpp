@@ -25,7 +25,8 @@ class SceneBuilder;
 } // namespace raylane::core
 namespace raylane::library {
 struct Internals;
-}
+class SceneAnnotations;
+} // namespace raylane::library
 
 namespace RAYLANE_API raylane {
 
@@ -96,7 +97,8 @@ class Scene {
     /// in the order of their ids, without spheres that are parts of constructed solids. Their
     /// radii, materials and ids stay. Other shapes, parts of solids, lights, fog and the camera
     /// stay, too, except that lights and depth-cue fog that follow an automatic camera are computed
-    /// again as by seen_by(). With Precision::exact, all answers and images have the bits of a
+    /// again as by seen_by(). Annotations are left out, as they are those of the atoms before. With
+    /// Precision::exact, all answers and images have the bits of a
     /// scene that is built of these shapes.
     ///
     /// `positions`: one for each sphere, within -1e30 to 1e30, used exactly as in SceneBuilder.
@@ -117,9 +119,11 @@ class Scene {
 
   private:
     friend struct library::Internals;
-    explicit Scene(std::shared_ptr<const core::Scene> scene);
+    Scene(std::shared_ptr<const core::Scene> scene,
+          std::shared_ptr<const library::SceneAnnotations> annotations);
 
     std::shared_ptr<const core::Scene> scene_;
+    std::shared_ptr<const library::SceneAnnotations> annotations_; // of images; may be null
 };
 
 /// Builds a scene from values that are added in any order, and checks each value as it is added.
@@ -260,11 +264,21 @@ RAYLANE_API Scene load(const std::filesystem::path& path, const OnRemark& on_rem
 /// value of a flag is "on" or "off". An option that has several values stands once for each of
 /// them. {"representations", VALUE} is the same as {"show", VALUE}, but messages number the values
 /// from 0: "representations/0: column 9: ...". {"cell", "on"} adds the edges of the unit cell.
+///
+/// Annotations are options, too: render() puts them over images of the scene, or into an SVG file.
+/// {"legend", "on"}, {"legend_title", TEXT}, {"scale_bar", "auto" or a length in angstrom},
+/// {"triad", "xyz", "abc" or "auto"}, {"label", "SELECTION: TEXT"}, {"distance", "SELECTION:
+/// SELECTION"}, {"font", NAME}, {"font_size", POINTS}, at 300 pixels per inch. {"labels", VALUE}
+/// and {"distances", VALUE} are the same, but messages number them: "labels/0: ...". save() does
+/// not write annotations.
 using AtomOptions = std::vector<std::pair<std::string, std::string>>;
 
-/// Reads a scene from a file of atoms, same as load(), with options. Also throws BadInput for an
-/// unknown option or a malformed value, with the option's name in place of the file's, and for
-/// options with a file that has no atoms.
+/// Reads a scene from a file of atoms, same as load(), with options. Throws BadInput in more
+/// cases, with the option's name in place of the file's:
+/// - an unknown option or a malformed value;
+/// - options with a file that has no atoms, except for scale bar and triad;
+/// - annotations at atoms that the file does not have;
+/// - a legend without colours.
 RAYLANE_API Scene load_atoms(const std::filesystem::path& path, const AtomOptions& options,
                              const OnRemark& on_remark = {});
 

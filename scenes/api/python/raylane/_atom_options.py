@@ -12,7 +12,8 @@ from ._errors import BadInput, InvalidValue
 
 _T = TypeVar("_T")
 
-_LISTS = ("show", "hide", "polyhedra", "cut")  # options of which several values are meant
+# options of which several values are meant
+_LISTS = ("show", "hide", "polyhedra", "cut", "label", "labels", "distance", "distances")
 _SEPARATORS = {"repeat": "x", "view": ",", "cut": ",", "background": ","}
 
 

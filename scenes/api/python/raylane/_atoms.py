@@ -124,6 +124,13 @@ def from_atoms(
     ``background``, ``cut`` (a text or a list), ``slab`` (``(-2, 2)``), and for files with displacements ``ellipsoids``,
     ``ellipses``, ``octants`` and ``probability``.
 
+    Annotations are options, too. Images of the scene have them, or an SVG file (``annotations`` of :func:`render`).
+    ``labels``: texts such as ``"resn LIG: {resi}"``. ``distances``: texts such as ``"index 1: index 5"``. ``legend`` and
+    ``legend_title``. ``scale_bar``: True for a round length, or a length in angstrom. ``triad``: ``"xyz"``, ``"abc"``, or
+    True for the axes of the cell, if there is one. ``font``, and ``font_size`` in points at 300 pixels per inch; default:
+    1/32 of the image's height, at least 10 pixels. Scenes of :meth:`Scene.seen_by` keep annotations, but pickled scenes
+    and those of :meth:`Scene.with_positions` do not.
+
     Calls ``on_remark`` for names that select nothing; default: a warning. Raises :class:`InvalidValue`, fields
     ``"symbols/0"``, ``"positions/0/2"``, ``"cell/0/2"``, ``"names/0"``, ..., and :class:`BadInput` for a malformed
     representation, with its column, and for an unknown option.

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from . import _raylane
 from ._fields import Fields
 from ._renamed import renamed, take_renamed
-from ._scene import Scene, inner
+from ._scene import Scene, _warn, inner
 from ._values import Camera, Precision, Settings
 
 OnProgress = Callable[[int, int], Optional[bool]]
@@ -169,6 +169,8 @@ def render(
     crop: Optional[Tuple[int, int, int, int]] = None,
     aovs: bool = False,
     progress: Union[bool, OnProgress] = False,
+    annotations: Optional[Union[str, os.PathLike[str]]] = None,
+    on_remark: Callable[[str], object] = _warn,
     **changed: Any,
 ) -> Image:
     """Renders the image of a scene. With ``precision="exact"`` the bits depend on the scene and settings alone.
@@ -178,6 +180,12 @@ def render(
     0 is the value of RAYLANE_THREADS, or all processors. ``crop``: the part of the image to render, as x, y, width,
     height in pixels. ``aovs=True`` adds :class:`Aovs`. ``progress``: called from time to time with the numbers of
     finished and of all pixels; True shows a bar of tqdm, if that is installed.
+
+    The image has the annotations of a scene of atoms (:func:`from_atoms`), which needs Pango when raylane is built.
+    ``annotations="labels.svg"`` writes them to an SVG file of the size of the whole image, and leaves them off the image.
+    Calls ``on_remark`` for annotations that are left out, too small or too large; default: a warning. Raises
+    :class:`BadInput` for a scale bar that is not in the image, and :class:`SystemRefused` if raylane was built without
+    Pango, or if the file cannot be written.
 
     Raises :class:`InvalidValue` if an argument is out of range, and :class:`Cancelled` if ``progress`` returns False,
     even in its last call. Ctrl-C stops the rendering at once. Other Python threads run meanwhile.
@@ -189,8 +197,9 @@ def render(
         scene = scene.seen_by(camera)
     bar = _bar() if progress is True else None
     on_progress = bar if isinstance(progress, bool) else progress
+    name = None if annotations is None else os.fspath(annotations)
     try:
-        arrays = _raylane.render(scene._scene, chosen, threads, precision, crop, aovs, on_progress)
+        arrays = _raylane.render(scene._scene, chosen, threads, precision, crop, aovs, on_progress, name, on_remark)
     finally:
         if bar is not None:
             bar.close()

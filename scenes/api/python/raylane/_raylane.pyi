@@ -168,5 +168,7 @@ def render(
     crop: Optional[Tuple[int, int, int, int]],
     aovs: bool,
     progress: Optional[Callable[[int, int], Optional[bool]]],
+    annotations: Optional[str],
+    on_remark: Callable[[str], object],
 ) -> Optional[Dict[str, Any]]: ...
 def write_image(path: str, rgb: Any, alpha: Any, transfer: str) -> None: ...

@@ -162,7 +162,7 @@ class Scene:
 
         ``positions``: shape (n, 3), float32 or float64, within -1e30 to 1e30. Row i becomes the centre of the i-th
         sphere in the order of the ids, without spheres that are parts of constructed solids. Rows that are contiguous
-        are read in place. The camera stays; fit another one by :meth:`camera_on_all` and :meth:`seen_by`. All answers
+        are read in place. Annotations are left out, as they are those of the atoms before. The camera stays; fit another one by :meth:`camera_on_all` and :meth:`seen_by`. All answers
         and images have the bits of a scene that is built of these shapes. Raises :class:`InvalidValue` for another
         number of rows (field ``positions``), for an invalid coordinate (``positions/17/2``), and for a point light on
         a surface.
@@ -222,7 +222,7 @@ class Scene:
         """Pickles the scene as ``.rl`` or, if it has constructed solids, as ``.json``.
 
         Only versions of raylane with the same version of the format ``.rl`` read the former. Features that ``.json``
-        cannot express (:meth:`save`), such as which triangles form a polygon, produce warnings.
+        cannot express (:meth:`save`), such as which triangles form a polygon, and annotations produce warnings.
         """
         with tempfile.TemporaryDirectory() as folder:
             try:
