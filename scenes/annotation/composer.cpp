@@ -67,7 +67,7 @@ std::string quoted(const DistanceWords& words) {
     return quoted(words.option, words.from + ": " + words.to);
 }
 
-constexpr const char* undrawn = " is left out, as the image shows none of its atoms";
+constexpr const char* undrawn = " is left out, as the image does not show its atoms";
 
 } // namespace
 
@@ -308,9 +308,9 @@ void SheetComposer::Image::add_blocks() {
         char height[32];
         std::snprintf(height, sizeof height, "%.3g", font_size);
         remarks.push_back(blocks.front().option + ": texts are " + height + " pixels high" + image +
-                          ", as there is no room for more: too small to read");
+                          " for lack of space: too small to read");
     }
-    if (!missing.empty()) remarks.push_back(missing + ": left out, as there is no room" + image);
+    if (!missing.empty()) remarks.push_back(missing + ": left out for lack of space" + image);
     if (of.annotations_.scale_bar && view.camera.projection == core::Projection::perspective)
         remarks.push_back(of.annotations_.option("scale-bar") +
                           " holds at the depth of the point that the camera looks at; " +

@@ -43,9 +43,9 @@ class BlockLayout {
     /// `margin`: free pixels along the sides. `gap`: between blocks.
     BlockLayout(int width, int height, double margin, double gap);
 
-    /// Moves a block to its first corner where it meets no block before it and none of `others`,
-    /// or, if there is none, to its first corner where it meets no block. Within a corner it may
-    /// be above, below or beside other blocks. Returns false if it has no room.
+    /// Moves a block to its first corner where it meets no earlier block and none of `others`. If
+    /// all corners have one of the others, these do not count. Within a corner it may be above,
+    /// below or beside other blocks. Returns false if all places meet blocks.
     bool place(Block& block, const std::vector<Box>& others);
 
   private:

@@ -92,7 +92,7 @@ def test_mistakes_name_the_option(tmp_path):
         water().render(annotations=tmp_path / "a.svg", **SIZE)
     with pytest.raises(raylane.InvalidValue, match="annotations: must end with .svg"):
         water(legend=True).render(annotations=tmp_path / "a.png", **SIZE)
-    with pytest.warns(UserWarning, match="the image shows none of its atoms"):
+    with pytest.warns(UserWarning, match="the image does not show its atoms"):
         water(labels=["element O: oxygen"], hide="element O")
 
 

@@ -392,7 +392,7 @@ TEST_CASE("legend, axes, scale bar, labels and distances do not meet") {
                          has(svg_of(sheet), "id=\"scale-bar\"") &&
                          has(svg_of(sheet), "id=\"legend");
     const bool is_reported = std::any_of(remarks.begin(), remarks.end(), [](const auto& remark) {
-        return has(remark, "no room in an image of");
+        return has(remark, "for lack of space in an image of");
     });
     CHECK(has_all != is_reported);
     CHECK((has_all || width < 300));
@@ -409,7 +409,7 @@ TEST_CASE("annotations without room are reported") {
                  [&](const std::string& remark) { remarks.push_back(remark); });
     CHECK(sheet.groups.size() < 3);
     CHECK(std::any_of(remarks.begin(), remarks.end(), [](const auto& remark) {
-        return has(remark, "no room in an image of 40 x 30");
+        return has(remark, "for lack of space in an image of 40 x 30");
     }));
 }
 
@@ -445,7 +445,7 @@ TEST_CASE("atoms that the image does not show have no labels and distances") {
     CHECK(remarks.empty());
     CHECK(labels_of(of, "element O: {element}", remarks).empty());
     REQUIRE(remarks.size() == 1);
-    CHECK(remarks[0] == "--label \"element O\" is left out, as the image shows none of its atoms");
+    CHECK(remarks[0] == "--label \"element O\" is left out, as the image does not show its atoms");
     Annotations distances;
     distances.distances = {distance_words_of("--distance", "index 1: index 2")};
     CHECK(remarks_of(distances, of) ==
