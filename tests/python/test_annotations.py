@@ -100,7 +100,7 @@ def test_moved_and_pickled_scenes_have_none(tmp_path):
     scene = water(legend=True)
     with pytest.warns(UserWarning, match="annotations"):
         again = pickle.loads(pickle.dumps(scene))
-    for other in (again, scene.with_positions(scene.spheres().centers)):
+    for other in (again, scene.with_positions(scene.spheres().center)):
         with pytest.raises(raylane.InvalidValue, match="annotations"):
             other.render(annotations=tmp_path / "a.svg", **SIZE)
 
