@@ -341,7 +341,7 @@ TEST_CASE("images of atoms have annotations, or an SVG file has them") {
     options.annotations = directory.path() / "a.svg";
     std::vector<std::string> remarks;
     options.on_remark = [&](const std::string& remark) { remarks.push_back(remark); };
-    CHECK(render(scene, options).rgb == bare.rgb);
+    CHECK((render(scene, options).rgb == bare.rgb));
     const std::string svg = tests::content_of(options.annotations);
     CHECK(has(svg, ">C1</text>"));
     CHECK(has(svg, ">3.00 \u00c5</text>"));
@@ -352,10 +352,10 @@ TEST_CASE("images of atoms have annotations, or an SVG file has them") {
     // They follow the camera.
     Camera camera = scene.camera();
     camera.from.x += 3.0F;
-    CHECK(render(scene.seen_by(camera), options).rgb ==
-          render(plain.seen_by(camera), options = {.settings = options.settings}).rgb);
+    const RenderOptions bare_options{.settings = options.settings};
     options.annotations = directory.path() / "b.svg";
-    render(scene.seen_by(camera), options);
+    CHECK((render(scene.seen_by(camera), options).rgb ==
+           render(plain.seen_by(camera), bare_options).rgb));
     CHECK(tests::content_of(options.annotations) != svg);
 
     const auto message = [&](const Scene& of, const char* file) {
@@ -383,7 +383,7 @@ TEST_CASE("images of atoms have annotations, or an SVG file has them") {
 
     options.annotations.clear();
     try {
-        CHECK(render(scene, options).rgb != bare.rgb);
+        CHECK((render(scene, options).rgb != bare.rgb));
         options.crop = PixelRect{0, 0, 80, 120};
         CHECK(render(scene, options).width == 80);
     } catch (const SystemRefused& refused) { // built without Pango

@@ -218,7 +218,7 @@ TEST_CASE("annotations in a file leave the image as it is") {
 
 TEST_CASE("each image of a sequence has its annotations") {
     const Figures fixture;
-    fixture.write("two.xyz", "2\n\nO 0 0 0\nC 3 0 0\n2\n\nO 0 0 0\nC 4 0 0\n");
+    fixture.write("two.xyz", "2\n\nO 0 0 0\nC 3 0 0\n2\n\nO 0 0 0\nC 2 0 0\n");
     const Options options = {
         "--size",     "160x120",          "--spp",       "1",   "--label", "element C: carbon",
         "--distance", "index 1: index 2", "--scale-bar", "auto"};
@@ -229,7 +229,7 @@ TEST_CASE("each image of a sequence has its annotations") {
     const Outcome outcome = render({"-o", "f%d.png", "--frames", ":", "--annotations", "f%d.svg"});
     REQUIRE(outcome.code == 0);
     CHECK(has(file("f0.svg"), ">3.00 \u00c5</text>"));
-    CHECK(has(file("f1.svg"), ">4.00 \u00c5</text>"));
+    CHECK(has(file("f1.svg"), ">2.00 \u00c5</text>"));
     CHECK(has(file("f1.svg"), ">carbon</text>"));
     // The remark on perspective is printed once.
     CHECK(outcome.err.find("--scale-bar holds") == outcome.err.rfind("--scale-bar holds"));
@@ -237,7 +237,7 @@ TEST_CASE("each image of a sequence has its annotations") {
     REQUIRE(render({"-o", "t%d.png", "--turn", "360/2", "--annotations", "t%d.svg"}).code == 0);
     CHECK(file("t0.svg") != file("t1.svg"));
     REQUIRE(render({"-o", "one%d.png", "--frames", "1", "--annotations", "one%d.svg"}).code == 0);
-    CHECK(has(file("one1.svg"), ">4.00 \u00c5</text>"));
+    CHECK(has(file("one1.svg"), ">2.00 \u00c5</text>"));
     REQUIRE(render({"-o", "one.png", "--frames", "1", "--annotations", "one.svg"}).code == 0);
     CHECK(file("one.svg") == file("one1.svg"));
     const Outcome unnumbered = render({"-o", "u%d.png", "--frames", ":", "--annotations", "u.svg"});
