@@ -36,7 +36,8 @@ def test_a_file_has_them_and_the_image_does_not(tmp_path):
         image = scene.render(annotations=tmp_path / "a.svg", **SIZE)
     assert np.array_equal(image.rgb, plain.rgb)
     svg = (tmp_path / "a.svg").read_text()
-    for text in (">O1<", ">hydrogen<", ">0.95 \u00c5<", ">Water<", ">1 \u00c5<", ">x<", "legend-colors", 'viewBox="0 0 160 120"'):
+    texts = [">O1<", ">hydrogen<", ">0.95 \u00c5<", ">Water<", ">1 \u00c5<", ">x<"]
+    for text in [*texts, "legend-colors", 'viewBox="0 0 160 120"']:
         assert text in svg, text
     remarks = []
     scene.render(annotations=tmp_path / "b.svg", on_remark=remarks.append, camera=scene.camera_on_all((0, 0, -1)), **SIZE)
