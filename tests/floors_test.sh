@@ -24,7 +24,7 @@ scenes/files scenes/images: core/* scenes/files scenes/images
 scenes/formats: core/* scenes/files scenes/formats/*
 scenes/formats/json scenes/formats/nff scenes/formats/pov scenes/formats/tachyon: core/* scenes/files scenes/formats
 scenes/formats/structure/*: core/* scenes/files scenes/formats
-scenes/formats/pov: scenes/images
+scenes/formats/json scenes/formats/pov: scenes/images
 scenes/formats/tachyon: scenes/formats/nff
 scenes/formats/built: core/* scenes/files scenes/formats/json scenes/export
 scenes/export: core/* scenes/files scenes/formats/built scenes/formats/json scenes/formats/pov

@@ -7,7 +7,7 @@
 #include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
 #include "core/scene/pattern.hpp"
-#include "core/scene/shape_coordinates.hpp"
+#include "core/scene/pattern_place.hpp"
 #include "core/shapes/shapes.hpp"
 
 #include <algorithm>
@@ -237,12 +237,13 @@ Vec3<Real> ReferenceTracer<Real>::shade(const Path& path, const Surface& surface
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::own_color(const Surface& surface) const {
     const Pattern& pattern = surface.material.pattern;
-    if (pattern.kind != PatternKind::formula || !pattern.formula.program().needs_shape)
-        return color_at(pattern, surface.point);
+    if (!pattern.needs_shape()) return color_at(pattern, surface.point);
     const Hit<Real>& hit = surface.hit;
-    return color_at(pattern, surface.point,
-                    coordinates_on(scene_.shapes(), hit.kind, hit.place, hit.face,
-                                   convert<double>(surface.point)));
+    const SurfacePlace place{hit.shape, hit.kind, hit.place, hit.face,
+                             convert<double>(surface.point)};
+    if (pattern.kind == PatternKind::image) return convert<Real>(image_at(scene_, pattern, place));
+    const PatternPlace at = place_in_pattern(scene_, pattern, place);
+    return color_at(pattern, convert<Real>(at.point), at.on_shape);
 }
 
 /// Returns the ambient light, and that of each light on this side of the surface.

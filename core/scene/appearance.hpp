@@ -6,7 +6,19 @@
 /// one of them has no default, so that a new enumerator does not compile until it is implemented.
 namespace raylane::core {
 
-enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, formula };
+enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, formula, image };
+
+/// Coordinates of the points of a pattern.
+enum class PatternSpace : std::uint8_t {
+    world,
+    object, ///< those in which the object was described, before transforms moved it
+};
+
+/// Colours beyond the edges of an image.
+enum class ImageWrap : std::uint8_t {
+    repeat, ///< those of further copies of the image
+    clamp,  ///< those of the nearest edge
+};
 
 enum class Reflection : std::uint8_t {
     constant,   ///< `reflectivity`, whatever the angle

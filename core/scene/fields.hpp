@@ -19,8 +19,10 @@ namespace raylane::core::fields {
 /// The words of an enumeration, as in JSON. Python has _ in place of -.
 using Words = std::span<const char* const>;
 
-inline constexpr const char* pattern_words[] = {"solid", "checker", "stripes", "gradient",
-                                                "formula"};
+inline constexpr const char* pattern_words[] = {"solid",    "checker", "stripes",
+                                                "gradient", "formula", "image"};
+inline constexpr const char* space_words[] = {"world", "object"};
+inline constexpr const char* wrap_words[] = {"repeat", "clamp"};
 inline constexpr const char* reflection_words[] = {"constant", "schlick", "dielectric"};
 inline constexpr const char* highlight_words[] = {"blinn", "phong"};
 inline constexpr const char* visible_words[] = {"both", "outside", "inside"};
@@ -43,6 +45,7 @@ enum class Rule : std::uint8_t {
     direction,   ///< three numbers from `least` to `most` that are not all 0
     axes,        ///< a bit for each axis
     formula,     ///< three texts, for red, green and blue
+    image,       ///< the pixels; in files, the name of a file
     several,     ///< a struct with its own list, or several numbers
 };
 
@@ -59,10 +62,10 @@ struct Valid {
 
 inline constexpr double limit = 1e30; ///< of coordinates and lengths
 inline constexpr Valid flag{Rule::flag}, axes{Rule::axes}, formula{Rule::formula},
-    several{Rule::several}, fraction{Rule::number, 0.0, 1.0}, brightness{Rule::number, 0.0, 1e10},
-    not_negative{Rule::number, 0.0, limit}, positive{Rule::positive, 0.0, limit},
-    coordinate{Rule::number, -limit, limit, "length"}, distance{Rule::number, 0.0, limit, "length"},
-    length{Rule::positive, 0.0, limit, "length"},
+    image{Rule::image}, several{Rule::several}, fraction{Rule::number, 0.0, 1.0},
+    brightness{Rule::number, 0.0, 1e10}, not_negative{Rule::number, 0.0, limit},
+    positive{Rule::positive, 0.0, limit}, coordinate{Rule::number, -limit, limit, "length"},
+    distance{Rule::number, 0.0, limit, "length"}, length{Rule::positive, 0.0, limit, "length"},
     length_or_infinity{Rule::positive, 0.0, std::numeric_limits<double>::infinity(), "length"},
     density{Rule::positive, 0.0, limit, "1 / length"}, direction{Rule::direction, -limit, limit},
     color{Rule::number, 0.0, 1e10, "", {}, 0, true};
@@ -196,7 +199,8 @@ constexpr void for_each_field(const Visit& visit, Of&... of) {
     constexpr Kinds checker = kinds(pattern_words, "checker"),
                     stripes = kinds(pattern_words, "stripes"),
                     gradient = kinds(pattern_words, "gradient"),
-                    formulas = kinds(pattern_words, "formula");
+                    formulas = kinds(pattern_words, "formula"),
+                    images = kinds(pattern_words, "image");
     visit(Field("kind", pattern_kind, "Kind of pattern.", selects_kind, key("type")), of.kind...);
     visit(Field("colors", color, "The two colors", must(checker | stripes | gradient)),
           of.colors...);
@@ -218,6 +222,18 @@ constexpr void for_each_field(const Visit& visit, Of&... of) {
     visit(
         Field("formula", formula, "Formulas of red, green and blue", must(formulas), key("color")),
         of.formula...);
+    visit(Field("space", word(space_words), "Coordinates of the points.",
+                may(checker | stripes | gradient | formulas), sparse),
+          of.space...);
+    visit(Field("image", image, "PNG file", must(images), key("file")), of.image...);
+    visit(Field("width", length, "Extent of the image along u.", may(images), sparse), of.width...);
+    visit(Field("height", length, "Extent of the image along v.", may(images), sparse),
+          of.height...);
+    visit(Field("wrap", word(wrap_words), "Colors beyond the edges of the image.", may(images),
+                sparse),
+          of.wrap...);
+    visit(Field("axis", direction, "Axis of spheres and ellipsoids", may(images), sparse),
+          of.axis...);
 }
 
 template <class Visit, GlassLike... Of>
@@ -283,7 +299,7 @@ namespace raylane::core::fields {
 template <class Visit, MaterialLike... Of>
 constexpr void for_each_field(const Visit& visit, Of&... of) {
     visit(Field("pattern", several,
-                "Color as a function of the point in space, in world coordinates.",
+                "Color as a function of the point in space, or an image on the surface.",
                 in_python("color")),
           of.pattern...);
     visit(Field("ambient", brightness, "Weight of the color without any light."), of.ambient...);

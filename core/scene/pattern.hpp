@@ -34,7 +34,7 @@ int parity(Real value) {
 
 } // namespace detail
 
-/// Returns the pattern's colour at a point in world coordinates. `on_shape`: used by some formulas.
+/// Returns the pattern's colour at a point in its coordinates. `on_shape`: used by some formulas.
 template <class Real>
 Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point,
                     const ShapeCoordinates& on_shape = {}) {
@@ -42,6 +42,7 @@ Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point,
                      second = convert<Real>(pattern.colors[1]);
     switch (pattern.kind) {
     case PatternKind::solid:
+    case PatternKind::image: // see color_in_image()
         break;
     case PatternKind::checker: {
         int sum = 0;

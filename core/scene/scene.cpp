@@ -27,6 +27,20 @@ IdRange Scene::coplanar_with(ShapeId id) const {
     return polygon != nullptr ? *polygon : IdRange{id, id};
 }
 
+std::optional<ObjectSpace> Scene::object_space(ShapeId id) const {
+    if (material_of_.stored_index(id) == MaterialIndices::no_index) {
+        const Copies::Copy copy = copies_->copy_with(id);
+        const ObjectSpace of_copy =
+            space_moved_by(copies_->placement(copy.set.first_copy + copy.number));
+        const auto before = copy.set.prototype->object_space(id - Copies::first_id_of(copy));
+        return before ? moved(*before, of_copy) : of_copy;
+    }
+    const auto found = std::ranges::lower_bound(object_spaces_, id, {},
+                                                [](const auto& entry) { return entry.first; });
+    if (found == object_spaces_.end() || found->first != id) return std::nullopt;
+    return *found->second;
+}
+
 void Scene::find_transmissive() {
     const auto transmits = [](const Material& material) { return material.transmits(); };
     if (std::none_of(materials_.begin(), materials_.end(), transmits)) return;
@@ -52,7 +66,8 @@ std::size_t Scene::bytes() const {
     std::size_t bytes = (copies_ != nullptr ? copies_->bytes() : 0) + hierarchy_.bytes() +
                         solids_.bytes() + material_of_.bytes() +
                         polygons_.capacity() * sizeof(IdRange) +
-                        materials_.capacity() * sizeof(Material);
+                        materials_.capacity() * sizeof(Material) +
+                        object_spaces_.capacity() * sizeof object_spaces_[0];
     for (const std::vector<MergedShape>& merged : merged_)
         bytes += merged.capacity() * sizeof(MergedShape);
     for_each_table(shapes_, [&](const auto& table) { bytes += table.bytes(); });
@@ -93,6 +108,12 @@ MaterialIndex SceneBuilder::add_material(const Material& material) {
     return static_cast<MaterialIndex>(scene_.materials_.size() - 1);
 }
 
+MaterialIndex SceneBuilder::add_placeholder() {
+    const MaterialIndex material = add_material({});
+    placeholders_.insert(material);
+    return material;
+}
+
 void SceneBuilder::name_material(MaterialIndex material, std::string_view name) {
     require_material(material);
     if (material >= scene_.material_names_.size()) scene_.material_names_.resize(material + 1U);
@@ -130,6 +151,18 @@ ShapeId SceneBuilder::append(const Shape& shape, MaterialIndex material) {
     constexpr std::size_t now_and_then = std::size_t{1} << 16;
     if (shape_count() % now_and_then == 0 && workers != nullptr) workers->added(shape_count());
     return id;
+}
+
+void SceneBuilder::note_space(ShapeId id, MaterialIndex material,
+                              const std::shared_ptr<const ObjectSpace>& space) {
+    if (space != nullptr && may_follow(material)) scene_.object_spaces_.emplace_back(id, space);
+}
+
+bool SceneBuilder::may_follow(const Solid& solid, MaterialIndex material) const {
+    if (solid.material != no_material) material = solid.material;
+    if (solid.made == Made::of_shape) return material == no_material || may_follow(material);
+    return std::any_of(solid.parts.begin(), solid.parts.end(),
+                       [&](const Solid& part) { return may_follow(part, material); });
 }
 
 template <class Shape>
@@ -208,13 +241,17 @@ ShapeId SceneBuilder::add_solid(const Solid& solid, MaterialIndex material) {
     require_room(count_parts(solid));
     if (!kept_.empty()) give_up_copies();
     const auto first = static_cast<ShapeId>(shape_count());
+    const std::size_t spaces = scene_.object_spaces_.size();
     try {
-        solids_.add(solid, material, [&](MaterialIndex of_part) {
+        solids_.add(solid, material, [&](MaterialIndex of_part, const auto& space) {
             scene_.material_of_.push_back(of_part);
-            return static_cast<ShapeId>(shape_count() - 1);
+            const auto id = static_cast<ShapeId>(shape_count() - 1);
+            note_space(id, of_part, space);
+            return id;
         });
     } catch (const InvalidValue&) {
         scene_.material_of_.truncate(first);
+        scene_.object_spaces_.resize(spaces);
         throw;
     }
     return first;
@@ -222,7 +259,10 @@ ShapeId SceneBuilder::add_solid(const Solid& solid, MaterialIndex material) {
 
 ShapeId SceneBuilder::add_member(const Solid& member) {
     if (member.made != Made::of_shape) return add_solid(member, no_material);
-    return std::visit([&](const auto& shape) { return add(shape, member.material); }, member.shape);
+    const ShapeId id =
+        std::visit([&](const auto& shape) { return add(shape, member.material); }, member.shape);
+    note_space(id, member.material, member.space);
+    return id;
 }
 
 /// Throws if add_member() would.
@@ -233,7 +273,7 @@ void SceneBuilder::check_member(const Solid& member) const {
     }
     check_solid(member, false, "");
     SolidCollector trial; // refuses unbounded solids
-    trial.add(member, no_material, [](MaterialIndex) { return ShapeId{0}; });
+    trial.add(member, no_material, [](MaterialIndex, const auto&) { return ShapeId{0}; });
 }
 
 namespace {
@@ -326,10 +366,17 @@ ShapeId SceneBuilder::add_copies(std::span<const Solid> members,
             for (const Solid& member : members)
                 check_member(transformed_member(member, transform));
         });
+        const bool follow = std::any_of(members.begin(), members.end(),
+                                        [&](const Solid& member) { return may_follow(member); });
         for (const Placement& placement : placements) {
             const Transform transform = transform_of(placement);
-            for (const Solid& member : members)
-                add_member(transformed_member(member, transform));
+            std::optional<SpaceMover> mover;
+            if (follow) mover.emplace(placement);
+            for (const Solid& member : members) {
+                Solid copy = transformed_member(member, transform);
+                if (mover) (*mover)(copy);
+                add_member(copy);
+            }
         }
         return first;
     }
@@ -355,12 +402,15 @@ void SceneBuilder::give_up_copies() {
         ShapeId id = copies.first_id;
         for (const Placement& placement : copies.placements) {
             const Transform transform = transform_of(placement);
-            for (const Solid& member : copies.members)
+            for (const Solid& member : copies.members) {
+                if (may_follow(member.material))
+                    note_space(id, member.material, SpaceMover(placement)(member.space));
                 std::visit(
                     [&]<class Shape>(const Shape& shape) {
                         std::get<ShapeList<InFloat<Shape>>>(lists_).add(shape, id++);
                     },
                     transform(member).shape);
+            }
         }
     }
     kept_.clear();
@@ -427,6 +477,10 @@ void SceneBuilder::build_shapes() {
     }
     lists_ = {};
     scene_.material_of_.shrink_to_fit();
+    std::erase_if(scene_.object_spaces_, [&](const auto& entry) {
+        return !scene_.material_of(entry.first).pattern.follows_objects();
+    });
+    std::ranges::sort(scene_.object_spaces_, {}, [](const auto& entry) { return entry.first; });
     if (!kept_.empty())
         build_copies();
     else
@@ -516,6 +570,9 @@ template <class Number>
 Scene Scene::with_positions(std::span<const Number> coordinates, Workers& workers) const {
     if (copies_ != nullptr)
         throw InvalidValue("positions", "must be for a scene without kept copies of groups");
+    for (const Material& material : materials_)
+        if (material.pattern.follows_objects() && material.pattern.kind != PatternKind::image)
+            throw InvalidValue("positions", "must be for a scene without patterns in object space");
     Scene scene = *this;
     move_spheres(coordinates,
                  {scene.shapes_, scene.hierarchy_,

@@ -10,15 +10,18 @@
 #include "core/shapes/invalid_value.hpp"
 #include "core/shapes/material_indices.hpp"
 #include "core/shapes/shape_table.hpp"
+#include "core/solids/object_space.hpp"
 #include "core/solids/solid_collector.hpp"
 
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace raylane::core {
@@ -75,6 +78,12 @@ class Scene {
     bool bounds_medium(MaterialIndex material, MaterialIndex medium) const {
         return materials_[material].transmits() || materials_[medium].transmits();
     }
+    /// The spaces of shapes that transforms moved, and whose pattern follows them, ascending by id.
+    /// Excludes those of copies.
+    using ObjectSpaces = std::vector<std::pair<ShapeId, std::shared_ptr<const ObjectSpace>>>;
+    const ObjectSpaces& object_spaces() const { return object_spaces_; }
+    /// Returns the space of a shape whose pattern follows it; none if that is the scene's.
+    std::optional<ObjectSpace> object_space(ShapeId id) const;
     const TransmissiveShapes& transmissive() const { return transmissive_; }
     const std::vector<Light>& lights() const { return lights_; }
     const Fog& fog() const { return fog_; }
@@ -132,6 +141,7 @@ class Scene {
     MergedShapes merged_;
     bool merges_duplicates_ = true;
     Solids solids_;
+    ObjectSpaces object_spaces_;
     std::vector<Material> materials_;
     std::vector<std::string> material_names_; // a prefix: the rest have none
     TransmissiveShapes transmissive_;
@@ -189,6 +199,8 @@ class SceneBuilder {
     MaterialIndex add_material(const Material& material);
     /// Throws InvalidValue, field "material", unless add_material returned this index.
     void require_material(MaterialIndex material) const;
+    /// Adds a material that stands for one that renumber_materials() puts in its place.
+    MaterialIndex add_placeholder();
     /// Removes the last material, which no shape has.
     void remove_last_material() { scene_.materials_.pop_back(); }
     /// Names a material, unless it has a name.
@@ -233,6 +245,9 @@ class SceneBuilder {
     /// Returns true if add_copies() would keep valid copies as such.
     bool keeps_copies(std::span<const Solid> members, std::span<const Placement> placements) const;
 
+    /// Returns true if a pattern of a solid may follow it. `material`: of parts without one.
+    bool may_follow(const Solid& solid, MaterialIndex material = no_material) const;
+
     /// Reserves memory for `count` more shapes, so that adding them copies nothing.
     void reserve(std::size_t count);
 
@@ -256,6 +271,13 @@ class SceneBuilder {
     /// Adds a valid shape.
     template <class Shape>
     ShapeId append(const Shape& shape, MaterialIndex material);
+    /// Notes the space of a shape, if there is one and the shape's pattern follows it.
+    void note_space(ShapeId id, MaterialIndex material,
+                    const std::shared_ptr<const ObjectSpace>& space);
+    bool may_follow(MaterialIndex material) const {
+        return placeholders_.contains(material) ||
+               scene_.materials_[material].pattern.follows_objects();
+    }
 
     void check_wavelengths() const;
     void check_solid(const Solid& solid, bool has_material, const std::string& place) const;
@@ -272,6 +294,7 @@ class SceneBuilder {
     void build_copies();
 
     Scene scene_;
+    std::set<MaterialIndex> placeholders_;
     ShapeLists lists_;
     SolidCollector solids_;
     std::vector<KeptCopies> kept_;

@@ -3,6 +3,7 @@
 #include "core/scene/formula.hpp"
 #include "core/shapes/ray.hpp"
 #include "core/shapes/shape_table.hpp"
+#include "core/solids/object_space.hpp"
 
 namespace raylane::core {
 
@@ -16,7 +17,12 @@ namespace raylane::core {
 ///   triangle            weights of the corners b and c.
 ///   box                 fractions of the two edges of the face, in the cyclic order of the edges
 ///   quadric             0
+///
+/// `space`: the space of the object, if transforms moved it; "+y" and lengths are then those of
+/// that space. `pole`: in place of +y for spheres and ellipsoids, of any length but zero; turns are
+/// then those about a cylinder with this axis.
 ShapeCoordinates coordinates_on(const Tables& shapes, Kind kind, Place place, Face face,
-                                const Vec3d& point);
+                                const Vec3d& point, const ObjectSpace* space = nullptr,
+                                const Vec3d& pole = Vec3d(0.0, 1.0, 0.0));
 
 } // namespace raylane::core

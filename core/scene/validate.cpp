@@ -103,6 +103,8 @@ void validate(const Pattern& pattern) {
     check_fields(pattern, fields::every);
     if (pattern.kind == PatternKind::formula && !pattern.formula.any())
         throw InvalidValue("formula", "must be three formulas, got none");
+    if (pattern.kind == PatternKind::image && !pattern.image.any())
+        throw InvalidValue("image", "must be an image, got none");
     if (pattern.kind == PatternKind::gradient && pattern.from == pattern.to)
         throw InvalidValue("to", "must differ from \"from\", got " + text_of(pattern.to));
     if ((pattern.axes & 7) == 0 || pattern.axes > 63)

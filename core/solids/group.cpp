@@ -19,6 +19,7 @@ Solid in_box(const Solid& solid, Made by) {
     Solid result{by};
     result.parts = {solid, of_shape(aligned_box(quadric.center + quadric.lower,
                                                 quadric.upper - quadric.lower))};
+    result.parts.back().space = solid.space;
     result.material = solid.material;
     return result;
 }

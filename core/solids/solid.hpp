@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <tuple>
 #include <variant>
 #include <vector>
@@ -29,6 +30,8 @@ using PartShape = detail::VariantOf<Shapes>::type;
 /// How a solid is made of others. A solid made by clip has no faces where it was cut.
 enum class Made : std::uint8_t { of_shape, by_union, by_intersection, by_difference, by_clip };
 
+struct ObjectSpace;
+
 inline constexpr MaterialIndex no_material = std::numeric_limits<MaterialIndex>::max();
 
 /// The description of a solid that is made of others. Its parts are solids or half-spaces. The
@@ -44,7 +47,16 @@ struct Solid {
     bool endless_as_part = false;         ///< a stretched open cylinder or cone: as a part of
                                           ///< another solid, it stands for its first part
     bool cuts_nothing = false;            ///< for a clipping solid: it only bounds the others
+    /// of_shape: the space of the shape before transforms moved it; null: that of the scene.
+    std::shared_ptr<const ObjectSpace> space{};
 };
+
+/// Gives all shapes of a solid this space.
+inline void set_space(Solid& solid, const std::shared_ptr<const ObjectSpace>& space) {
+    solid.space = solid.made == Made::of_shape ? space : nullptr;
+    for (Solid& part : solid.parts)
+        set_space(part, space);
+}
 
 inline Solid of_shape(const PartShape& shape) {
     Solid solid;

@@ -16,8 +16,8 @@ class SolidCollector {
   public:
     bool any() const { return !solids_.nodes_.empty(); }
 
-    /// Adds a solid, whose shapes must all be valid. Calls add_part(material) for each shape that
-    /// becomes one of the scene; it returns the shape's id. Throws InvalidValue, and changes
+    /// Adds a solid, whose shapes must all be valid. Calls add_part(material, space) for each shape
+    /// that becomes one of the scene; it returns the shape's id. Throws InvalidValue, and changes
     /// nothing, if the solid needs bounds and has none.
     template <class AddPart>
     void add(const Solid& solid, MaterialIndex material, const AddPart& add_part);
@@ -98,7 +98,7 @@ void SolidCollector::add_node(const Solid& solid, MaterialIndex material, bool r
         shapes_[index] = as_half_space(solid.shape);
         node.kind = static_cast<Kind>(shapes_[index].index());
         if (traced) {
-            node.shape = add_part(material);
+            node.shape = add_part(material, solid.space);
             if (first_material_ == no_material) first_material_ = material;
         }
         return;

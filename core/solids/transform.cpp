@@ -208,6 +208,17 @@ Transform Transform::after(const Transform& first) const {
     return result;
 }
 
+std::array<Vec3d, 3> Transform::columns() const {
+    std::array<Vec3d, 3> columns{};
+    for (int i = 0; i < 3; ++i)
+        columns[static_cast<std::size_t>(i)] = rounded(Row(rows_[0][i], rows_[1][i], rows_[2][i]));
+    return columns;
+}
+
+Vec3d Transform::origin() const {
+    return rounded(translation_);
+}
+
 Dyadic Transform::determinant() const {
     return dot(rows_[0], cross(rows_[1], rows_[2]));
 }
@@ -240,6 +251,7 @@ Solid Transform::operator()(const Solid& solid) const {
         Solid result = std::visit([&](const auto& shape) { return moved(shape); }, solid.shape);
         result.material = solid.material;
         result.cuts_nothing = solid.cuts_nothing;
+        if (solid.space != nullptr) set_space(result, solid.space);
         return result;
     }
     Solid result{solid.made};

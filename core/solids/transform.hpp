@@ -39,6 +39,10 @@ class Transform {
     /// InvalidValue for a stretched disc.
     Solid operator()(const Solid& solid) const;
 
+    /// Return the columns of M and t, rounded to doubles.
+    std::array<Vec3d, 3> columns() const;
+    Vec3d origin() const;
+
     struct Form; ///< form of a quadric
 
   private:

@@ -34,7 +34,7 @@ std::vector<std::string> export_scene(const std::filesystem::path& path, const c
     try {
         switch (format) {
         case Format::json:
-            write_json(text, scene, differences);
+            write_json(text, scene, differences, path.parent_path());
             break;
         case Format::nff:
             write_nff(text, scene, differences);

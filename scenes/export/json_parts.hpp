@@ -4,6 +4,7 @@
 #include "core/scene/scene.hpp"
 #include "scenes/export/writers.hpp"
 
+#include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -75,8 +76,10 @@ class MaterialNames {
     std::vector<std::string> names_;
 };
 
+/// Writes all materials. `folder`: that of the file, to which the names of images are relative;
+/// null: without images. Throws core::InvalidValue for an image that comes from no file.
 void write_materials(JsonObject& root, TextFile& file, const core::Scene& scene,
-                     const MaterialNames& names);
+                     const MaterialNames& names, const std::filesystem::path* folder);
 
 /// Writes all shapes, in the order of their ids. Throws core::InvalidValue for a solid that is
 /// nested deeper than the reader accepts.

@@ -7,10 +7,12 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -46,6 +48,8 @@ void write_field(JsonObject& object, const Field& field, const Value& value) {
         object.key(field.key()) << (value ? "true" : "false");
     } else if constexpr (std::is_same_v<Value, core::Vec3f>) {
         object.vector(field.key(), value);
+    } else if constexpr (std::is_same_v<Value, core::Texture>) {
+        if (value.any()) object.key(field.key()) << nlohmann::json(value.file()).dump();
     } else if constexpr (std::is_same_v<Value, core::Formula>) {
         object.key(field.key()) << nlohmann::json(value.texts()).dump();
     } else if constexpr (std::is_same_v<Value, std::array<core::Color, 2>>) {
@@ -58,6 +62,22 @@ void write_field(JsonObject& object, const Field& field, const Value& value) {
         JsonObject inner(object.key(field.key()));
         write_fields(inner, value);
     }
+}
+
+/// Gives an image the name of its file relative to a folder. Without a folder, removes the image.
+void name_image(core::Texture& image, const std::filesystem::path* folder) {
+    if (!image.any()) return;
+    if (folder == nullptr) {
+        image = {};
+        return;
+    }
+    if (image.file().empty())
+        throw core::InvalidValue("", "cannot store an image that comes from no file");
+    std::error_code none;
+    const std::filesystem::path name =
+        folder->empty() ? std::filesystem::proximate(image.file(), none)
+                        : std::filesystem::proximate(image.file(), *folder, none);
+    image = image.named(name.empty() ? image.file() : name.generic_string());
 }
 
 /// Returns true if a key of a material is not the alternative to another one.
@@ -192,14 +212,16 @@ MaterialNames MaterialNames::numbers(const core::Scene& scene) {
 }
 
 void write_materials(JsonObject& root, TextFile& file, const core::Scene& scene,
-                     const MaterialNames& names) {
+                     const MaterialNames& names, const std::filesystem::path* folder) {
     root.key("materials") << "{";
     const char* separator = "\n";
     for (std::size_t i = 0; i < scene.materials().size(); ++i) {
         file << std::exchange(separator, ",\n") << names[static_cast<core::MaterialIndex>(i)]
              << ": ";
+        core::Material material = scene.materials()[i];
+        name_image(material.pattern.image, folder);
         JsonObject object(file);
-        write_fields(object, scene.materials()[i]);
+        write_fields(object, material);
     }
     file << "}";
 }

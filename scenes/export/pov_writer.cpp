@@ -286,10 +286,14 @@ class PovWriter {
 
     void write_pigment(const core::Material& material) {
         const core::Pattern& pattern = material.pattern;
+        if (pattern.follows_objects() && pattern.kind != core::PatternKind::image)
+            differences_.insert("patterns in object space");
         file_ << "pigment { ";
         switch (pattern.kind) {
         case core::PatternKind::formula:
-            differences_.insert("formula patterns");
+        case core::PatternKind::image:
+            differences_.insert(pattern.kind == core::PatternKind::image ? "images on surfaces"
+                                                                         : "formula patterns");
             [[fallthrough]];
         case core::PatternKind::solid:
             color(pattern.colors[0]);

@@ -4,6 +4,7 @@
 #include "scenes/export/text_file.hpp"
 #include "scenes/files/errors.hpp"
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,11 +17,13 @@ inline constexpr const char* lost_polygons = "polygons made of triangles";
 
 /// Writes the automatic camera in place of the view that follows from it, as far as JSON can
 /// express the auto_camera. Throws core::InvalidValue for a solid that is nested deeper than the
-/// reader accepts.
-void write_json(TextFile& file, const core::Scene& scene, Differences& differences);
+/// reader accepts, for an image that comes from no file, and for patterns that have moved with
+/// their objects. `folder`: that of the file; names of images are relative to it.
+void write_json(TextFile& file, const core::Scene& scene, Differences& differences,
+                const std::filesystem::path& folder);
 /// Writes only the settings, on one line.
 void write_json_settings(TextFile& file, const core::Settings& settings);
-/// Writes everything except the settings, the names of materials, and the shapes outside of
+/// Writes everything except the settings, the names of materials, images, and the shapes outside of
 /// constructed solids. Writes the view itself, not the automatic camera.
 void write_json_without_shapes(TextFile& file, const core::Scene& scene);
 /// Writes everything except the objects. Writes the view itself, not the automatic camera.

@@ -27,24 +27,31 @@ std::string refused(const std::string& path, std::filesystem::file_status status
     }
 }
 
+void require(bool is_good, const std::string& must) {
+    if (!is_good) throw core::InvalidValue("", must);
+}
+
 } // namespace
 
 std::unique_ptr<InputFile> IncludedFiles::open(const std::filesystem::path& path,
                                                std::string_view name, std::size_t depth) {
-    const auto require = [](bool is_good, const std::string& must) {
-        if (!is_good) throw core::InvalidValue("", must);
-    };
+    require(depth < deepest, "must not be included more than " + std::to_string(deepest) + " deep");
+    auto file = open_bytes(path, name);
+    file->take_as_text();
+    return file;
+}
+
+std::unique_ptr<InputFile> IncludedFiles::open_bytes(const std::filesystem::path& path,
+                                                     std::string_view name) {
     std::error_code unknown;
     const std::filesystem::file_status status = std::filesystem::status(path, unknown);
     require(!name.empty() && std::filesystem::is_regular_file(status),
             "must be the name of a file, got \"" + printable(name) + "\", but " +
                 refused(printable(path.string(), 4096), status, unknown));
-    require(depth < deepest, "must not be included more than " + std::to_string(deepest) + " deep");
     require(opened_++ < most, "must be one of at most " + std::to_string(most) + " included files");
     auto file = std::make_unique<InputFile>(path);
     require(std::filesystem::file_size(path, unknown) <= max_bytes || unknown,
             "must be a file of at most 1 GiB, got " + printable(path.string(), 4096));
-    file->take_as_text();
     return file;
 }
 

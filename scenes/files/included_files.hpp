@@ -21,6 +21,8 @@ class IncludedFiles {
     /// including file, from 0. Throws core::InvalidValue with the rule that the name breaks.
     std::unique_ptr<InputFile> open(const std::filesystem::path& path, std::string_view name,
                                     std::size_t depth);
+    /// Same for a file that is not a text, and includes no other file.
+    std::unique_ptr<InputFile> open_bytes(const std::filesystem::path& path, std::string_view name);
 
   private:
     std::size_t opened_ = 0;

@@ -26,6 +26,8 @@ struct MaterialView {
     double from[3];      ///< gradient
     double run[3];       ///< gradient: from `from` to `to`, divided by its squared length
     const core::FormulaProgram* formula; ///< null for other patterns
+    bool in_object_space;                ///< the pattern's points are HitPaths::pattern
+    bool has_image;                      ///< the colours are HitPaths::pattern
 };
 
 struct LightView {
@@ -54,6 +56,8 @@ struct HitPaths {
     const double* shading_normal[3];
     const std::uint32_t* hit;  ///< Found::hit's bits
     const double* on_shape[2]; ///< core::coordinates_on(); null if no formula needs them
+    /// Points of patterns in object space, colours of images; null if no material needs them.
+    const double* pattern[3];
 };
 
 /// Columns for paths inside of transmissive materials, by position in the sorted wave. Absent in

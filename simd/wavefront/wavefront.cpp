@@ -4,7 +4,7 @@
 #include "core/optics/fog.hpp"
 #include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
-#include "core/scene/shape_coordinates.hpp"
+#include "core/scene/pattern_place.hpp"
 #include "simd/query/as_core.hpp"
 #include "simd/wavefront/camera_view.hpp"
 #include "simd/wavefront/coherence.hpp"
@@ -60,12 +60,13 @@ void Wavefront::take_from(Arena& arena) {
     take_paths(next_, max_spawned);
     finder_.take_from(arena, wave_rays);
     way_ = arena.take<double>(wave_rays);
-    const auto needs_shape = [](const MaterialView& material) {
-        return material.formula != nullptr && material.formula->needs_shape;
-    };
-    if (std::any_of(scene_.materials().begin(), scene_.materials().end(), needs_shape))
-        for (double*& column : on_shape_)
-            column = arena.take<double>(wave_rays);
+    const std::vector<core::Material>& materials = scene_.scene().materials();
+    if (std::any_of(materials.begin(), materials.end(), [](const core::Material& material) {
+            return material.pattern.needs_shape();
+        })) {
+        arena.take(on_shape_, wave_rays);
+        arena.take(pattern_, wave_rays);
+    }
     across_ = arena.take<double>(chunk_samples);
     upward_ = arena.take<double>(chunk_samples);
     if (camera_rays_.has_lens()) {
@@ -302,24 +303,36 @@ void Wavefront::fill_media() {
     }
 }
 
-/// Computes the coordinates on their shapes of the points that formulas need.
-void Wavefront::fill_coordinates(HitPaths& hit_paths) {
-    for (int i = 0; i < 2; ++i)
-        hit_paths.on_shape[i] = on_shape_[i];
+/// Computes coordinates on shapes, points in their space and colours of images, for patterns that
+/// need them.
+void Wavefront::fill_patterns(HitPaths& hit_paths) {
+    std::copy_n(on_shape_, 2, hit_paths.on_shape);
+    std::copy_n(pattern_, 3, hit_paths.pattern);
+    const std::vector<core::Material>& materials = scene_.scene().materials();
     for (const Run& run : sorted_.runs()) {
-        if (run.material->formula == nullptr || !run.material->formula->needs_shape) continue;
+        const auto material = static_cast<std::size_t>(run.material - scene_.materials().data());
+        if (material >= materials.size() || !materials[material].pattern.needs_shape()) continue;
+        const core::Pattern& pattern = materials[material].pattern;
         for (std::size_t i = run.begin; i < run.end; ++i) {
             const std::uint32_t lane = sorted_.order()[i];
             const std::uint32_t slot = finder_.hits().slot[lane];
             core::Vec3d point;
             for (int axis = 0; axis < 3; ++axis)
-                point[axis] = hit_paths.way[lane] * hit_paths.direction[axis][lane] +
-                              hit_paths.origin[axis][lane];
-            const core::ShapeCoordinates on_shape = core::coordinates_on(
-                scene_.scene().shapes(), scene_.record_of(slot).kind, scene_.place_of(slot),
-                static_cast<core::Face>(hit_paths.hit[lane] & hit_face), point);
-            on_shape_[0][lane] = on_shape.u;
-            on_shape_[1][lane] = on_shape.v;
+                point[axis] = core::mul_add(hit_paths.way[lane], hit_paths.direction[axis][lane],
+                                            hit_paths.origin[axis][lane]); // as in the kernels
+            const SceneData::ShapeRecord shape = scene_.record_of(slot);
+            const core::SurfacePlace surface{
+                shape.id, shape.kind, scene_.place_of(slot),
+                static_cast<core::Face>(hit_paths.hit[lane] & hit_face), point};
+            core::PatternPlace at{};
+            if (pattern.kind == core::PatternKind::image)
+                at.point = core::image_at(scene_.scene(), pattern, surface);
+            else
+                at = core::place_in_pattern(scene_.scene(), pattern, surface);
+            for (int axis = 0; axis < 3; ++axis)
+                pattern_[axis][lane] = at.point[axis];
+            on_shape_[0][lane] = at.on_shape.u;
+            on_shape_[1][lane] = at.on_shape.v;
         }
     }
 }
@@ -348,7 +361,7 @@ void Wavefront::shade(int depth) {
         hit_paths.way = way_;
     }
     hit_paths.hit = hits.hit;
-    if (on_shape_[0] != nullptr) fill_coordinates(hit_paths);
+    if (pattern_[0] != nullptr) fill_patterns(hit_paths);
     for (const Run& run : sorted_.runs())
         shade_.surfaces(run, sorted_.order(), hit_paths, scene_.fog(),
                         with_media_ ? &media_ : nullptr, surfaces_);

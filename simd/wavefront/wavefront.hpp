@@ -93,7 +93,7 @@ class Wavefront {
     void see_background(int depth);
     void shade(int depth);
     void fill_media();
-    void fill_coordinates(HitPaths& hit_paths);
+    void fill_patterns(HitPaths& hit_paths);
     void look_at_lights();
     void add_lights();
     void add_soft_lights(int depth);
@@ -134,7 +134,8 @@ class Wavefront {
     std::vector<Samples> samples_;                         // of the chunk
     std::vector<core::CameraRays<double>::InPixel> cells_; // by sample, if regular or in a grid
     double* way_ = nullptr;                                // HitPaths::way, where it differs from t
-    double* on_shape_[2] = {};                             // by lane, if a formula needs them
+    double* on_shape_[2] = {}; // HitPaths::on_shape and pattern, by lane, if a pattern needs shapes
+    double* pattern_[3] = {};
     double* across_ = nullptr;
     double* upward_ = nullptr;
     double* lens_right_ = nullptr; // if there is a lens

@@ -44,7 +44,7 @@ def test_stub(tmp_path):
     """The stub matches the compiled module."""
     pytest.importorskip("mypy")
     allowed = tmp_path / "allowed"
-    classes = "Builder|Group|Scene|Solid|Tracer|Transform"
+    classes = "Builder|Group|Scene|Solid|Texture|Tracer|Transform"
     allowed.write_text(f"raylane._raylane.({classes})\nraylane._raylane.({classes}).__init__\n")  # pybind11's metaclass
     run("-m", "mypy.stubtest", "raylane._raylane", "--allowlist", allowed, "--ignore-unused-allowlist", cwd=tmp_path)
 

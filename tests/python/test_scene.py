@@ -36,7 +36,12 @@ def test_what_is_set_is_there():
     stripes = raylane.Material(color=raylane.Pattern("stripes", direction=(0.0, 1.0, 0.0)), visible="inside")
     gradient = raylane.Material(color=raylane.Pattern("gradient", start=(1.0, 2.0, 3.0), end=(4.0, 5.0, 6.0)))
     formula = raylane.Material(color=raylane.Pattern(formula=("abs(cos(x))", "v", "0.5")), highlight="phong")
-    materials = [glass, checker, stripes, gradient, formula, raylane.Material(opacity=0.5)]
+    pixels = np.arange(24, dtype=np.uint8).reshape(2, 4, 3)
+    globe = raylane.Material(
+        color=raylane.Pattern(image=raylane.Texture(pixels), width=0.5, height=2.0, wrap="clamp", axis=(0.0, 0.0, 1.0))
+    )
+    grain = raylane.Material(color=raylane.Pattern(formula=("x", "y", "z"), space="object"))
+    materials = [glass, checker, stripes, gradient, formula, globe, grain, raylane.Material(opacity=0.5)]
     for index, material in enumerate(materials):
         assert builder.add_material(material) == index
     lights = [
@@ -67,6 +72,66 @@ def test_what_is_set_is_there():
     assert len(builder) == 0 and builder.camera is None
 
 
+def luminous(image, **fields):
+    return raylane.Material(color=raylane.Pattern(image=image, **fields), ambient=1.0, diffuse=0.0)
+
+
+def color_on_wall(material):
+    """Returns the colour in the middle of the image on a wall, 1 wide and 1 high."""
+    builder = raylane.SceneBuilder()
+    builder.add_planes((0, 0, 0), (0, 0, 1), material=builder.add_material(material))
+    builder.add_light(position=(0, 0, 9))
+    builder.camera = raylane.Camera(position=(0.5, 0.5, 5), at=(0.5, 0.5, 0))
+    return builder.build().render(width=1, height=1).rgb[0, 0]
+
+
+def test_images_on_surfaces(tmp_path):
+    codes = np.array([[[0, 128, 255], [0, 128, 255]]] * 2, np.uint8)
+    linear = ((128 / 255 + 0.055) / 1.055) ** 2.4
+    assert color_on_wall(luminous(codes)) == pytest.approx([0.0, linear, 1.0], rel=1e-6)
+    floats = np.array([[[0.25, 0.5, 4.0], [0.75, 0.5, 4.0]]] * 2)
+    for image in (floats, floats.astype(np.float32), floats[::-1], np.asfortranarray(floats)):
+        assert color_on_wall(luminous(image)) == pytest.approx([0.5, 0.5, 4.0])
+    texture = raylane.Texture(floats)
+    assert texture.shape == (2, 2, 3) and repr(texture) == "<raylane.Texture: 2 x 2>"
+    assert (texture.pixels() == floats).all() and texture == raylane.Texture(floats)
+    assert texture != raylane.Texture(codes)
+
+    path = tmp_path / "wall.png"
+    builder = raylane.SceneBuilder()
+    builder.background = (0.0, linear, 1.0)
+    builder.camera = raylane.Camera(position=(0, 0, 5))
+    builder.build().render(width=3, height=2).save(path)
+    for image in (path, str(path), raylane.Texture(path)):
+        assert color_on_wall(luminous(image)) == pytest.approx([0.0, linear, 1.0], rel=1e-6)
+    with pytest.raises(raylane.BadInput, match="none.png"):
+        color_on_wall(luminous(tmp_path / "none.png"))
+    for image in (np.zeros((2, 2)), np.zeros((2, 2, 4)), np.zeros((2, 2, 3), np.int64), -floats, np.zeros((0, 2, 3)), 3):
+        with pytest.raises(raylane.InvalidValue) as caught:
+            color_on_wall(luminous(image))
+        assert caught.value.field == "color/image"
+    with pytest.raises(raylane.InvalidValue, match="color/image: must be an image, got none"):
+        color_on_wall(raylane.Material(color=raylane.Pattern("image")))
+
+
+def test_patterns_follow_groups_and_copies():
+    def image(add):
+        builder = raylane.SceneBuilder()
+        material = builder.add_material(luminous(np.arange(48, dtype=np.uint8).reshape(2, 8, 3) * 5))
+        group = raylane.Group()
+        group.add_spheres((0, 0, 0), 1, material=material)
+        add(builder, group)
+        builder.add_light(position=(0, 0, 9))
+        builder.camera = raylane.Camera(position=(0, 0, 5))
+        return builder.build().render(width=20, height=20).rgb
+
+    turn = raylane.Transform().rotated((0, 90, 0))
+    plain = image(lambda builder, group: builder.add_group(group))
+    turned = image(lambda builder, group: builder.add_group(group.transformed(turn)))
+    copied = image(lambda builder, group: builder.add_copies(group, (0, 0, 0), rotate=(0, 90, 0)))
+    assert (turned == copied).all() and (turned != plain).any()
+
+
 def test_classes_have_the_defaults_and_words_of_files():
     text = """{"camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "materials": {"m": {}}, "objects": [],
         "lights": [{"type": "point", "position": [0, 0, 9]}]}"""
@@ -91,7 +156,7 @@ def test_classes_have_the_defaults_and_words_of_files():
             words = ", ".join(f'"{word}"' for word in typing.get_args(hint))
             assert error.value.expectation == f"must be one of {words}, got '?'"
             checks += 1
-    assert checks == 10
+    assert checks == 12
 
 
 def test_arrays_of_all_kinds(random):

@@ -249,7 +249,8 @@ TEST_CASE("the schema has the keys, ranges, words, defaults and descriptions of 
         {{"checker", kind(1)},
          {"stripes", kind(2)},
          {"gradient", kind(3)},
-         {"formula", kind(4), "", {"scale", "rotate", "translate", "transform"}}});
+         {"formula", kind(4), "", {"scale", "rotate", "translate", "transform"}},
+         {"imagePattern", kind(5)}});
     check_schema<core::Material>({{"material", core::fields::every, "", {"preset", "color"}}});
 }
 

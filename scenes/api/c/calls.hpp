@@ -27,6 +27,9 @@ struct raylane_solid {
 struct raylane_group {
     raylane::Group group;
 };
+struct raylane_texture { // library::copy_texture() relies on its only member
+    raylane::Texture texture;
+};
 struct raylane_tracer {
     raylane::Tracer tracer;
 };

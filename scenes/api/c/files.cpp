@@ -19,6 +19,10 @@ AtomOptions options_of(const raylane_atom_option* options, std::size_t count) {
 
 } // namespace
 
+raylane_status raylane_read_texture(const char* path, raylane_texture** texture) {
+    return handle_of("texture", texture, [&] { return read_texture(&checked("path", path)); });
+}
+
 raylane_status raylane_load(const char* path, raylane_scene** scene) {
     return scene_of(scene, [&, on_remark = keeping_remarks()] {
         return load(&checked("path", path), on_remark);

@@ -2,7 +2,9 @@
 #include "values.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 using namespace raylane;
@@ -52,7 +54,33 @@ raylane_status render_to(const raylane_scene* scene, const raylane_render_option
     return RAYLANE_OK;
 }
 
+template <class Component>
+raylane_status texture_of(int width, int height, const Component* components,
+                          raylane_texture** texture) noexcept {
+    return handle_of("texture", texture, [&] {
+        const bool is_empty = width <= 0 || height <= 0;
+        const auto count = is_empty ? 0
+                                    : std::size_t{3} * static_cast<std::size_t>(width) *
+                                          static_cast<std::size_t>(height);
+        return Texture(width, height, std::span(&checked("components", components), count));
+    });
+}
+
 } // namespace
+
+raylane_status raylane_texture_from_codes(int width, int height, const uint8_t* srgb,
+                                          raylane_texture** texture) {
+    return texture_of(width, height, srgb, texture);
+}
+
+raylane_status raylane_texture_from_floats(int width, int height, const float* linear,
+                                           raylane_texture** texture) {
+    return texture_of(width, height, linear, texture);
+}
+
+void raylane_texture_release(raylane_texture* texture) {
+    delete texture;
+}
 
 raylane_status raylane_render(const raylane_scene* scene, const raylane_settings* settings,
                               int threads, int precision, raylane_progress_callback progress,

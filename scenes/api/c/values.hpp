@@ -27,7 +27,8 @@ namespace raylane::c {
 
 using library::converted;
 
-/// Converts a material, and keeps the texts of its formula until the thread's next call.
+/// Converts a material, and keeps the texts of its formula and its image until the thread's next
+/// call.
 inline raylane_material kept_in_c(Material material) {
     thread_local Material kept; // NOLINT: owns the texts
     kept = std::move(material);

@@ -7,9 +7,24 @@
 #include <iterator>
 #include <type_traits>
 
+struct raylane_texture;
+namespace raylane {
+class Texture;
+namespace core {
+class Texture;
+}
+} // namespace raylane
+
 /// Conversions between the plain structs of core, of the library and of C, whose members have the
 /// same names.
 namespace raylane::library {
+
+/// Copy the images of patterns, without their pixels. A pointer of C points to the library's
+/// object, see raylane_texture.
+void copy_texture(const core::Texture& from, Texture& to);
+void copy_texture(const Texture& from, core::Texture& to);
+void copy_texture(const Texture& from, const raylane_texture*& to);
+void copy_texture(const raylane_texture* from, Texture& to);
 
 template <class From, class To>
 void copy(const From& from, To& to) {
@@ -18,6 +33,8 @@ void copy(const From& from, To& to) {
     else if constexpr (std::is_enum_v<From> || std::is_enum_v<To> || std::is_same_v<From, bool> ||
                        std::is_same_v<To, bool>)
         to = static_cast<To>(from);
+    else if constexpr (requires { copy_texture(from, to); })
+        copy_texture(from, to);
     else if constexpr (std::is_same_v<From, const char*>)
         to = from != nullptr ? from : "";
     else if constexpr (std::is_same_v<To, const char*>)

@@ -9,6 +9,7 @@
 #include "scenes/files/atomic_file.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/scene_file.hpp"
+#include "scenes/images/texture.hpp"
 #include "scenes/images/writer.hpp"
 #include "simd/threads/threads.hpp"
 
@@ -184,6 +185,13 @@ void save(const Scene& scene, const std::filesystem::path& path, const OnRemark&
         for (const std::string& what : differences)
             on_remark(file.string() +
                       ": differs from the scene, because the format cannot express: " + what);
+}
+
+Texture read_texture(const std::filesystem::path& path) {
+    return with_file_errors([&] {
+        scenes::InputFile file(file_named(path));
+        return library::Internals::texture(scenes::read_texture(file));
+    });
 }
 
 void write_image(const std::filesystem::path& path, const Image& image, Transfer transfer) {

@@ -3,6 +3,7 @@
 #include "core/scene/generators.hpp"
 #include "core/shapes/shapes.hpp"
 #include "core/solids/group.hpp"
+#include "core/solids/object_space.hpp"
 #include "raylane/generators.hpp"
 #include "scenes/api/cpp/convert.hpp"
 #include "scenes/api/cpp/internals.hpp"
@@ -55,10 +56,13 @@ Group Group::transformed(const Transform& transform) const {
     return translated([&] {
         Group result;
         result.members_.reserve(members_.size());
+        core::SpaceMover move_space(Internals::of(transform));
         for (const Solid& member : members_) {
             core::validate_parts(Internals::of(member));
-            result.members_.push_back(Internals::solid(
-                core::transformed_member(Internals::of(member), Internals::of(transform))));
+            core::Solid moved =
+                core::transformed_member(Internals::of(member), Internals::of(transform));
+            move_space(moved);
+            result.members_.push_back(Internals::solid(std::move(moved)));
         }
         return result;
     });

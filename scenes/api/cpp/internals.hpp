@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
+#include "raylane/material.hpp"
 #include "raylane/scene.hpp"
 #include "raylane/solid.hpp"
 #include "scenes/api/cpp/scene_annotations.hpp"
@@ -26,6 +27,12 @@ struct Internals {
         return Solid(std::make_shared<const core::Solid>(std::move(solid)));
     }
     static const core::Solid& of(const Solid& solid) { return *solid.solid_; }
+    static Texture texture(const core::Texture& texture) {
+        Texture result;
+        result.texture_ = std::make_shared<const core::Texture>(texture);
+        return result;
+    }
+    static const core::Texture& of(const Texture& texture) { return *texture.texture_; }
     static const std::vector<Solid>& members_of(const Group& group) { return group.members_; }
     static const core::Transform& of(const Transform& transform) { return *transform.transform_; }
 };

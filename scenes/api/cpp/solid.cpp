@@ -2,6 +2,7 @@
 
 #include "core/solids/group.hpp"
 #include "core/solids/lens.hpp"
+#include "core/solids/object_space.hpp"
 #include "scenes/api/cpp/convert.hpp"
 #include "scenes/api/cpp/internals.hpp"
 #include "scenes/api/cpp/translate.hpp"
@@ -60,7 +61,10 @@ Solid Solid::of(MaterialIndex material) const {
 Solid Solid::transformed(const Transform& transform) const {
     return library::translated([&] {
         core::validate_parts(*solid_);
-        return library::Internals::solid(library::Internals::of(transform)(*solid_));
+        core::Solid moved = library::Internals::of(transform)(*solid_);
+        core::SpaceMover move_space(library::Internals::of(transform));
+        move_space(moved);
+        return library::Internals::solid(std::move(moved));
     });
 }
 

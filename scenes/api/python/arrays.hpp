@@ -314,6 +314,7 @@ inline void look_for_signals() {
 void bind_builder(py::module_& module);
 void bind_scene(py::module_& module);
 void bind_solids(py::module_& module);
+void bind_texture(py::module_& module);
 void bind_tracer(py::module_& module);
 void bind_image(py::module_& module);
 

@@ -43,6 +43,7 @@ PYBIND11_MODULE(_raylane, module) {
     py::register_exception_translator(&set_error);
     module.attr("version") = raylane::version();
     module.attr("NO_SHAPE") = raylane::no_shape;
+    bind_texture(module);
     bind_solids(module);
     bind_builder(module);
     bind_scene(module);

@@ -155,6 +155,10 @@ void take(const py::handle& from, const std::string& field, ChannelTexts& to) {
     const auto texts = cast<std::array<std::string, 3>>(from, field, "three formulas");
     to = {texts[0], texts[1], texts[2]};
 }
+/// Reads an image: a Texture, or anything that one can be made of.
+void take(const py::handle& from, const std::string& field, Texture& to) {
+    to = from.is_none() ? Texture() : texture_from(from, field);
+}
 /// Reads a material's colour: a single colour or a pattern.
 void take(const py::handle& from, const std::string& field, Pattern& to) {
     if (py::hasattr(from, "kind"))
@@ -225,6 +229,9 @@ py::object give(const std::array<double, 3>& v) {
 }
 py::object give(const ChannelTexts& texts) {
     return py::make_tuple(texts[0], texts[1], texts[2]);
+}
+py::object give(const Texture& texture) {
+    return texture.any() ? py::cast(texture) : py::none();
 }
 py::object give(const Color (&colors)[2]) {
     return py::make_tuple(to_python(colors[0]), to_python(colors[1]));

@@ -18,6 +18,8 @@ Camera camera_from(const py::handle& camera);
 /// Returns nothing if the object is not an AutoCamera.
 std::optional<AutoCamera> auto_camera_from(const py::handle& camera);
 Settings settings_from(const py::handle& settings);
+/// Returns the image of a Texture, a path or an array.
+Texture texture_from(const py::handle& image, const std::string& field);
 std::vector<double> wavelengths_from(const py::handle& wavelengths);
 Color color_from(const py::handle& color, const std::string& field);
 Vec3 vector_from(const py::handle& vector, const std::string& field);

@@ -98,6 +98,11 @@ void write_built(AtomicFile& file, const core::Scene& scene) {
         throw BadInput(file.name(), "", "cannot store constructed solids: use .json or .pov");
     if (scene.copies() != nullptr)
         throw BadInput(file.name(), "", "cannot store kept copies of a group: use .json or .pov");
+    for (const core::Material& material : scene.materials())
+        if (material.pattern.kind == core::PatternKind::image)
+            throw BadInput(file.name(), "", "cannot store images: use .json");
+    if (!scene.object_spaces().empty())
+        throw BadInput(file.name(), "", "cannot store patterns that have moved with their objects");
     Writer writer;
     std::string json;
     TextFile text([&](std::string_view piece) { json += piece; });

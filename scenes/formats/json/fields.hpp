@@ -37,6 +37,8 @@ core::Formula formula_of(const JsonValue& value, const core::FormulaTexts& point
 inline void read_field(const JsonValue& value, const core::fields::Field&, core::Formula& to) {
     to = formula_of(value);
 }
+/// Leaves the image to PatternImages.
+void read_field(const JsonValue& value, const core::fields::Field& field, core::Texture& to);
 /// Reads a checker's axes.
 void read_field(const JsonValue& value, const core::fields::Field& field, std::uint8_t& to);
 void read_field(const JsonValue& value, const core::fields::Field& field, core::Pattern& to);

@@ -2,6 +2,7 @@
 
 #include "core/scene/presets.hpp"
 #include "core/shapes/checks.hpp"
+#include "core/solids/object_space.hpp"
 #include "scenes/formats/json/fields.hpp"
 #include "scenes/formats/json/transform.hpp"
 
@@ -24,17 +25,14 @@ Value named(const JsonValue& value, std::span<const Named> table, Value Named::*
 /// Returns formulas of the coordinates that a point had before the transform of a pattern moved it
 /// to x, y, z.
 core::FormulaTexts coordinates_before(const JsonValue& pattern) {
-    using core::Vec3d, core::checks::text_of;
-    // The moved unit cube has the map's columns as its edges.
-    core::BoxOf<double> unit{Vec3d(0), Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
-    const auto [origin, u, v, w] =
-        std::get<core::BoxOf<double>>(transform_of(pattern)(core::of_shape(unit)).shape);
-    const Vec3d rows[3] = {core::cross(v, w), core::cross(w, u), core::cross(u, v)};
-    const double volume = core::dot(rows[0], u);
+    using core::checks::text_of;
+    const core::Transform transform = transform_of(pattern);
+    const core::ObjectSpace before = core::space_moved_by(transform.columns(), transform.origin());
+    const core::Vec3d& origin = before.origin;
     core::FormulaTexts texts;
     for (int row = 0; row < 3; ++row) {
         for (int axis = 0; axis < 3; ++axis) {
-            const double factor = rows[row][axis] / volume;
+            const double factor = before.rows[static_cast<std::size_t>(row)][axis];
             if (!std::isfinite(factor) || !std::isfinite(origin[axis]))
                 pattern.fail(
                     "must have a transform with an inverse whose numbers doubles can hold");

@@ -4,10 +4,12 @@
 #include "core/shapes/shapes.hpp"
 #include "core/solids/group.hpp"
 #include "core/solids/lens.hpp"
+#include "core/solids/object_space.hpp"
 #include "scenes/formats/json/transform.hpp"
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -458,11 +460,15 @@ std::vector<Solid> SolidReader::described(const JsonValue& object, Use use) {
     }
     if (has_transform(object)) {
         const core::Transform transform = transform_of(object);
+        std::optional<core::SpaceMover> move_space; // few objects need it
         for (Solid& solid : members) {
             solid = checked(object, [&] {
                 return use == Use::part ? transform(solid)
                                         : core::transformed_member(std::move(solid), transform);
             });
+            if (!context.builder.may_follow(solid)) continue;
+            if (!move_space) move_space.emplace(transform);
+            (*move_space)(solid);
         }
     }
     if (const auto material = object.find("material");

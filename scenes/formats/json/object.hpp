@@ -52,10 +52,11 @@ class Definitions {
     std::set<std::string, std::less<>> unknown_;
 };
 
-/// The materials and definitions that objects refer to.
+/// The materials and definitions that objects refer to, and the builder of the scene.
 struct ObjectContext {
     const MaterialOf& material_of;
     Definitions& definitions;
+    const core::SceneBuilder& builder;
 };
 
 /// Adds an object of the schema: a shape, a solid, or all shapes of a group, an instance or a

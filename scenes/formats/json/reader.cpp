@@ -8,6 +8,7 @@
 #include "scenes/formats/json/material.hpp"
 #include "scenes/formats/json/object.hpp"
 #include "scenes/formats/json/object_places.hpp"
+#include "scenes/formats/json/pattern_images.hpp"
 #include "scenes/formats/json/surroundings.hpp"
 
 #include <array>
@@ -151,6 +152,7 @@ class SceneReader {
     ObjectPlaces objects_;
     bool has_lights_ = false, has_objects_ = false;
     bool may_include_ = true;
+    PatternImages images_;
     std::set<std::string_view> missed_; // root keys with errors, whose items may be missing
     MaterialOf material_of_ = [this](const JsonValue& value) { return material_of(value); };
 };
@@ -309,7 +311,7 @@ void SceneReader::take_material(std::string_view name, const JsonValue& value) {
 void SceneReader::take_definition(std::string_view name, const JsonValue& value) {
     if (definitions_.contains(name)) refuse_again(value);
     try {
-        definitions_.add(name, described_object(value, {material_of_, definitions_}));
+        definitions_.add(name, described_object(value, {material_of_, definitions_, builder_}));
     } catch (const BadInput&) {
         definitions_.add(name, std::nullopt);
         throw;
@@ -319,12 +321,17 @@ void SceneReader::take_definition(std::string_view name, const JsonValue& value)
 void SceneReader::take_object(const JsonValue& value) {
     has_objects_ = true;
     const std::size_t before = builder_.shape_count();
-    add_object(value, builder_, {material_of_, definitions_});
+    add_object(value, builder_, {material_of_, definitions_, builder_});
     objects_.add(before, builder_.shape_count() - before);
 }
 
 core::MaterialIndex SceneReader::add_material(const JsonValue& value) {
-    const core::Material material = read_material(value);
+    core::Material material = read_material(value);
+    if (material.pattern.kind == core::PatternKind::image) {
+        const JsonValue file = value.toward("pattern/file");
+        if (!may_include_) file.fail("must not be an image in a built scene");
+        material.pattern.image = images_.named_by(file);
+    }
     return checked(value, [&] {
         try {
             return add(material);
@@ -354,7 +361,8 @@ core::MaterialIndex SceneReader::index_of_unknown(const JsonValue& value) {
     const auto found = unknown_names_.find(key);
     if (found != unknown_names_.end()) return found->second.index;
     const bool hopeless = !materials_.empty() && !misses("materials");
-    const core::MaterialIndex index = add({});
+    ++material_count_;
+    const core::MaterialIndex index = builder_.add_placeholder();
     unknown_names_.emplace(key, UnknownName{index, std::string(value.file()),
                                             value.positions().value, value.pointer(), hopeless});
     if (hopeless) value.fail(complaint_about_name(value.string()));

@@ -2,6 +2,7 @@
 #include "scenes/formats/pov/expressions.hpp"
 #include "scenes/formats/pov/finishes.hpp"
 #include "scenes/images/png.hpp"
+#include "scenes/images/texture.hpp"
 
 #include <cmath>
 #include <new>
@@ -12,18 +13,6 @@ namespace {
 
 /// An image with more pixels costs too much for a single colour.
 constexpr std::uint64_t max_pixels = std::uint64_t{1} << 26;
-
-/// Returns the pixels of a PNG by its first bytes, or 0 for another format.
-std::uint64_t pixels_of_png(std::string_view head) {
-    if (!head.starts_with("\x89PNG\r\n\x1A\n") || head.size() < 24) return 0;
-    const auto number = [&](std::size_t at) {
-        std::uint64_t value = 0;
-        for (std::size_t i = at; i < at + 4; ++i)
-            value = value << 8 | static_cast<unsigned char>(head[i]);
-        return value;
-    };
-    return number(16) * number(20);
-}
 
 /// Returns the mean, weighted by alpha. `transmit` is 1 minus the mean alpha.
 Tuple mean_of(const Image& image, bool is_linear) {

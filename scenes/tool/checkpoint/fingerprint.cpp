@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 #include <new>
+#include <variant>
 #include <vector>
 
 #define XXH_INLINE_ALL
@@ -65,6 +66,23 @@ void add_materials(Hash& hash, const core::Scene& scene) {
     add_some();
 }
 
+/// Adds the pixels of a material's image, if it has one.
+void add_image(Hash& hash, const core::Texture& image) {
+    if (!image.any()) return;
+    hash.add(static_cast<std::uint64_t>(image.width()));
+    hash.add(image.components().index());
+    std::visit([&](const auto& all) { hash.add(all.data(), all.size() * sizeof all[0]); },
+               image.components());
+}
+
+void add_spaces(Hash& hash, const core::Scene& scene) {
+    for (const auto& [id, space] : scene.object_spaces()) {
+        hash.add(id);
+        hash.add(&space->origin, sizeof space->origin);
+        hash.add(&space->axes, sizeof space->axes);
+    }
+}
+
 void add_shapes(Hash& hash, const core::Scene& scene) {
     hash.add(scene.shape_count());
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
@@ -84,6 +102,7 @@ void add_shapes(Hash& hash, const core::Scene& scene) {
             });
     });
     add_materials(hash, scene);
+    add_spaces(hash, scene);
     if (scene.copies() == nullptr) return;
     for (const core::Copies::Set& set : scene.copies()->sets()) {
         add_shapes(hash, *set.prototype);
@@ -100,6 +119,8 @@ std::string fingerprint_of(const core::Scene& scene) {
     TextFile text([&](std::string_view piece) { hash.add(piece); });
     write_json_without_shapes(text, scene);
     text.flush();
+    for (const core::Material& material : scene.materials())
+        add_image(hash, material.pattern.image);
     add_shapes(hash, scene);
     return hash.text();
 }

@@ -53,6 +53,7 @@ struct Patterns {
                     fraction * second.z + rest * first.z};
         }
         case core::PatternKind::formula: // see Formulas
+        case core::PatternKind::image:   // see HitPaths::pattern
             return first;
         }
         __builtin_unreachable();

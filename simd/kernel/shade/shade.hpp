@@ -65,7 +65,10 @@ struct Shading {
             const std::size_t count = run.end - first < chunk ? run.end - first : chunk;
             for (std::size_t k = 0; k < count; k += lanes) {
                 const Gather gather(numbers + first + k, count - k);
-                const V point = point_of(gather, paths, gather(paths.direction), gather(paths.t));
+                const V point =
+                    run.material->in_object_space
+                        ? gather(paths.pattern)
+                        : point_of(gather, paths, gather(paths.direction), gather(paths.t));
                 formulas.set(0, k, point.x);
                 formulas.set(1, k, point.y);
                 formulas.set(2, k, point.z);
@@ -77,6 +80,14 @@ struct Shading {
                 for (int i = 0; i < 3; ++i)
                     formulas.channel(i, k).store_unaligned(own[i] + first + k);
         }
+    }
+
+    static V own_color(const MaterialView& material, const Gather& gather, const HitPaths& paths,
+                       const V& point, const Surfaces& surfaces, std::size_t i) {
+        if (material.formula != nullptr) return load(surfaces.own, i);
+        if (material.has_image) return gather(paths.pattern);
+        const V at = material.in_object_space ? gather(paths.pattern) : point;
+        return Patterns<Arch>::color_at(material, at);
     }
 
     static void surfaces(const Run& run, const std::uint32_t* numbers, const HitPaths& paths,
@@ -112,8 +123,7 @@ struct Shading {
                 store(scaled(F(1.0 - material.opacity), throughput), surfaces.behind, i);
                 throughput = scaled(F(material.opacity), throughput);
             }
-            const V own = material.formula != nullptr ? load(surfaces.own, i)
-                                                      : Patterns<Arch>::color_at(material, point);
+            const V own = own_color(material, gather, paths, point, surfaces, i);
             V radiance = scaled(F(material.ambient), own);
             if constexpr (with_fog) {
                 const F distance = paths.travelled != nullptr ? gather(paths.travelled) + t : t;

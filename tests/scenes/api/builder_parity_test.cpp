@@ -439,6 +439,56 @@ Case looks() {
             }};
 }
 
+Case patterns_on_objects() {
+    const std::string picture = RAYLANE_SOURCE_DIR "/bench/failures/double-sum.png";
+    const std::string text = R"({"materials": {
+            "m": {"pattern": {"type": "image", "file": ")" +
+                             picture + R"("}},
+            "n": {"pattern": {"type": "image", "file": ")" +
+                             picture + R"(", "width": 0.5,
+                  "height": 2, "wrap": "clamp", "axis": [1, 0, 1]}},
+            "o": {"pattern": {"type": "formula", "color": ["x", "u", 0.5], "space": "object"}},
+            "p": {"pattern": {"type": "image", "file": ")" +
+                             picture + R"(", "wrap": "repeat"}},
+            "q": {"pattern": {"type": "checker", "colors": ["#000000", "#ffffff"], "size": 0.3,
+                  "space": "world"}}},
+            "objects": [{"type": "group", "rotate": [10, 20, 30], "objects": [
+                {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"},
+                {"type": "sphere", "center": [2, 0, 0], "radius": 1, "material": "n"},
+                {"type": "sphere", "center": [-2, 0, 0], "radius": 1, "material": "o"},
+                {"type": "cylinder", "base": [0, 1.5, 0], "axis": [1, 0, 0], "radius": 0.5,
+                 "material": "p"},
+                {"type": "sphere", "center": [0, -2, 0], "radius": 1, "material": "q"}]}]})";
+    return {"patterns on objects", text, [picture](SceneBuilder& to) {
+                const Texture image = read_texture(picture);
+                const MaterialIndex materials[] = {
+                    to.add_material({.pattern = {.kind = PatternKind::image, .image = image}}, "m"),
+                    to.add_material({.pattern = {.kind = PatternKind::image,
+                                                 .image = image,
+                                                 .width = 0.5F,
+                                                 .height = 2,
+                                                 .wrap = ImageWrap::clamp,
+                                                 .axis = {1, 0, 1}}},
+                                    "n"),
+                    to.add_material({.pattern = {.kind = PatternKind::formula,
+                                                 .formula = {"x", "u", "0.5"},
+                                                 .space = PatternSpace::object}},
+                                    "o"),
+                    to.add_material({.pattern = {.kind = PatternKind::image, .image = image}}, "p"),
+                    to.add_material({.pattern = {.kind = PatternKind::checker,
+                                                 .colors = {{0, 0, 0}, {1, 1, 1}},
+                                                 .size = 0.3F}},
+                                    "q")};
+                Group group;
+                group.add(SphereOf<double>{{0, 0, 0}, 1}, materials[0]);
+                group.add(SphereOf<double>{{2, 0, 0}, 1}, materials[1]);
+                group.add(SphereOf<double>{{-2, 0, 0}, 1}, materials[2]);
+                group.add(CappedCylinderOf<double>{{0, 1.5, 0}, {1, 0, 0}, 0.5}, materials[3]);
+                group.add(SphereOf<double>{{0, -2, 0}, 1}, materials[4]);
+                to.add(group.transformed(Transform().rotated({10, 20, 30})));
+            }};
+}
+
 std::vector<Case> checkers() {
     std::vector<Case> cases;
     for (const char* axes : {"x", "y", "z", "xy", "xz", "yz"}) {
@@ -603,8 +653,9 @@ std::vector<Case> images() {
 }
 
 std::vector<Case> all_cases() {
-    std::vector<Case> all = {shapes(), sphereflake(), lattices(), solids(),  transforms(),
-                             groups(), numbers(),     presets(),  glasses(), looks()};
+    std::vector<Case> all = {
+        shapes(),  sphereflake(), lattices(), solids(), transforms(),         groups(),
+        numbers(), presets(),     glasses(),  looks(),  patterns_on_objects()};
     for (const auto& make : {checkers, lights_and_fog, views, images})
         for (Case& one : make())
             all.push_back(std::move(one));

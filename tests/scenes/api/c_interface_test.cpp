@@ -1,3 +1,4 @@
+#include "tests/places.hpp"
 #include "tests/scenes/api/c_handles.hpp"
 #include "tests/scenes/api/ray_arrays.hpp"
 #include "tests/support/catch.hpp"
@@ -167,6 +168,67 @@ TEST_CASE("C copies the texts of a formula, and reports its mistake") {
                     "column 4") != std::string::npos);
     material.pattern.formula[1] = "y";
     CHECK(raylane_add_material(builder.get(), &material, nullptr) == RAYLANE_OK);
+}
+
+TEST_CASE("C makes images of arrays, shares them between materials and gives them back") {
+    using TextureHandle = std::unique_ptr<raylane_texture, Release<raylane_texture_release>>;
+    const Builder builder = builder_in_c();
+    raylane_material material = raylane_default_material();
+    CHECK(material.pattern.image == nullptr);
+    CHECK(material.pattern.width == 1.0F);
+    CHECK(material.pattern.axis.y == 1.0F);
+    material.pattern.kind = RAYLANE_IMAGE;
+    material.ambient = 1;
+    material.diffuse = 0;
+    CHECK(raylane_add_material(builder.get(), &material, nullptr) == RAYLANE_INVALID_VALUE);
+    CHECK(std::string(raylane_error_text()) == "pattern/image: must be an image, got none");
+    std::uint32_t index = 0;
+    {
+        const float linear[] = {0.25F, 0.5F, 0.75F, 1.0F, 2.0F, 0.0F};
+        const auto texture = made<TextureHandle>([&](raylane_texture** handle) {
+            return raylane_texture_from_floats(2, 1, linear, handle);
+        });
+        material.pattern.image = texture.get();
+        material.pattern.width = 2;
+        CHECK(raylane_add_material(builder.get(), &material, &index) == RAYLANE_OK);
+    } // the material keeps the pixels
+    const raylane_plane wall = {{0, 0, 0}, {0, 0, 1}};
+    CHECK(raylane_add_planes(builder.get(), &wall, 1, index, nullptr) == RAYLANE_OK);
+    raylane_light light = raylane_default_light();
+    light.position = {0, 0, 9};
+    CHECK(raylane_add_light(builder.get(), &light) == RAYLANE_OK);
+    raylane_settings settings = raylane_default_settings();
+    settings.width = settings.height = 1;
+    CHECK(raylane_set_settings(builder.get(), &settings) == RAYLANE_OK);
+    raylane_camera camera = raylane_default_camera();
+    camera.from = {0.5F, 0, 5};
+    camera.at = {0.5F, 0, 0};
+    CHECK(raylane_set_camera(builder.get(), &camera) == RAYLANE_OK);
+    const SceneHandle scene = built(builder);
+    float rgb[3] = {};
+    CHECK(raylane_render(scene.get(), nullptr, 1, RAYLANE_EXACT, nullptr, nullptr, rgb) ==
+          RAYLANE_OK);
+    CHECK(rgb[0] == 0.25F); // the middle of the left pixel
+    CHECK(rgb[1] == 0.5F);
+    CHECK(rgb[2] == 0.75F);
+    raylane_material again{};
+    CHECK(raylane_scene_material(scene.get(), index, &again) == RAYLANE_OK);
+    REQUIRE(again.pattern.image != nullptr);
+    CHECK(raylane_add_material(builder.get(), &again, nullptr) == RAYLANE_OK);
+}
+
+TEST_CASE("C refuses images without pixels and files of other formats") {
+    raylane_texture* texture = nullptr;
+    const std::uint8_t codes[3] = {};
+    CHECK(raylane_texture_from_codes(0, 1, codes, &texture) == RAYLANE_INVALID_VALUE);
+    CHECK(raylane_texture_from_codes(1, 1, nullptr, &texture) == RAYLANE_INVALID_VALUE);
+    CHECK(raylane_read_texture("no-such-file.png", &texture) == RAYLANE_BAD_INPUT);
+    CHECK(texture == nullptr);
+    CHECK(raylane_read_texture(RAYLANE_SOURCE_DIR "/scenes/birthday.json", &texture) ==
+          RAYLANE_BAD_INPUT);
+    CHECK(std::string(raylane_error_text()).find("must be PNG, got another format") !=
+          std::string::npos);
+    raylane_texture_release(nullptr);
 }
 
 TEST_CASE("C has the defaults of C++") {

@@ -203,6 +203,9 @@ TEST_CASE("each enumerator of the library equals core's of that name") {
     CHECK(same(PatternKind::stripes, core::PatternKind::stripes));
     CHECK(same(PatternKind::gradient, core::PatternKind::gradient));
     CHECK(same(PatternKind::formula, core::PatternKind::formula));
+    CHECK(same(PatternKind::image, core::PatternKind::image));
+    CHECK(same(PatternSpace::object, core::PatternSpace::object));
+    CHECK(same(ImageWrap::clamp, core::ImageWrap::clamp));
     CHECK(same(Highlight::phong, core::Highlight::phong));
     CHECK(same(Reflection::schlick, core::Reflection::schlick));
     CHECK(same(Reflection::dielectric, core::Reflection::dielectric));
@@ -388,8 +391,8 @@ TEST_CASE("a number that matches no enumerator is refused") {
     const auto material = [&](const Material& wrong) {
         return message([&] { builder.add_material(wrong); });
     };
-    CHECK(material({.pattern = {.kind = static_cast<PatternKind>(5)}}) ==
-          "pattern/kind: must be one of its enumerators, 0 to 4, got 5");
+    CHECK(material({.pattern = {.kind = static_cast<PatternKind>(6)}}) ==
+          "pattern/kind: must be one of its enumerators, 0 to 5, got 6");
     CHECK(material({.highlight = static_cast<Highlight>(2)}).starts_with("highlight: must be"));
     CHECK(material({.reflection = static_cast<Reflection>(3)}).starts_with("reflection: must be"));
     CHECK(material({.visible = static_cast<Visible>(255)}).starts_with("visible: must be"));

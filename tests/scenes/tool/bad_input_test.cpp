@@ -173,7 +173,7 @@ TEST_CASE("an invalid shape gives an error of one line") {
          R"(/objects/0/material: must be the name of a material, got "caly", did you mean "clay"?)"},
         in_scene("unknown pattern", R"("materials": {"a": {"pattern": {"type": "chekcer"}}})",
                  R"(/materials/a/pattern/type: must be "checker", "stripes", "gradient", )"
-                 R"("formula" or "back-plane", got "chekcer", did you mean "checker"?)"),
+                 R"("formula", "image" or "back-plane", got "chekcer", did you mean "checker"?)"),
         in_scene(
             "mistake in a formula",
             R"~("materials": {"a": {"pattern": {"type": "formula", "color": ["x", "2 * sine(x)", "0"]}}})~",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "raylane/api.hpp"
+#include "raylane/material.hpp"
 #include "raylane/precision.hpp"
 #include "raylane/scene.hpp"
 
@@ -30,6 +31,11 @@ struct Aovs {
 };
 
 using Layers [[deprecated("renamed to Aovs")]] = Aovs;
+
+/// Reads a PNG for Pattern::image: grey, palettes and 16 bits too. Throws BadInput for other
+/// formats, malformed files and transparent pixels, and SystemRefused. Give one Texture to several
+/// materials, which then share the pixels.
+RAYLANE_API Texture read_texture(const std::filesystem::path& path);
 
 /// An image in linear float RGB. Components are >= 0 and may exceed 1.
 struct Image {

@@ -6,12 +6,60 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
+namespace raylane::core {
+class Texture;
+}
+namespace raylane::library {
+struct Internals;
+}
+
 namespace RAYLANE_API raylane {
 
-enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, formula };
+enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, formula, image };
+
+/// Coordinates of the points of a pattern.
+enum class PatternSpace : std::uint8_t {
+    world,
+    object, ///< those in which a shape was given, before transforms and placements moved it
+};
+
+/// Colours beyond the edges of an image.
+enum class ImageWrap : std::uint8_t {
+    repeat, ///< those of further copies of the image
+    clamp,  ///< those of the nearest edge
+};
+
+/// An image as the colour of surfaces, see Pattern::image. Copies share the pixels. read_texture()
+/// reads a file.
+class Texture {
+  public:
+    Texture() = default; ///< no image
+    /// Take height x width x 3 components: rows from the top down, red, green and blue of each
+    /// pixel; as codes of the sRGB curve, or as linear numbers from 0 to 1e10. An image has 1 to
+    /// 67,108,864 pixels. Throw InvalidValue, field "image".
+    Texture(int width, int height, std::span<const std::uint8_t> srgb);
+    Texture(int width, int height, std::span<const float> linear);
+
+    bool any() const { return texture_ != nullptr; }
+    int width() const;  ///< pixels; 0 without an image
+    int height() const; ///< pixels; 0 without an image
+    /// Returns the linear colour of the pixel in column x from the left and row y from the top.
+    /// Throws InvalidValue, field "image", for another place.
+    Color pixel(int x, int y) const;
+
+    /// Returns true for the same pixels.
+    friend bool operator==(const Texture& a, const Texture& b);
+
+  private:
+    friend struct library::Internals;
+
+    std::shared_ptr<const core::Texture> texture_;
+};
 
 /// A text for each channel of a colour. Not an array: with one as a member, g++ 12 stops in
 /// templates that write Material{}.
@@ -28,11 +76,11 @@ struct ChannelTexts {
     friend bool operator==(const ChannelTexts&, const ChannelTexts&) = default;
 };
 
-/// Colour as a function of the point in space, in world coordinates.
+/// Colour as a function of the point in space, or an image on the surface.
 struct Pattern {
     PatternKind kind = PatternKind::solid;
     /// >= 0. solid: the first colour only. checker, stripes: alternating, with the first colour in
-    /// the cell that begins at the origin. gradient: the colours at `from` and at `to`. formula:
+    /// the cell that begins at the origin. gradient: the colours at `from` and at `to`. Others:
     /// unused.
     Color colors[2] = {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}};
     /// > 0. checker: edge length of a cell; stripes: width of a band. A point nearer to an edge
@@ -53,6 +101,22 @@ struct Pattern {
     /// in the language that scenes/README.md describes. Together they may have 64 different
     /// operations. A result that is undefined or below 0 counts as 0, above 1e10 as 1e10.
     ChannelTexts formula{};
+    /// checker, stripes, gradient, formula: coordinates of the points. In object space a pattern
+    /// moves with its shapes when Group::transformed, Solid::transformed and placements move them.
+    /// The coordinates u and v of a formula are then those in object space, too.
+    PatternSpace space = PatternSpace::world;
+    /// image: between the four nearest pixels, in linear light. Its lower left corner is at u = 0
+    /// and v = 0, coordinates on the shape in object space that scenes/README.md describes. One
+    /// copy extends over `width` along u and `height` along v, > 0. On spheres, ellipsoids,
+    /// cylinders and cones no colours blend across v = 0 and v = 1. A quadric has one colour, and
+    /// so have planes, open cylinders and open cones that are parts of solids.
+    Texture image{};
+    float width = 1.0F;
+    float height = 1.0F;
+    ImageWrap wrap = ImageWrap::repeat;
+    /// image: from the lower to the upper pole of spheres and ellipsoids, of any length except
+    /// zero.
+    Vec3 axis{0.0F, 1.0F, 0.0F};
 };
 
 /// Shape of the highlight.

@@ -51,6 +51,7 @@ typedef struct raylane_group raylane_group;
 typedef struct raylane_scene raylane_scene;
 typedef struct raylane_tracer raylane_tracer;
 typedef struct raylane_rows raylane_rows;
+typedef struct raylane_texture raylane_texture;
 
 #define RAYLANE_NO_SHAPE UINT32_MAX
 #define RAYLANE_NO_MATERIAL UINT32_MAX
@@ -139,7 +140,16 @@ typedef struct raylane_double_ellipsoid {
 } raylane_double_ellipsoid;
 
 /** Enumerators of the C++ headers, in the same order. */
-enum { RAYLANE_SOLID, RAYLANE_CHECKER, RAYLANE_STRIPES, RAYLANE_GRADIENT, RAYLANE_FORMULA };
+enum {
+    RAYLANE_SOLID,
+    RAYLANE_CHECKER,
+    RAYLANE_STRIPES,
+    RAYLANE_GRADIENT,
+    RAYLANE_FORMULA,
+    RAYLANE_IMAGE
+};
+enum { RAYLANE_WORLD_SPACE, RAYLANE_OBJECT_SPACE };
+enum { RAYLANE_REPEAT, RAYLANE_CLAMP };
 enum { RAYLANE_CONSTANT, RAYLANE_SCHLICK, RAYLANE_DIELECTRIC };
 enum { RAYLANE_BLINN, RAYLANE_PHONG };
 enum { RAYLANE_BOTH_SIDES, RAYLANE_OUTSIDE, RAYLANE_INSIDE };
@@ -183,6 +193,11 @@ typedef struct raylane_material {
         uint8_t axes;
         raylane_vec3 direction, from, to;
         const char* formula[3]; /**< copied; NULL: none */
+        uint8_t space;
+        const raylane_texture* image; /**< shared; NULL: none */
+        float width, height;
+        uint8_t wrap;
+        raylane_vec3 axis;
     } pattern;
     float ambient, diffuse, specular, exponent;
     uint8_t highlight;
@@ -242,6 +257,16 @@ typedef struct raylane_settings {
     uint8_t transparent_shadows; /**< 0 or 1 */
     raylane_outline outline;
 } raylane_settings;
+
+/** Create an image for patterns from height x width x 3 components, or from a PNG file, same as
+ * Texture in material.hpp and read_texture() in image.hpp. Materials share the pixels, and keep
+ * them after the release. */
+RAYLANE_API raylane_status raylane_texture_from_codes(int width, int height, const uint8_t* srgb,
+                                                      raylane_texture** texture);
+RAYLANE_API raylane_status raylane_texture_from_floats(int width, int height, const float* linear,
+                                                       raylane_texture** texture);
+RAYLANE_API raylane_status raylane_read_texture(const char* path, raylane_texture** texture);
+RAYLANE_API void raylane_texture_release(raylane_texture* texture);
 
 /** Return the default values of the C++ structs. */
 RAYLANE_API raylane_material raylane_default_material(void);
@@ -623,8 +648,9 @@ RAYLANE_API raylane_status raylane_save(const raylane_scene* scene, const char* 
 RAYLANE_API void raylane_scene_release(raylane_scene* scene);
 RAYLANE_API size_t raylane_shape_count(const raylane_scene* scene);
 RAYLANE_API size_t raylane_material_count(const raylane_scene* scene);
-/** Gives a material of the scene. Fails if none has this index. The texts of a formula are valid
- * until the calling thread's next call of this function or of raylane_material_preset(). */
+/** Gives a material of the scene. Fails if none has this index. The texts of a formula and the
+ * image are valid until the calling thread's next call of this function or of
+ * raylane_material_preset(). */
 RAYLANE_API raylane_status raylane_scene_material(const raylane_scene* scene, uint32_t index,
                                                   raylane_material* material);
 /** Gives the name of a material, empty if it has none. Stores at most `size` bytes with the final

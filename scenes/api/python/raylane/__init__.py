@@ -14,6 +14,7 @@ from ._errors import BadInput, InputError, InvalidValue, SystemRefused
 from ._group import Group
 from ._image import Cancelled, Image, Aovs, imshow, render
 from ._orbit import orbit
+from ._raylane import Texture
 from ._raylane import version as __version__
 from ._renamed import renamed_class as _renamed_class
 from ._scene import Scene, SceneBuilder, load, parse
@@ -66,6 +67,7 @@ __all__ = [
     "SolidLengths",
     "Solids",
     "SystemRefused",
+    "Texture",
     "Tracer",
     "Transform",
     "__version__",

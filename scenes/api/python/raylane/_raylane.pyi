@@ -26,6 +26,21 @@ class Scene:
     def background(self) -> Vector: ...
     def settings(self) -> Settings: ...
 
+class Texture:
+    """An image as the colour of surfaces, for :attr:`Pattern.image`.
+
+    ``image``: the path of a PNG, or an array (height, width, 3), rows from the top down: uint8, codes of the sRGB
+    curve, or floats, linear, from 0 to 1e10. Patterns with one texture share its pixels. Raises InvalidValue, BadInput
+    and SystemRefused.
+    """
+
+    def __init__(self, image: Any) -> None: ...
+    @property
+    def shape(self) -> Tuple[int, int, int]:
+        """Height, width and 3."""
+    def pixels(self) -> Any:
+        """Returns the linear colours, float32 (height, width, 3)."""
+
 class Transform:
     def __init__(self) -> None: ...
     def scaled(self, by: Any) -> Transform: ...

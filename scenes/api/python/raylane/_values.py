@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from os import PathLike
 from typing import Any, Literal, Optional, Tuple, Union
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from . import _raylane
 from ._fields import Fields
+from ._raylane import Texture
 from ._renamed import renamed
 
 Vector = Tuple[float, float, float]
@@ -29,9 +31,9 @@ _BLACK: Vector = (0.0, 0.0, 0.0)
 
 @dataclass
 class Pattern(Fields):
-    """A colour as a function of the point in space, in world coordinates."""
+    """A colour as a function of the point in space, or an image on the surface."""
 
-    kind: Literal["solid", "checker", "stripes", "gradient", "formula"] = "solid"
+    kind: Literal["solid", "checker", "stripes", "gradient", "formula", "image"] = "solid"
     colors: Tuple[Color, Color] = (_WHITE, _WHITE)
     """Linear RGB, >= 0. solid: the first only. checker, stripes: alternating. gradient: at ``start`` and at ``end``."""
     size: float = 1.0
@@ -48,10 +50,28 @@ class Pattern(Fields):
     """formula: the texts of red, green and blue, such as ``"abs(cos(x))"``, in the language of the JSON format. Together
     they may have 64 different operations. A result that is undefined or below 0 counts as 0, above 1e10 as 1e10.
     A pattern that is made with formulas has this kind."""
+    space: Literal["world", "object"] = "world"
+    """checker, stripes, gradient, formula: coordinates of the points. In object space a pattern moves with its shapes
+    when transforms and placements move them. The coordinates u and v of a formula are then those in object space,
+    too."""
+    image: Union[None, Texture, str, PathLike[str], NDArray[Any]] = None
+    """image: a :class:`Texture`, or anything that one is made of: the path of a PNG, or an array (height, width, 3).
+    Its lower left corner is at u = 0 and v = 0, coordinates on the shape in object space that the JSON format
+    describes. A pattern that is made with an image has this kind."""
+    width: float = 1.0
+    """image: extent along u, > 0. A length on planes; on round shapes, 1 is a whole turn."""
+    height: float = 1.0
+    """image: extent along v, > 0. A length on planes; on round shapes, 1 is from end to end."""
+    wrap: Literal["repeat", "clamp"] = "repeat"
+    """image: colours beyond its edges. repeat: of further copies; clamp: of the nearest edge."""
+    axis: Vector = (0.0, 1.0, 0.0)
+    """image: from the lower to the upper pole of spheres and ellipsoids, of any length except zero."""
 
     def __post_init__(self) -> None:
         if self.kind == "solid" and any(self.formula):
             self.kind = "formula"
+        if self.kind == "solid" and self.image is not None:
+            self.kind = "image"
 
 
 @dataclass

@@ -36,7 +36,7 @@ std::string json_of(const core::Scene& scene) {
     std::string json;
     TextFile text([&](std::string_view piece) { json += piece; });
     Differences differences;
-    write_json(text, scene, differences);
+    write_json(text, scene, differences, {});
     text.flush();
     return json;
 }
