@@ -405,10 +405,41 @@ void change_group(Handles& handles, Bytes& bytes) {
     }
 }
 
+/// Returns an image, or NULL if the call must fail.
+raylane_texture* texture_of(Bytes& bytes) {
+    const int width = bytes.below(4), height = bytes.below(4);
+    const bool leaves_out = bytes.below(16) == 15 || width == 0 || height == 0;
+    raylane_texture* made = nullptr;
+    if (bytes.flag()) {
+        float linear[27];
+        for (float& number : linear)
+            number = bytes.any_float();
+        check(raylane_texture_from_floats(width, height, leaves_out ? nullptr : linear, &made),
+              leaves_out);
+    } else {
+        std::uint8_t codes[27];
+        for (std::uint8_t& code : codes)
+            code = static_cast<std::uint8_t>(bytes.byte());
+        check(raylane_texture_from_codes(width, height, leaves_out ? nullptr : codes, &made),
+              leaves_out);
+    }
+    return made;
+}
+
 void add_material(raylane_builder* builder, Bytes& bytes) {
     raylane_material material = raylane_default_material();
     const int changes = bytes.byte();
-    if ((changes & 1) != 0) material.pattern.kind = enumerator(bytes, 5);
+    if ((changes & 1) != 0) material.pattern.kind = enumerator(bytes, 6);
+    raylane_texture* const image =
+        material.pattern.kind == RAYLANE_IMAGE ? texture_of(bytes) : nullptr;
+    material.pattern.image = image;
+    if (image != nullptr) {
+        material.pattern.width = bytes.any_float();
+        material.pattern.height = bytes.any_float();
+        material.pattern.wrap = enumerator(bytes, 2);
+        material.pattern.axis = vector_of(bytes);
+    }
+    if (material.pattern.kind == RAYLANE_FORMULA) material.pattern.space = enumerator(bytes, 2);
     if (material.pattern.kind == RAYLANE_FORMULA)
         for (const char*& text : material.pattern.formula)
             text = bytes.below(4) == 0 ? "cos(" : "abs(sin(u)) / noise(x, y, z) ^ v";
@@ -427,6 +458,7 @@ void add_material(raylane_builder* builder, Bytes& bytes) {
     check(raylane_add_material(builder, leaves_out ? nullptr : &material,
                                bytes.flag() ? &index : nullptr),
           builder == nullptr || leaves_out);
+    raylane_texture_release(image);
 }
 
 void set_surroundings(raylane_builder* builder, Bytes& bytes) {
