@@ -168,6 +168,7 @@ SceneData::SceneData(const core::Scene& scene, Transmissive transmissive)
     view_hierarchy();
     find_plain_lanes(transmissive);
     clip_planes_.find(scene_, view_, slots_);
+    if (transmissive == Transmissive::is_skipped) skip_passed_lanes();
     if (scene_.copies() != nullptr) view_copies(transmissive);
 }
 
@@ -301,6 +302,40 @@ bool SceneData::is_apart(core::Solids::Index solid) const {
     return apart;
 }
 
+/// Returns the lanes of each block whose shapes, by their ids, are sought, as bits.
+template <class IsSought>
+std::vector<std::uint16_t> SceneData::lanes_with(const IsSought& is_sought) const {
+    std::vector<std::uint16_t> lanes;
+    lanes.reserve(slots_ / core::block_size);
+    core::for_each_table(scene_.shapes(), [&](const auto& table) {
+        for (const auto& block : table.blocks()) {
+            unsigned sought = 0;
+            for (int lane = 0; lane < core::block_size; ++lane)
+                if (block.ids[lane] != core::no_shape && is_sought(block.ids[lane]))
+                    sought |= 1U << lane;
+            lanes.push_back(static_cast<std::uint16_t>(sought));
+        }
+        lanes.resize(lanes.size() + table.copied_blocks());
+    });
+    return lanes;
+}
+
+/// Lets occlusion queries skip the shapes that light passes. If these hide opaque shapes of
+/// their solid, rays that meet the opaque shapes are in doubt anyway.
+void SceneData::skip_passed_lanes() {
+    const std::vector<core::Material>& materials = scene_.materials();
+    if (std::none_of(materials.begin(), materials.end(),
+                     [](const core::Material& material) { return material.lets_light_pass(); }))
+        return;
+    skipped_lanes_ =
+        lanes_with([&](core::ShapeId id) { return scene_.material_of(id).lets_light_pass(); });
+    if (view_.only_cut_lanes != nullptr)
+        for (std::size_t block = 0; block < slots_ / core::block_size; ++block)
+            skipped_lanes_[block] =
+                static_cast<std::uint16_t>(skipped_lanes_[block] | view_.only_cut_lanes[block]);
+    view_.only_cut_lanes = skipped_lanes_.data();
+}
+
 void SceneData::find_plain_lanes(Transmissive transmissive) {
     const auto is_plain = [transmissive](const core::Material& material) {
         return (transmissive == Transmissive::blocks || !material.lets_light_pass()) &&
@@ -318,7 +353,7 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
     std::vector<bool> blocks(solids.nodes().size());
     for (core::Solids::Index solid = 0, end = 0; solid < blocks.size(); solid = end) {
         end = solids.node(solid).end;
-        bool is_opaque = transmissive == Transmissive::lets_through && !may_see_inside(solid);
+        bool is_opaque = transmissive != Transmissive::blocks && !may_see_inside(solid);
         for (core::Solids::Index part = solid; is_opaque && part < end; ++part) {
             const core::ShapeId id = solids.node(part).shape;
             is_opaque = solids.node(part).op != core::Solids::Op::part || id == core::no_shape ||
@@ -331,17 +366,7 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
     const auto is_plain_shape = [&](core::ShapeId id) {
         return solids.has(id) ? blocks[solids.part_of(id)] : is_plain(scene_.material_of(id));
     };
-    plain_lanes_.reserve(slots_ / core::block_size);
-    core::for_each_table(scene_.shapes(), [&](const auto& table) {
-        for (const auto& block : table.blocks()) {
-            unsigned plain = 0;
-            for (int lane = 0; lane < core::block_size; ++lane)
-                if (block.ids[lane] != core::no_shape && is_plain_shape(block.ids[lane]))
-                    plain |= 1U << lane;
-            plain_lanes_.push_back(static_cast<std::uint16_t>(plain));
-        }
-        plain_lanes_.resize(plain_lanes_.size() + table.copied_blocks());
-    });
+    plain_lanes_ = lanes_with(is_plain_shape);
     view_.plain_lanes = plain_lanes_.data();
 }
 

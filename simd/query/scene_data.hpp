@@ -16,6 +16,7 @@ namespace raylane::simd {
 /// Effect of transmissive surfaces on occlusion queries.
 enum class Transmissive : std::uint8_t {
     lets_through, ///< images: light may pass them
+    is_skipped,   ///< images without shadows of transparent and transmissive shapes
     blocks,       ///< the library: they block like any surface
 };
 
@@ -66,7 +67,8 @@ class SceneData {
     const CutUnion* cut_by(core::ShapeId id) const {
         return clip_planes_.cut_by(scene_.solids().part_of(id));
     }
-    /// See SceneView::only_cut_lanes.
+    /// Returns true for shapes that occlusion queries skip: those that only cut
+    /// (SceneView::only_cut_lanes), and with Transmissive::is_skipped those that light passes.
     bool only_cuts(std::uint32_t slot) const {
         return view_.only_cut_lanes != nullptr &&
                (view_.only_cut_lanes[slot / 16] >> slot % 16 & 1) != 0;
@@ -147,6 +149,9 @@ class SceneData {
     bool may_see_inside(core::Solids::Index solid) const;
     bool is_apart(core::Solids::Index solid) const;
     void find_plain_lanes(Transmissive transmissive);
+    void skip_passed_lanes();
+    template <class IsSought>
+    std::vector<std::uint16_t> lanes_with(const IsSought& is_sought) const;
     core::Kind kind_of(std::uint32_t slot) const {
         int kind = core::kind_count - 1;
         while (slot < view_.tables[kind].first_slot)
@@ -159,7 +164,7 @@ class SceneData {
     SceneView view_{}, view_with_copies_{};
     std::vector<std::unique_ptr<const SceneData>> prototypes_;
     std::vector<ShapeRecord> records_; // by slot; empty in large scenes
-    std::vector<std::uint16_t> plain_lanes_;
+    std::vector<std::uint16_t> plain_lanes_, skipped_lanes_;
     ClipPlanes clip_planes_;
     std::vector<std::uint64_t> orders_;
     std::vector<MaterialView> materials_;

@@ -289,10 +289,17 @@ struct MovableWavefront {
     int samples_of(std::size_t pixel) const { return wavefront->samples_of(pixel); }
 };
 
+Transmissive transmissive_in(const core::Settings& settings) {
+    return settings.transparent_shadows ? Transmissive::lets_through : Transmissive::is_skipped;
+}
+
 Rendering render_spectrum(const core::Scene& scene, const core::Settings& settings,
                           const RenderOptions& options, const Tracing& tracing) {
     const Spectrum spectrum(scene);
-    const std::vector<SceneData> data(spectrum.scenes.begin(), spectrum.scenes.end());
+    std::vector<SceneData> data;
+    data.reserve(spectrum.scenes.size());
+    for (const core::Scene& of_one : spectrum.scenes)
+        data.emplace_back(of_one, transmissive_in(settings));
     using Tracer = SpectralTracer<MovableWavefront>;
     return render_by<Tracer>(
         [&](Surveys& surveys) {
@@ -361,7 +368,8 @@ Rendering render(const core::Scene& scene, const core::Settings& settings,
     if (options.engine == Engine::vector) {
         const Tracing tracing{&kernels_of(options.isa), options.precision};
         return scene.wavelengths().empty()
-                   ? render_vector(SceneData(scene), settings, options, tracing)
+                   ? render_vector(SceneData(scene, transmissive_in(settings)), settings, options,
+                                   tracing)
                    : render_spectrum(scene, settings, options, tracing);
     }
     return core::is_single(options.precision) ? render_reference<float>(scene, settings, options)

@@ -90,6 +90,37 @@ TEST_CASE("transparent surfaces and glass without shadows dim no light") {
     }
 }
 
+TEST_CASE("shadow rays skip a transparent union that casts no shadow") {
+    const auto envelope = [](bool shadows) {
+        Builder builder;
+        builder.settings.width = builder.settings.height = 24;
+        builder.settings.max_transparent = 1;
+        builder.settings.transparent_shadows = shadows;
+        builder.camera = {.from = {0, 1, 8}, .at = {0, 0, 0}};
+        builder.add_light({.kind = LightKind::sky, .color = {0.3F, 0.3F, 0.3F}});
+        Solid solid{Made::by_union};
+        solid.parts.resize(40);
+        for (std::size_t i = 0; i < solid.parts.size(); ++i)
+            solid.parts[i].shape =
+                SphereOf<double>{{0.1 * static_cast<double>(i) - 2.0, 0, 0}, 0.75};
+        Material pale;
+        pale.opacity = 0.25F;
+        builder.add_solid(solid, builder.add_material(pale));
+        for (int i = -2; i <= 2; ++i)
+            builder.add_shape(Sphere{{static_cast<float>(i), 0, 0}, 0.375F}, Material{});
+        builder.add_shape(Plane{{0, -2, 0}, {0, 1, 0}}, Material{});
+        return builder.finish({.position = {4, 6, 5}});
+    };
+    tests::check_engines_agree(envelope(false));
+    const auto walked = [&](bool shadows) {
+        const Scene scene = envelope(shadows);
+        return simd::render(scene, scene.settings(), {.engine = simd::Engine::vector})
+            .counters.walked;
+    };
+    CHECK(walked(true) > 100);
+    CHECK(20 * walked(false) < walked(true));
+}
+
 TEST_CASE("transparent panes that reflect and transmit do not outgrow a queue") {
     Builder builder;
     builder.settings.width = builder.settings.height = 32;
