@@ -6,6 +6,7 @@
 Other commands are run elsewhere, or not at all; each needs its reason below.
 """
 
+import os
 import pathlib
 import re
 import subprocess
@@ -14,7 +15,7 @@ import tempfile
 
 source, raylane = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
 PAGES = ["README.md", "CONTRIBUTING.md", "bench/README.md"] + [
-    f"scenes/{folder}README.md" for folder in ("", "tool/", "api/cpp/", "api/c/", "api/python/", "web/")]
+    f"scenes/{folder}README.md" for folder in ("", "tool/", "gallery/", "api/cpp/", "api/c/", "api/python/", "web/")]
 ELSEWHERE = {
     "./bootstrap.sh": ".ci/run",
     "cmake": ".ci/run, and packages in .ci/nightly",
@@ -50,8 +51,26 @@ def smaller(command):
     return re.sub(re.escape(TOOL) + r"render [^#\n|&]*[^#\n|& ]", shrink, command)
 
 
+def gallery_differs():
+    """Reports commands of the gallery's page that are not those of its images, and figures without images."""
+    folder = source / "scenes/gallery"
+    with tempfile.TemporaryDirectory() as work:
+        made = subprocess.run(["sh", folder / "make.sh", raylane, work], env={**os.environ, "COMMANDS": "1"},
+                              stdout=subprocess.PIPE, text=True, check=True).stdout
+    figures = [line.split(": ", 1) for line in made.splitlines() if line]
+    shown = re.findall(r"<br>`(raylane [^`]*)` \| !\[[^\]]*\]\((\w+)\.raylane\.png\)",
+                       (folder / "README.md").read_text())
+    differ = [name for name, command in figures if (command, name) not in shown]
+    differ += [f"{name}.{kind}.png" for name, _ in figures for kind in ("raylane", "other")
+               if not (folder / f"{name}.{kind}.png").is_file()]
+    if len(figures) != 12 or len(shown) != 12 or differ:
+        print("gallery: the page does not show make.sh's figures:", *differ)
+        return 1
+    return 0
+
+
 def main():
-    failures = 0
+    failures = gallery_differs()
     count = 0
     with tempfile.TemporaryDirectory() as folder:
         clone = pathlib.Path(folder)
