@@ -97,20 +97,21 @@ Furniture::Furniture(const Annotations& annotations, const Legend& legend,
 
 /// Makes blocks with texts of one size. Their positions are arbitrary.
 struct Furniture::Maker {
-    const Furniture& of;
+    const Furniture& furniture;
     double size;
     std::vector<Block> blocks = {};
 
     SheetText text(const Point& at, const std::string& words, Anchor anchor) const {
-        return {at, size, printable(words, 4096), anchor, of.inks_.ink, of.inks_.paper};
+        return {
+            at, size, printable(words, 4096), anchor, furniture.inks_.ink, furniture.inks_.paper};
     }
     void add(std::string_view option, MarkGroup group, const std::array<Corner, 4>& corners,
              const std::optional<Box>& box = std::nullopt) {
-        blocks.push_back({of.annotations_.option(option), std::move(group), corners, box});
+        blocks.push_back({furniture.annotations_.option(option), std::move(group), corners, box});
     }
 
     void add_legend() {
-        for (const ColorKey& key : of.legend_.colors)
+        for (const ColorKey& key : furniture.legend_.colors)
             if (key.property.empty())
                 add_entries(entries_of(key));
             else
@@ -122,17 +123,17 @@ struct Furniture::Maker {
         if (entries.empty()) return;
         const double line = 1.3 * size;
         MarkGroup group{"legend-colors", {}};
-        const std::string& title = of.annotations_.legend_title;
-        const bool has_title = !title.empty() && !has_ramp(of.legend_);
+        const std::string& title = furniture.annotations_.legend_title;
+        const bool has_title = !title.empty() && !has_ramp(furniture.legend_);
         if (has_title) group.marks.emplace_back(text({0.0, rise * size}, title, Anchor::start));
-        const double room = of.height_ - 2.0 * size - (has_title ? line : 0.0);
+        const double room = furniture.height_ - 2.0 * size - (has_title ? line : 0.0);
         const auto rows = static_cast<std::size_t>(std::max(1.0, std::floor(room / line)));
         double x = 0.0, next = 0.0;
         for (std::size_t i = 0; i < entries.size(); ++i) {
             if (i % rows == 0) x = next;
             const auto row = static_cast<double>(i % rows + (has_title ? 1 : 0));
             const Point at = {x + 0.42 * size, row * line};
-            group.marks.emplace_back(SheetBall{at, 0.42 * size, of.inks_.ink});
+            group.marks.emplace_back(SheetBall{at, 0.42 * size, furniture.inks_.ink});
             group.marks.emplace_back(SheetBall{at, 0.37 * size, entries[i].second});
             group.marks.emplace_back(
                 text({at.x + 0.8 * size, at.y + rise * size}, entries[i].first, Anchor::start));
@@ -146,11 +147,11 @@ struct Furniture::Maker {
     void add_ramp(const ColorKey& key) {
         const auto [least, most] = key.range;
         MarkGroup group{"legend-" + key.property, {}};
-        const double width = 0.9 * size, height = 0.4 * of.height_;
-        const std::string& title = of.annotations_.legend_title;
+        const double width = 0.9 * size, height = 0.4 * furniture.height_;
+        const std::string& title = furniture.annotations_.legend_title;
         group.marks.emplace_back(text(
             {width, -0.8 * size}, title.empty() ? usual_title(key.property) : title, Anchor::end));
-        SheetRamp ramp{{0.0, 0.0}, width, height, {}, of.inks_.ink};
+        SheetRamp ramp{{0.0, 0.0}, width, height, {}, furniture.inks_.ink};
         constexpr int colors = 32;
         for (int i = 0; i <= colors; ++i)
             ramp.colors.push_back(ramp_at(static_cast<double>(i) / colors, key.palette));
@@ -161,7 +162,7 @@ struct Furniture::Maker {
             const double share = most > least ? (tick - least) / (most - least) : 0.5;
             const double y = (1.0 - share) * height;
             group.marks.emplace_back(
-                SheetLine{{-0.3 * size, y}, {0.0, y}, 0.08 * size, 0.0, of.inks_.ink});
+                SheetLine{{-0.3 * size, y}, {0.0, y}, 0.08 * size, 0.0, furniture.inks_.ink});
             group.marks.emplace_back(
                 text({-0.5 * size, y + rise * size}, decimal_text(tick, decimals), Anchor::end));
         }
@@ -202,30 +203,30 @@ struct Furniture::Maker {
         };
         std::vector<Axis> axes = {
             {{1, 0, 0}, "x", 0xC0392B}, {{0, 1, 0}, "y", 0x1E8449}, {{0, 0, 1}, "z", 0x1F5FBF}};
-        const Cell& cell = of.legend_.structure.cell;
-        if (*of.annotations_.axes != Axes::of_space && cell.any())
+        const Cell& cell = furniture.legend_.structure.cell;
+        if (*furniture.annotations_.axes != Axes::of_space && cell.any())
             for (std::size_t k = 0; k < 3; ++k) {
                 const double length = core::length(cell.edges[k]);
                 axes[k].direction = length > 0.0 ? 1.0 / length * cell.edges[k] : Vec3d(0.0);
                 axes[k].name = std::array{"a", "b", "c"}[k];
             }
         std::stable_sort(axes.begin(), axes.end(), [&](const Axis& a, const Axis& b) {
-            return core::dot(a.direction, of.projector_.forward()) >
-                   core::dot(b.direction, of.projector_.forward());
+            return core::dot(a.direction, furniture.projector_.forward()) >
+                   core::dot(b.direction, furniture.projector_.forward());
         });
         const double length = 2.6 * size;
         MarkGroup group{"axes", {}};
         for (const Axis& axis : axes)
             add_arrow(group,
-                      {length * core::dot(axis.direction, of.projector_.right()),
-                       -length * core::dot(axis.direction, of.projector_.up())},
+                      {length * core::dot(axis.direction, furniture.projector_.right()),
+                       -length * core::dot(axis.direction, furniture.projector_.up())},
                       axis.color, axis.name);
         // Then the origin stays where it is while the axes turn.
         const double reach = length + 0.7 * size; // into the margin and the gap
-        const std::optional<Box> box = of.annotations_.is_steady
+        const std::optional<Box> box = furniture.annotations_.is_steady
                                            ? std::optional(Box{-reach, -reach, reach, reach})
                                            : std::nullopt;
-        if (of.annotations_.axes_on_right)
+        if (furniture.annotations_.axes_on_right)
             add("triad", std::move(group),
                 {Corner::lower_right, Corner::upper_right, Corner::upper_left, Corner::lower_left},
                 box);
@@ -235,31 +236,37 @@ struct Furniture::Maker {
                 box);
     }
 
-    /// Throws BadInput for a bar that is wider than the image, or too short to be seen. `most`: a
-    /// quarter of the image.
-    void require_scale_bar(double pixels, double length, double most) const {
+    /// Returns false for a bar that is wider than the image, or too short to be seen.
+    bool fits(double pixels) const {
         constexpr double least = 3.0; // pixels
-        if (pixels >= least && pixels <= of.width_ - size) return;
+        return pixels >= least && pixels <= furniture.width_ - size;
+    }
+
+    /// Throws BadInput for a bar that does not fit. `most`: a quarter of the image.
+    [[noreturn]] void refuse_scale_bar(double length, double most) const {
         char text[128];
         std::snprintf(text, sizeof text,
                       "must be auto or in the image, which is %.3g%s wide, got %.6g", 4.0 * most,
-                      of.legend_.structure.size() != 0 ? " angstrom" : "", length);
-        throw BadInput(of.annotations_.option("scale-bar"), "", text);
+                      furniture.legend_.structure.size() != 0 ? " angstrom" : "", length);
+        throw BadInput(furniture.annotations_.option("scale-bar"), "", text);
     }
 
     /// Adds a bar with its length.
     void add_scale_bar() {
-        const double scale = of.projector_.pixels_per_length(); // at the point looked at
-        const double most = 0.25 * of.width_ / scale;
-        const bool is_auto = *of.annotations_.scale_bar == 0.0;
-        const double length = is_auto ? round_below(most) : *of.annotations_.scale_bar;
+        const double scale = furniture.projector_.pixels_per_length(); // at the point looked at
+        const double most = 0.25 * furniture.width_ / scale;
+        const bool is_auto = *furniture.annotations_.scale_bar == 0.0;
+        const double length = is_auto ? round_below(most) : *furniture.annotations_.scale_bar;
         const double pixels = length * scale;
-        if (!is_auto) require_scale_bar(pixels, length, most);
+        if (!is_auto && !fits(pixels)) {
+            if (furniture.annotations_.is_steady) return; // other frames or views may have it
+            refuse_scale_bar(length, most);
+        }
         MarkGroup group{"scale-bar", {}};
         group.marks.emplace_back(
-            SheetLine{{0.0, 0.0}, {pixels, 0.0}, 0.25 * size, 0.0, of.inks_.ink});
-        const bool has_unit = of.legend_.structure.size() != 0; // of atoms
-        const bool is_long = has_unit && length >= 100.0;       // angstrom
+            SheetLine{{0.0, 0.0}, {pixels, 0.0}, 0.25 * size, 0.0, furniture.inks_.ink});
+        const bool has_unit = furniture.legend_.structure.size() != 0; // of atoms
+        const bool is_long = has_unit && length >= 100.0;              // angstrom
         char digits[32];
         std::snprintf(digits, sizeof digits, "%.6g", is_long ? 0.1 * length : length);
         const char* const unit = is_long ? " nm" : has_unit ? " \u00c5" : "";

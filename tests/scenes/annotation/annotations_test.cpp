@@ -48,19 +48,19 @@ Sheet sheet_of(const Annotations& annotations, const Legend& legend, const Annot
     return SheetComposer(annotations, legend, on_remark).compose(view, on_remark);
 }
 
-AnnotatedView view_of(const Drawn& of) {
-    return {of.scene.camera(), 800, 600, of.scene.background()};
+AnnotatedView view_of(const Drawn& figure) {
+    return {figure.scene.camera(), 800, 600, figure.scene.background()};
 }
 
 /// Returns the texts of the labels, one behind the other, and sets the remarks.
-std::string labels_of(const Drawn& of, const std::string& label,
+std::string labels_of(const Drawn& figure, const std::string& label,
                       std::vector<std::string>& remarks) {
-    AnnotatedView view = view_of(of);
-    view.scene = &of.scene;
+    AnnotatedView view = view_of(figure);
+    view.scene = &figure.scene;
     Annotations annotations;
     annotations.labels = {label_words_of("--label", label)};
     remarks.clear();
-    const Sheet sheet = sheet_of(annotations, of.legend, view,
+    const Sheet sheet = sheet_of(annotations, figure.legend, view,
                                  [&](const std::string& remark) { remarks.push_back(remark); });
     std::string texts;
     for (const Mark& mark : sheet.groups.at(0).marks)
@@ -68,15 +68,15 @@ std::string labels_of(const Drawn& of, const std::string& label,
     return texts;
 }
 
-std::vector<std::string> remarks_of(const Annotations& annotations, const Drawn& of) {
+std::vector<std::string> remarks_of(const Annotations& annotations, const Drawn& figure) {
     std::vector<std::string> remarks;
-    sheet_of(annotations, of.legend, view_of(of),
+    sheet_of(annotations, figure.legend, view_of(figure),
              [&](const std::string& remark) { remarks.push_back(remark); });
     return remarks;
 }
 
-std::string svg(const Annotations& annotations, const Drawn& of) {
-    return svg_of(sheet_of(annotations, of.legend, view_of(of), {}));
+std::string svg(const Annotations& annotations, const Drawn& figure) {
+    return svg_of(sheet_of(annotations, figure.legend, view_of(figure), {}));
 }
 
 bool has(const std::string& text, const std::string& part) {
@@ -109,34 +109,35 @@ TEST_CASE("annotations are where the camera's rays go") {
 }
 
 TEST_CASE("a legend of numbers has their range and colours") {
-    const Drawn of = drawn("charge");
-    REQUIRE(of.legend.colors.size() == 1);
-    CHECK(of.legend.colors[0].property == "charge");
-    CHECK(of.legend.colors[0].range == ColorRange(-1.0, 3.0));
-    const std::string text = svg({.legend = true}, of);
+    const Drawn figure = drawn("charge");
+    REQUIRE(figure.legend.colors.size() == 1);
+    CHECK(figure.legend.colors[0].property == "charge");
+    CHECK(figure.legend.colors[0].range == ColorRange(-1.0, 3.0));
+    const std::string text = svg({.legend = true}, figure);
     CHECK(has(text, "<g id=\"legend-charge\">"));
     CHECK(has(text, ">Charge (e)</text>"));
     CHECK(has(text, ">\u22121</text>"));
     CHECK(has(text, ">3</text>"));
-    CHECK(has(svg({.legend = true, .legend_title = "a < b & c"}, of), ">a &lt; b &amp; c</text>"));
+    CHECK(has(svg({.legend = true, .legend_title = "a < b & c"}, figure),
+              ">a &lt; b &amp; c</text>"));
 }
 
 TEST_CASE("a legend of elements has those that are shown") {
-    const Drawn of = drawn("element");
-    REQUIRE(of.legend.colors.size() == 1);
-    CHECK(of.legend.colors[0].entries.size() == 3);
-    const std::string text = svg({.legend = true}, of);
+    const Drawn figure = drawn("element");
+    REQUIRE(figure.legend.colors.size() == 1);
+    CHECK(figure.legend.colors[0].entries.size() == 3);
+    const std::string text = svg({.legend = true}, figure);
     CHECK(text.find(">C</text>") < text.find(">H</text>"));
     CHECK(text.find(">H</text>") < text.find(">O</text>"));
     CHECK_THROWS_AS(svg({.legend = true}, drawn("orange")), BadInput);
 }
 
 TEST_CASE("a legend has no element of which planes left nothing") {
-    const Drawn of = drawn_of("a.xyz", atoms, [](Drawing& d) {
+    const Drawn figure = drawn_of("a.xyz", atoms, [](Drawing& d) {
         d.style = Style::spheres;
         d.cuts = {cut_plane_of("--cut", "x<1.4")}; // O is at 3, with a radius of 1.52
     });
-    const std::string text = svg({.legend = true}, of);
+    const std::string text = svg({.legend = true}, figure);
     CHECK(has(text, ">C</text>"));
     CHECK(!has(text, ">O</text>"));
 }
@@ -144,10 +145,10 @@ TEST_CASE("a legend has no element of which planes left nothing") {
 TEST_CASE("no two groups of an SVG have the same id") {
     std::string renamed = atoms;
     renamed.replace(renamed.find("charge"), 6, "colors");
-    const Drawn of = drawn_of("a.xyz", renamed, [](Drawing& d) {
+    const Drawn figure = drawn_of("a.xyz", renamed, [](Drawing& d) {
         d.show = {{"element C: balls element"}, {"not element C: balls colors"}};
     });
-    const std::string text = svg({.legend = true}, of);
+    const std::string text = svg({.legend = true}, figure);
     CHECK(has(text, "id=\"legend-colors\""));
     CHECK(has(text, "id=\"legend-colors-2\""));
     CHECK(text.find("id=\"legend-colors\"") == text.rfind("id=\"legend-colors\""));
@@ -155,13 +156,13 @@ TEST_CASE("no two groups of an SVG have the same id") {
 
 TEST_CASE("each copy of an atom has a label, unless other atoms hide it") {
     const std::string salt = "2\nLattice=\"4 0 0 0 4 0 0 0 4\"\nCs 0 0 0\nCl 2 2 2\n";
-    const Drawn of = drawn_of("a.xyz", salt, [](Drawing& d) {
+    const Drawn figure = drawn_of("a.xyz", salt, [](Drawing& d) {
         d.style = Style::spheres;
         d.radius = "0.5";
         d.view = core::NamedView{"", {-1.0F, -0.3F, -0.2F}, {0.0F, 0.0F, 1.0F}};
     });
     std::vector<std::string> remarks;
-    CHECK(labels_of(of, "element Cs: {element}", remarks) == "Cs Cs Cs Cs Cs Cs Cs Cs ");
+    CHECK(labels_of(figure, "element Cs: {element}", remarks) == "Cs Cs Cs Cs Cs Cs Cs Cs ");
     CHECK(remarks.empty());
     // From the front, four are behind the others.
     const Drawn front = drawn_of("a.xyz", salt, [](Drawing& d) {
@@ -194,42 +195,42 @@ TEST_CASE("each residue and each chain has one label") {
                                 "    2HOH     OW    3   0.600   0.000   0.000\n"
                                 "    2HOH    HW1    4   0.600   0.200   0.000\n"
                                 "   1.0 1.0 1.0\n";
-    const Drawn of = drawn_of("a.gro", peptide);
+    const Drawn figure = drawn_of("a.gro", peptide);
     std::vector<std::string> remarks;
-    CHECK(labels_of(of, "all: {resn} {resi}", remarks) == "ALA 1 HOH 2 ");
+    CHECK(labels_of(figure, "all: {resn} {resi}", remarks) == "ALA 1 HOH 2 ");
     Annotations annotations;
     annotations.labels = {label_words_of("--label", "all: {resn}")};
-    const Sheet sheet = sheet_of(annotations, of.legend, view_of(of), {});
-    const Projector projector(of.scene.camera(), 800, 600);
+    const Sheet sheet = sheet_of(annotations, figure.legend, view_of(figure), {});
+    const Projector projector(figure.scene.camera(), 800, 600);
     const auto alpha = projector.point_of(core::Vec3d(1.46, 0.0, 0.0));
     const auto middle = projector.point_of(core::Vec3d(6.0, 1.0, 0.0));
     CHECK(std::abs(std::get<SheetText>(sheet.groups[0].marks.at(0)).at.x - alpha->x) < 1e-3);
     CHECK(std::abs(std::get<SheetText>(sheet.groups[0].marks.at(1)).at.x - middle->x) < 1e-3);
-    CHECK(labels_of(of, "all: chain{chain}", remarks) == "chain ");
+    CHECK(labels_of(figure, "all: chain{chain}", remarks) == "chain ");
     CHECK(tests::message_of<BadInput>([&] {
               labels_of(drawn("element"), "all: {resn}", remarks);
           }) == "--label: must have {element}, {name} or {index} here, got \"{resn}\": the atoms "
                 "have no residues");
-    CHECK(labels_of(of, "all: {name} {resn}", remarks) == "N ALA CA ALA OW HOH HW1 HOH ");
+    CHECK(labels_of(figure, "all: {name} {resn}", remarks) == "N ALA CA ALA OW HOH HW1 HOH ");
 }
 
 TEST_CASE("a distance in a crystal goes to the nearest copy") {
-    const Drawn of =
+    const Drawn figure =
         drawn_of("a.xyz", "2\nLattice=\"6 0 0 0 6 0 0 0 6\" pbc=\"T T T\"\nCs 0 0 0\nCl 5 0 0\n");
     Annotations annotations;
     annotations.distances = {distance_words_of("--distance", "index 2: index 1")};
-    CHECK(has(svg(annotations, of), ">1.00 \u00c5</text>"));
+    CHECK(has(svg(annotations, figure), ">1.00 \u00c5</text>"));
 }
 
 TEST_CASE("annotations that have no effect or no room are reported or refused") {
-    const Drawn of = drawn("element");
+    const Drawn figure = drawn("element");
     const auto remark = [&](const Annotations& annotations) {
-        const std::vector<std::string> remarks = remarks_of(annotations, of);
+        const std::vector<std::string> remarks = remarks_of(annotations, figure);
         return remarks.empty() ? "" : remarks[0];
     };
     CHECK(remark({.legend = true}).empty());
     CHECK(remark({.legend = true, .legend_title = "Atoms"}).empty());
-    CHECK(has(svg({.legend = true, .legend_title = "Atoms"}, of), ">Atoms</text>"));
+    CHECK(has(svg({.legend = true, .legend_title = "Atoms"}, figure), ">Atoms</text>"));
     CHECK(remark({.legend = true, .font_size = 400.0}) ==
           "--font-size: texts are 400 pixels high in an image of 800 x 600: too large for it");
     CHECK(remark({.legend = true, .font_size = 2.5}) ==
@@ -238,38 +239,43 @@ TEST_CASE("annotations that have no effect or no room are reported or refused") 
           "--font-size: texts are 7 pixels high in an image of 800 x 600: too small to read");
     CHECK(remark({.legend = true, .font_size = 8.0}).empty());
     for (const double length : {1e-3, 1e3})
-        CHECK(has(tests::message_of<BadInput>([&] { svg({.scale_bar = length}, of); }),
+        CHECK(has(tests::message_of<BadInput>([&] { svg({.scale_bar = length}, figure); }),
                   "--scale-bar: must be auto or in the image, which is"));
+    Annotations of_frames{.scale_bar = 1e3};
+    of_frames.is_steady = true;
+    CHECK_FALSE(has(svg(of_frames, figure), "scale-bar"));
+    of_frames.scale_bar = 2.0;
+    CHECK(has(svg(of_frames, figure), "scale-bar"));
     CHECK(remark({.labels = {{"index 1", "a"}}}).empty());
     Annotations aside;
     aside.labels = {{"index 1", "a"}};
-    core::Camera camera = of.scene.camera();
+    core::Camera camera = figure.scene.camera();
     camera.at = camera.from + core::Vec3f(1.0F, 0.0F, 0.0F);
     std::vector<std::string> remarks;
-    sheet_of(aside, of.legend, {camera, 800, 600, core::Color(1.0F)},
+    sheet_of(aside, figure.legend, {camera, 800, 600, core::Color(1.0F)},
              [&](const std::string& text) { remarks.push_back(text); });
     REQUIRE(remarks.size() == 1);
     CHECK(has(remarks[0], "1 of 1 labels are left out"));
 }
 
 TEST_CASE("a scene that is not of atoms has lengths without a unit, and no labels") {
-    const Drawn of =
+    const Drawn figure =
         drawn_of("a.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "lights": [],)"
                            R"("materials": {"a": {}}, "objects": [{"type": "sphere",)"
                            R"("center": [0, 0, 0], "radius": 1, "material": "a"}]})");
     Annotations bar{.scale_bar = 0.5};
-    CHECK(has(svg(bar, of), ">0.5</text>"));
-    CHECK(!has(svg(bar, of), "\u00c5"));
+    CHECK(has(svg(bar, figure), ">0.5</text>"));
+    CHECK(!has(svg(bar, figure), "\u00c5"));
     CHECK(tests::message_of<BadInput>([&] {
-              svg({.labels = {{"all", "a"}}}, of);
+              svg({.labels = {{"all", "a"}}}, figure);
           }) == "--label: goes with a file of atoms, not with a scene");
 }
 
 TEST_CASE("axes are on the right if arrows of the cell are on the left") {
-    const Drawn of = drawn("element");
+    const Drawn figure = drawn("element");
     for (const bool on_right : {false, true}) {
-        const Sheet sheet = sheet_of({.axes = Axes::of_space, .axes_on_right = on_right}, of.legend,
-                                     view_of(of), {});
+        const Sheet sheet = sheet_of({.axes = Axes::of_space, .axes_on_right = on_right},
+                                     figure.legend, view_of(figure), {});
         for (const Mark& mark : sheet.groups.at(0).marks)
             if (const auto* const text = std::get_if<SheetText>(&mark)) {
                 CHECK((text->at.x > 400.0) == on_right);
@@ -279,43 +285,43 @@ TEST_CASE("axes are on the right if arrows of the cell are on the left") {
 }
 
 TEST_CASE("labels and distances are at the middles of their atoms") {
-    const Drawn of = drawn("element");
+    const Drawn figure = drawn("element");
     Annotations annotations;
     annotations.labels = {label_words_of("--label", "element H: {element}{index}"),
                           label_words_of("--label", "element H: both")};
     annotations.distances = {distance_words_of("--distance", "index 1: element O")};
     annotations.font_size = 20.0;
-    const std::string text = svg(annotations, of);
+    const std::string text = svg(annotations, figure);
     CHECK(has(text, ">H3</text>"));
     CHECK(has(text, ">H4</text>"));
     CHECK(has(text, ">3.00 \u00c5</text>"));
-    const auto middle = Projector(of.scene.camera(), 800, 600).point_of(core::Vec3d(0.0));
-    const Sheet sheet = sheet_of(annotations, of.legend, view_of(of), {});
+    const auto middle = Projector(figure.scene.camera(), 800, 600).point_of(core::Vec3d(0.0));
+    const Sheet sheet = sheet_of(annotations, figure.legend, view_of(figure), {});
     REQUIRE(sheet.groups.back().name == "label-2");
     const auto& label = std::get<SheetText>(sheet.groups.back().marks.at(0));
     CHECK(std::abs(label.at.x - middle->x) < 1e-9);
     CHECK_THROWS_AS(label_words_of("--label", "element H"), BadInput);
     annotations.labels = {{"element Fe", "iron"}};
-    CHECK_THROWS_AS(svg(annotations, of), BadInput);
+    CHECK_THROWS_AS(svg(annotations, figure), BadInput);
 }
 
 TEST_CASE("a scale bar is as long as it says") {
-    Drawn of = drawn("element");
-    core::Camera camera = of.scene.camera();
+    Drawn figure = drawn("element");
+    core::Camera camera = figure.scene.camera();
     camera.projection = core::Projection::orthographic;
     camera.height = 12.0F;
     const Sheet sheet =
-        sheet_of({.scale_bar = 2.0}, of.legend, {camera, 800, 600, core::Color(1.0F)}, {});
+        sheet_of({.scale_bar = 2.0}, figure.legend, {camera, 800, 600, core::Color(1.0F)}, {});
     const auto& bar = std::get<SheetLine>(sheet.groups.at(0).marks.at(0));
     CHECK(std::abs(bar.to.x - bar.from.x - 100.0) < 1e-9);
     CHECK(std::get<SheetText>(sheet.groups[0].marks.at(1)).text == "2 \u00c5");
-    CHECK_THROWS_AS(svg({.axes = Axes::of_cell}, of), BadInput);
-    CHECK(has(svg({.axes = Axes::of_space}, of), ">x</text>"));
+    CHECK_THROWS_AS(svg({.axes = Axes::of_cell}, figure), BadInput);
+    CHECK(has(svg({.axes = Axes::of_space}, figure), ">x</text>"));
 }
 
 TEST_CASE("texts of any bytes are texts of XML") {
-    const Drawn of = drawn("element");
-    const std::string text = svg({.labels = {{"index 1", "a<b]]>\xe9"}}}, of);
+    const Drawn figure = drawn("element");
+    const std::string text = svg({.labels = {{"index 1", "a<b]]>\xe9"}}}, figure);
     CHECK(has(text, "a&lt;b]]&gt;\\xE9</text>"));
 }
 
@@ -348,7 +354,7 @@ TEST_CASE("an overlay is blended in the codes of the image") {
 }
 
 TEST_CASE("legend, axes, scale bar, labels and distances do not meet") {
-    const Drawn of = GENERATE(drawn("element"), drawn("charge"));
+    const Drawn figure = GENERATE(drawn("element"), drawn("charge"));
     Annotations annotations{.legend = true,
                             .scale_bar = 0.0,
                             .axes = Axes::of_space,
@@ -359,11 +365,11 @@ TEST_CASE("legend, axes, scale bar, labels and distances do not meet") {
     annotations.axes_on_right = GENERATE(false, true);
     const auto [width, height] = GENERATE(std::pair(800, 600), std::pair(300, 225),
                                           std::pair(160, 120), std::pair(120, 160));
-    AnnotatedView view = view_of(of);
+    AnnotatedView view = view_of(figure);
     view.width = width;
     view.height = height;
     std::vector<std::string> remarks;
-    const Sheet sheet = sheet_of(annotations, of.legend, view,
+    const Sheet sheet = sheet_of(annotations, figure.legend, view,
                                  [&](const std::string& remark) { remarks.push_back(remark); });
     CAPTURE(width, height, annotations.is_steady);
     struct Part {
@@ -399,13 +405,13 @@ TEST_CASE("legend, axes, scale bar, labels and distances do not meet") {
 }
 
 TEST_CASE("annotations without room are reported") {
-    const Drawn of = drawn("element");
-    AnnotatedView view = view_of(of);
+    const Drawn figure = drawn("element");
+    AnnotatedView view = view_of(figure);
     view.width = 40;
     view.height = 30;
     std::vector<std::string> remarks;
     const Sheet sheet =
-        sheet_of({.legend = true, .scale_bar = 0.0, .axes = Axes::of_space}, of.legend, view,
+        sheet_of({.legend = true, .scale_bar = 0.0, .axes = Axes::of_space}, figure.legend, view,
                  [&](const std::string& remark) { remarks.push_back(remark); });
     CHECK(sheet.groups.size() < 3);
     CHECK(std::any_of(remarks.begin(), remarks.end(), [](const auto& remark) {
@@ -414,12 +420,12 @@ TEST_CASE("annotations without room are reported") {
 }
 
 TEST_CASE("the texts of a distance and of a label are not on one place") {
-    const Drawn of = drawn("element");
+    const Drawn figure = drawn("element");
     Annotations annotations;
     annotations.labels = {label_words_of("--label", "element H: a long label at the middle")};
     annotations.distances = {distance_words_of("--distance", "index 3: index 4"),
                              distance_words_of("--distance", "index 4: index 3")};
-    const Sheet sheet = sheet_of(annotations, of.legend, view_of(of), {});
+    const Sheet sheet = sheet_of(annotations, figure.legend, view_of(figure), {});
     REQUIRE(sheet.groups.size() == 3);
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < i; ++j)
@@ -493,17 +499,17 @@ TEST_CASE("the label of a chain is not at its ligand that a cartoon does not sho
 }
 
 TEST_CASE("legend and axes stay while the camera moves, if they are steady") {
-    const Drawn of = drawn("element");
+    const Drawn figure = drawn("element");
     Annotations annotations{.legend = true,
                             .axes = Axes::of_space,
                             .labels = {label_words_of("--label", "all: {index}")},
                             .is_steady = true};
     std::vector<Sheet> sheets;
     for (const float x : {-3.0F, 0.5F, 4.0F}) {
-        core::Camera camera = of.scene.camera();
+        core::Camera camera = figure.scene.camera();
         camera.from.x += x;
         camera.at.x += 0.2F * x;
-        sheets.push_back(sheet_of(annotations, of.legend, {camera, 300, 225, {}}, {}));
+        sheets.push_back(sheet_of(annotations, figure.legend, {camera, 300, 225, {}}, {}));
     }
     const auto origin = [](const Sheet& sheet) {
         for (const MarkGroup& group : sheet.groups)
@@ -519,8 +525,8 @@ TEST_CASE("legend and axes stay while the camera moves, if they are steady") {
 }
 
 TEST_CASE("a legend that is refused says why") {
-    const auto message = [](const Drawn& of, const Annotations& annotations) {
-        return tests::message_of<BadInput>([&] { svg(annotations, of); });
+    const auto message = [](const Drawn& figure, const Annotations& annotations) {
+        return tests::message_of<BadInput>([&] { svg(annotations, figure); });
     };
     CHECK(message(drawn("orange"), {.legend = true, .is_legend_implied = true}) ==
           "--legend-title: must have colours of elements, chains or numbers to explain, but the "
