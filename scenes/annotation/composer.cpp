@@ -180,12 +180,12 @@ void SheetComposer::add_distance(std::size_t number, std::vector<std::string>& r
 
 /// The annotations of one image.
 struct SheetComposer::Image {
-    const SheetComposer& of;
+    const SheetComposer& composer;
     const AnnotatedView& view;
     Projector projector{view.camera, view.width, view.height};
-    AtomVisibility visibility{of.shown_, view.camera, view.scene};
-    double size = of.annotations_.font_size > 0.0 ? of.annotations_.font_size
-                                                  : usual_font_size(view.height);
+    AtomVisibility visibility{composer.shown_, view.camera, view.scene};
+    double size = composer.annotations_.font_size > 0.0 ? composer.annotations_.font_size
+                                                        : usual_font_size(view.height);
     Inks inks{};
     std::vector<std::string> remarks = {};
     std::vector<MarkGroup> labels = {}, distances = {};
@@ -226,13 +226,13 @@ Sheet SheetComposer::Image::compose() {
     const bool is_dark = 0.2126F * color.x + 0.7152F * color.y + 0.0722F * color.z < 0.18F;
     if (is_dark) std::swap(inks.ink, inks.paper);
     check_size();
-    for (std::size_t i = 0; i < of.labels_.size(); ++i)
+    for (std::size_t i = 0; i < composer.labels_.size(); ++i)
         add_labels(i);
     add_blocks();
     leave_out_covered_labels();
-    for (const Distance& distance : of.distances_)
+    for (const Distance& distance : composer.distances_)
         add_distance(distance);
-    Sheet sheet{view.width, view.height, of.annotations_.dpi, of.annotations_.font, {}};
+    Sheet sheet{view.width, view.height, composer.annotations_.dpi, composer.annotations_.font, {}};
     for (auto* const groups : {&distances, &labels})
         for (MarkGroup& group : *groups)
             add_to(sheet, std::move(group));
@@ -260,7 +260,7 @@ void SheetComposer::Image::check_size() {
     if (!is_small && size <= 0.2 * view.height) return;
     char height[32];
     std::snprintf(height, sizeof height, "%.3g", size);
-    remarks.push_back(of.annotations_.option("font-size") + ": texts are " + height +
+    remarks.push_back(composer.annotations_.option("font-size") + ": texts are " + height +
                       " pixels high in an image of " + std::to_string(view.width) + " x " +
                       std::to_string(view.height) + ": " +
                       (is_small ? "too small to read" : "too large for it"));
@@ -268,7 +268,7 @@ void SheetComposer::Image::check_size() {
 
 /// Adds the texts of a label, and counts those that are left out.
 void SheetComposer::Image::add_labels(std::size_t number) {
-    const Label& label = of.labels_[number];
+    const Label& label = composer.labels_[number];
     MarkGroup group{"label-" + std::to_string(number + 1), {}};
     const auto is_visible = [&](const Site& site) {
         return visibility.is_visible(site.atoms, site.place);
@@ -285,10 +285,11 @@ void SheetComposer::Image::add_labels(std::size_t number) {
     } else {
         std::for_each(label.sites.begin(), label.sites.end(), add);
     }
-    const std::size_t all = label.is_at_one_site ? 1 : label.sites.size();
-    if (!label.sites.empty() && group.marks.size() < all)
+    const std::size_t count = label.is_at_one_site ? 1 : label.sites.size();
+    if (!label.sites.empty() && group.marks.size() < count)
         remarks.push_back(quoted(label.words.option, label.words.select) + ": " +
-                          std::to_string(all - group.marks.size()) + " of " + std::to_string(all) +
+                          std::to_string(count - group.marks.size()) + " of " +
+                          std::to_string(count) +
                           " labels are left out, as other atoms hide their places, or as these "
                           "are outside of the image");
     labels.push_back(std::move(group));
@@ -311,10 +312,11 @@ void SheetComposer::Image::add_blocks() {
                           " for lack of space: too small to read");
     }
     if (!missing.empty()) remarks.push_back(missing + ": left out for lack of space" + image);
-    if (of.annotations_.scale_bar && view.camera.projection == core::Projection::perspective)
-        remarks.push_back(of.annotations_.option("scale-bar") +
+    if (composer.annotations_.scale_bar && view.camera.projection == core::Projection::perspective)
+        remarks.push_back(composer.annotations_.option("scale-bar") +
                           " holds at the depth of the point that the camera looks at; " +
-                          of.annotations_.option("orthographic") + " makes it hold everywhere");
+                          composer.annotations_.option("orthographic") +
+                          " makes it hold everywhere");
 }
 
 /// Returns true if all blocks have room with texts of this size. `missing`: the options of others.
@@ -322,13 +324,13 @@ bool SheetComposer::Image::place_blocks(double font_size, std::string& missing) 
     blocks.clear();
     missing.clear();
     std::vector<Box> texts; // that blocks avoid
-    if (!of.annotations_.is_steady)
+    if (!composer.annotations_.is_steady)
         for (const MarkGroup& group : labels)
             for (const Mark& mark : group.marks)
                 texts.push_back(box_of(mark));
     BlockLayout layout(view.width, view.height, font_size, 0.4 * font_size);
-    const Furniture furniture(of.annotations_, of.legend_, projector, view.width, view.height,
-                              inks);
+    const Furniture furniture(composer.annotations_, composer.legend_, projector, view.width,
+                              view.height, inks);
     for (Block& block : furniture.blocks(font_size)) {
         if (layout.place(block, texts))
             blocks.push_back(std::move(block));
@@ -346,17 +348,18 @@ void SheetComposer::Image::leave_out_covered_labels() {
     const std::vector<Box> boxes = taken;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         std::vector<Mark>& marks = labels[i].marks;
-        const std::size_t all = marks.size();
+        const std::size_t count = marks.size();
         std::erase_if(marks, [&](const Mark& mark) {
             return std::any_of(boxes.begin(), boxes.end(),
                                [&](const Box& box) { return box.meets(box_of(mark)); });
         });
         for (const Mark& mark : marks)
             taken.push_back(box_of(mark));
-        const LabelWords& words = of.labels_[i].words;
-        if (marks.size() < all)
+        const LabelWords& words = composer.labels_[i].words;
+        if (marks.size() < count)
             remarks.push_back(quoted(words.option, words.select) + ": " +
-                              std::to_string(all - marks.size()) + " of " + std::to_string(all) +
+                              std::to_string(count - marks.size()) + " of " +
+                              std::to_string(count) +
                               " labels are left out, as legend, axes or scale bar are at their "
                               "places");
     }
@@ -369,7 +372,7 @@ void SheetComposer::Image::add_distance(const Distance& distance) {
         return;
     }
     const auto number =
-        static_cast<std::size_t>(&distance.words - of.annotations_.distances.data());
+        static_cast<std::size_t>(&distance.words - composer.annotations_.distances.data());
     MarkGroup group{"distance-" + std::to_string(number + 1), {}};
     const double width = 0.11 * size, dash = 0.35 * size;
     group.marks.emplace_back(SheetLine{*from, *to, 2.2 * width, 0.0, inks.paper});

@@ -18,8 +18,9 @@ void write_all_but_objects(JsonObject& root, TextFile& file, const core::Scene& 
 bool has_object_spaces(const core::Scene& scene) {
     if (!scene.object_spaces().empty()) return true;
     if (scene.copies() == nullptr) return false;
-    return std::any_of(scene.materials().begin(), scene.materials().end(),
-                       [](const core::Material& of) { return of.pattern.follows_objects(); });
+    return std::any_of(
+        scene.materials().begin(), scene.materials().end(),
+        [](const core::Material& material) { return material.pattern.follows_objects(); });
 }
 
 } // namespace

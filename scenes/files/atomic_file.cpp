@@ -104,9 +104,9 @@ void replace_known(const char* old_path, const char* new_path) {
 class SignalsHeld {
   public:
     SignalsHeld() {
-        sigset_t all;
-        ::sigfillset(&all);
-        ::pthread_sigmask(SIG_BLOCK, &all, &before_);
+        sigset_t signals;
+        ::sigfillset(&signals);
+        ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
     }
     ~SignalsHeld() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
     SignalsHeld(const SignalsHeld&) = delete;

@@ -15,7 +15,7 @@ namespace raylane::scenes {
 class Inflater;
 
 /// Receives the number of bytes read so far, and the total, or 0 if that is unknown.
-using OnRead = std::function<void(std::uint64_t bytes, std::uint64_t of)>;
+using OnRead = std::function<void(std::uint64_t bytes, std::uint64_t size)>;
 
 /// Receives a line for each statement of a file that the scene ignores. The line begins with the
 /// file's name and often the position.

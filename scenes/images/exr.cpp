@@ -186,10 +186,10 @@ void add_attributes(const ImageOptions& options, Imf::Header& header) {
 
 std::string all_of(ByteSource& source) {
     std::string bytes;
-    char some[1 << 14];
-    for (std::size_t count = sizeof some; count == sizeof some;) {
-        count = source.read(some);
-        bytes.append(some, count);
+    char buffer[1 << 14];
+    for (std::size_t count = sizeof buffer; count == sizeof buffer;) {
+        count = source.read(buffer);
+        bytes.append(buffer, count);
     }
     return bytes;
 }

@@ -23,7 +23,7 @@ class Components {
     explicit Components(std::vector<Component> components) : components_(std::move(components)) {}
 
     std::size_t size() const {
-        return std::visit([](const auto& all) { return all.size(); }, components_);
+        return std::visit([](const auto& values) { return values.size(); }, components_);
     }
 
     float operator[](std::size_t i) const {
@@ -37,11 +37,11 @@ class Components {
     /// Returns true if both have the same type, number and bits of components.
     bool is_same(const Components& other) const {
         return std::visit(
-            [&]<class Component>(const std::vector<Component>& all) {
+            [&]<class Component>(const std::vector<Component>& values) {
                 const auto* others = std::get_if<std::vector<Component>>(&other.components_);
-                return others != nullptr && others->size() == all.size() &&
-                       (all.empty() ||
-                        std::memcmp(others->data(), all.data(), all.size() * sizeof all[0]) == 0);
+                return others != nullptr && others->size() == values.size() &&
+                       (values.empty() || std::memcmp(others->data(), values.data(),
+                                                      values.size() * sizeof values[0]) == 0);
             },
             components_);
     }

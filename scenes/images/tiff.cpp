@@ -178,8 +178,8 @@ void read_texts(TIFF* tiff, Image& image) {
     std::istringstream lines(text_of(TIFFTAG_IMAGEDESCRIPTION));
     for (std::string line; std::getline(lines, line);) {
         const auto* const name =
-            std::find_if(std::begin(line_names), std::end(line_names), [&](std::string_view of) {
-                return line.starts_with(std::string(of) + ": ");
+            std::find_if(std::begin(line_names), std::end(line_names), [&](std::string_view title) {
+                return line.starts_with(std::string(title) + ": ");
             });
         if (name != std::end(line_names))
             image.texts.emplace_back(*name, line.substr(name->size() + 2));

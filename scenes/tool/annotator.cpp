@@ -82,7 +82,7 @@ void Annotator::write_file(std::size_t number) const {
 }
 
 nlohmann::ordered_json Annotator::stats() const {
-    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
     constexpr int colors = 8;
     for (const ColorKey& key : legend_.colors) {
         nlohmann::ordered_json one;
@@ -96,9 +96,9 @@ nlohmann::ordered_json Annotator::stats() const {
                 one["colors"].push_back(
                     code_of(ramp_at(static_cast<double>(i) / colors, key.palette)));
         }
-        all.push_back(std::move(one));
+        list.push_back(std::move(one));
     }
-    return all;
+    return list;
 }
 
 } // namespace raylane::scenes

@@ -40,13 +40,13 @@ json schema() {
 
 /// Returns a property with the keys of the definitions that it refers to.
 json resolved(const json& schema, const json& property) {
-    json all = json::object();
+    json expected = json::object();
     if (property.contains("$ref"))
-        all = resolved(schema, schema.at(json::json_pointer(
-                                   property.at("$ref").get<std::string>().substr(1))));
-    if (property.contains("allOf")) all.update(resolved(schema, property.at("allOf").at(0)));
-    all.update(property);
-    return all;
+        expected = resolved(schema, schema.at(json::json_pointer(
+                                        property.at("$ref").get<std::string>().substr(1))));
+    if (property.contains("allOf")) expected.update(resolved(schema, property.at("allOf").at(0)));
+    expected.update(property);
+    return expected;
 }
 
 /// Returns the limits of a property's numbers, as in a schema.
@@ -266,13 +266,13 @@ TEST_CASE("the table of keys in the README has the fields and their defaults") {
 }
 
 TEST_CASE("the limits of the settings are those of the fields") {
-    const auto most = []<class Of>(const Of& of, std::string_view name) {
+    const auto most = []<class Of>(const Of& object, std::string_view name) {
         double result = 0.0;
         for_each_field(
             [&](const Field& field, const auto&) {
                 if (field.name == name) result = field.valid.most;
             },
-            of);
+            object);
         return result;
     };
     using core::Settings;

@@ -150,10 +150,10 @@ raylane_status raylane_add_copies(raylane_builder* builder, const raylane_group*
                                   const raylane_placement* placements, size_t count,
                                   uint32_t material, uint32_t* first) {
     return added(builder, first, [&](SceneBuilder& to) {
-        std::vector<Placement> all;
+        std::vector<Placement> placement_list;
         for (const raylane_placement& placement : span_of("placements", placements, count))
-            all.push_back(std::bit_cast<Placement>(placement));
-        return to.add(checked("group", group).group, all, material);
+            placement_list.push_back(std::bit_cast<Placement>(placement));
+        return to.add(checked("group", group).group, placement_list, material);
     });
 }
 

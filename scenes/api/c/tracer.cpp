@@ -78,39 +78,44 @@ raylane_status answered(const raylane_tracer* tracer, const From* from,
 template <class CRays>
 raylane_status intersect(const raylane_tracer* tracer, const CRays* rays,
                          const raylane_hits* hits) noexcept {
-    return answered(tracer, rays,
-                    [&](const Tracer& of, const auto& asked, std::size_t n, auto* statistics) {
-                        of.intersect(asked, hits_from(hits, n), statistics);
-                    });
+    return answered(
+        tracer, rays,
+        [&](const Tracer& asked_tracer, const auto& asked, std::size_t n, auto* statistics) {
+            asked_tracer.intersect(asked, hits_from(hits, n), statistics);
+        });
 }
 
 template <class CRays>
 raylane_status occluded(const raylane_tracer* tracer, const CRays* rays,
                         std::uint8_t* result) noexcept {
-    return answered(tracer, rays,
-                    [&](const Tracer& of, const auto& asked, std::size_t n, auto* statistics) {
-                        of.occluded(asked, span_of("occluded", result, n), statistics);
-                    });
+    return answered(
+        tracer, rays,
+        [&](const Tracer& asked_tracer, const auto& asked, std::size_t n, auto* statistics) {
+            asked_tracer.occluded(asked, span_of("occluded", result, n), statistics);
+        });
 }
 
 template <class CRays>
 raylane_status count_crossings(const raylane_tracer* tracer, const CRays* rays,
                                std::uint64_t* counts) noexcept {
-    return answered(tracer, rays,
-                    [&](const Tracer& of, const auto& asked, std::size_t n, auto* statistics) {
-                        of.count_crossings(asked, span_of("counts", counts, n), statistics);
-                    });
+    return answered(
+        tracer, rays,
+        [&](const Tracer& asked_tracer, const auto& asked, std::size_t n, auto* statistics) {
+            asked_tracer.count_crossings(asked, span_of("counts", counts, n), statistics);
+        });
 }
 
 template <class CPoints>
 raylane_status cells(const raylane_tracer* tracer, const CPoints* points,
                      const raylane_cell_columns* columns) noexcept {
     return answered(
-        tracer, points, [&](const Tracer& of, const auto& asked, std::size_t n, auto* statistics) {
+        tracer, points,
+        [&](const Tracer& asked_tracer, const auto& asked, std::size_t n, auto* statistics) {
             const raylane_cell_columns& to = checked("cells", columns);
-            of.cells(asked,
-                     {span_of(to.shape_id, n), span_of(to.material, n), span_of(to.on_surface, n)},
-                     statistics);
+            asked_tracer.cells(
+                asked,
+                {span_of(to.shape_id, n), span_of(to.material, n), span_of(to.on_surface, n)},
+                statistics);
         });
 }
 
@@ -119,12 +124,14 @@ raylane_status find_closest(const raylane_tracer* tracer, const CPoints* points,
                             const double* max_distance,
                             const raylane_closest_points* closest) noexcept {
     return answered(
-        tracer, points, [&](const Tracer& of, const auto& asked, std::size_t n, auto* statistics) {
+        tracer, points,
+        [&](const Tracer& asked_tracer, const auto& asked, std::size_t n, auto* statistics) {
             const raylane_closest_points& to = checked("closest", closest);
-            of.closest(asked,
-                       {span_of(to.distance, n), span_of(to.point_x, n), span_of(to.point_y, n),
-                        span_of(to.point_z, n), span_of(to.shape_id, n), span_of(to.face, n)},
-                       span_of(max_distance, n), statistics);
+            asked_tracer.closest(asked,
+                                 {span_of(to.distance, n), span_of(to.point_x, n),
+                                  span_of(to.point_y, n), span_of(to.point_z, n),
+                                  span_of(to.shape_id, n), span_of(to.face, n)},
+                                 span_of(max_distance, n), statistics);
         });
 }
 
@@ -156,9 +163,8 @@ raylane_status rows_by(RowQuery<Rows, decltype(span_from(std::declval<const From
                        raylane_rows** rows) noexcept {
     return rows_of<Rows, QueryStatistics>(
         tracer, from, rows,
-        [&](const Tracer& of, const auto& asked, Rows& found, QueryStatistics* statistics) {
-            (of.*query)(asked, found, statistics);
-        });
+        [&](const Tracer& asked_tracer, const auto& asked, Rows& found,
+            QueryStatistics* statistics) { (asked_tracer.*query)(asked, found, statistics); });
 }
 
 template <class CRays>
@@ -166,11 +172,11 @@ raylane_status crossings(const raylane_tracer* tracer, const CRays* rays, std::s
                          int normals, raylane_rows** rows) noexcept {
     return rows_of<CrossingRows, CrossingStatistics>(
         tracer, rays, rows,
-        [&](const Tracer& of, const auto& asked, auto& found, auto* statistics) {
+        [&](const Tracer& asked_tracer, const auto& asked, auto& found, auto* statistics) {
             if (normals < 0 || normals > (RAYLANE_NORMALS | RAYLANE_NORMALS_DOUBLE))
                 throw InvalidValue("normals",
                                    "must be from 0 to 3, got " + std::to_string(normals));
-            of.crossings(
+            asked_tracer.crossings(
                 asked, found,
                 {most, (normals & RAYLANE_NORMALS) != 0, (normals & RAYLANE_NORMALS_DOUBLE) != 0},
                 statistics);

@@ -16,19 +16,19 @@ namespace raylane {
 namespace {
 
 void require_length(const char* name, std::size_t length, std::size_t count,
-                    const char* of = "rays") {
+                    const char* subject = "rays") {
     if (length != count)
         throw InvalidValue(name, "must have one element for each of " + std::to_string(count) +
-                                     " " + of + ", got " + std::to_string(length));
+                                     " " + subject + ", got " + std::to_string(length));
 }
 
 /// Returns the elements of an optional span, or null if it is empty. Throws InvalidValue if it has
 /// another length than `count`.
 template <class Element>
 Element* optional(const char* name, std::span<Element> span, std::size_t count,
-                  const char* of = "rays") {
+                  const char* subject = "rays") {
     if (span.empty()) return nullptr;
-    require_length(name, span.size(), count, of);
+    require_length(name, span.size(), count, subject);
     return span.data();
 }
 

@@ -111,9 +111,9 @@ py::array_t<Value, py::array::forcecast> array_of(const py::handle& values, cons
 /// converted to float64.
 inline bool are_floats_or_plain(const py::object& values, const char* field) {
     if (is_float(values) || is_plain(values)) return true;
-    const py::array_t<double, py::array::c_style | py::array::forcecast> all(
+    const py::array_t<double, py::array::c_style | py::array::forcecast> numbers(
         array_of<double>(values, field));
-    return std::all_of(all.data(), all.data() + all.size(), [](double value) {
+    return std::all_of(numbers.data(), numbers.data() + numbers.size(), [](double value) {
         return std::isnan(value) || static_cast<double>(static_cast<float>(value)) == value;
     });
 }

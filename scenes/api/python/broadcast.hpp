@@ -49,12 +49,12 @@ inline py::array flattened(const py::array& array, const Axes& row, const Axes& 
     const std::size_t count = count_of(leading);
     if (own.size() <= row.size()) return array;
     if (own.size() == row.size() + 1 && static_cast<std::size_t>(own[0]) == count) return array;
-    py::array whole = array;
+    py::array owner = array;
     if (count != 1 && static_cast<std::size_t>(array.size()) == count_of(row))
-        return whole.reshape(row);
+        return owner.reshape(row);
     if (const Axes axes = joined(leading, row); own != axes)
-        whole = py::array(py::module_::import("numpy").attr("broadcast_to")(array, axes));
-    return whole.reshape(joined({static_cast<py::ssize_t>(count)}, row));
+        owner = py::array(py::module_::import("numpy").attr("broadcast_to")(array, axes));
+    return owner.reshape(joined({static_cast<py::ssize_t>(count)}, row));
 }
 
 } // namespace raylane::python

@@ -44,10 +44,10 @@ struct Shared {
     /// Calls add(to) as change() does. Returns the numbers of the added objects.
     template <class Add>
     py::tuple numbers(const Add& add) {
-        const Range range = change([&](To& all) {
-            const std::size_t first = count_in(all);
-            add(all);
-            return Range(first, count_in(all));
+        const Range range = change([&](To& target) {
+            const std::size_t first = count_in(target);
+            add(target);
+            return Range(first, count_in(target));
         });
         return py::make_tuple(range.first, range.second);
     }
@@ -70,8 +70,8 @@ using Arguments = std::vector<Argument>;
 
 /// Returns the number of shapes: the rows of the first argument with more axes than a single
 /// shape's value, or 1 if no argument has more.
-std::size_t count_of_shapes(const Arguments& all) {
-    for (const Argument& each : all) {
+std::size_t count_of_shapes(const Arguments& columns) {
+    for (const Argument& each : columns) {
         const py::array array = any_array(each.values, each.name);
         if (array.ndim() > static_cast<py::ssize_t>(each.row.size()))
             return static_cast<std::size_t>(array.shape(0));
@@ -192,43 +192,43 @@ template <class To>
 py::tuple add_cylinders(Shared<To>& to, const py::object& bases, const py::object& axes,
                         const py::object& radii, const py::object& material,
                         const py::object& with_caps) {
-    const Arguments all = {{bases, {3}, "bases"}, {axes, {3}, "axes"}, {radii, {}, "radii"}};
-    return bool_from(with_caps, "caps") ? add_shapes<CappedCylinderOf>(to, material, all)
-                                        : add_shapes<OpenCylinderOf>(to, material, all);
+    const Arguments columns = {{bases, {3}, "bases"}, {axes, {3}, "axes"}, {radii, {}, "radii"}};
+    return bool_from(with_caps, "caps") ? add_shapes<CappedCylinderOf>(to, material, columns)
+                                        : add_shapes<OpenCylinderOf>(to, material, columns);
 }
 template <class To>
 py::tuple add_cones(Shared<To>& to, const py::object& bases, const py::object& axes,
                     const py::object& base_radii, const py::object& top_radii,
                     const py::object& material, const py::object& with_caps) {
-    const Arguments all = {{bases, {3}, "bases"},
-                           {axes, {3}, "axes"},
-                           {base_radii, {}, "base_radii"},
-                           {top_radii, {}, "top_radii"}};
-    return bool_from(with_caps, "caps") ? add_shapes<CappedConeOf>(to, material, all)
-                                        : add_shapes<OpenConeOf>(to, material, all);
+    const Arguments columns = {{bases, {3}, "bases"},
+                               {axes, {3}, "axes"},
+                               {base_radii, {}, "base_radii"},
+                               {top_radii, {}, "top_radii"}};
+    return bool_from(with_caps, "caps") ? add_shapes<CappedConeOf>(to, material, columns)
+                                        : add_shapes<OpenConeOf>(to, material, columns);
 }
 template <class To>
 py::tuple add_triangles(Shared<To>& to, const py::object& corners, const py::object& normals,
                         const py::object& material, bool polygon) {
-    Arguments all = {{corners, {3, 3}, "corners"}};
-    const std::size_t count = count_of_shapes(all);
+    Arguments columns = {{corners, {3, 3}, "corners"}};
+    const std::size_t count = count_of_shapes(columns);
     const auto add = [&](const auto& make) {
         if constexpr (std::is_same_v<To, SceneBuilder>)
             if (polygon) {
-                const MaterialIndex of = material_or_none(material);
+                const MaterialIndex material_index = material_or_none(material);
                 return to.numbers([&](SceneBuilder& builder) {
                     std::vector<decltype(make(0))> triangles;
                     for (std::size_t i = 0; i < count; ++i)
                         triangles.push_back(make(i));
-                    builder.add_polygon(triangles, of);
+                    builder.add_polygon(triangles, material_index);
                 });
             }
         return add_all(to, count, material, make);
     };
-    if (!normals.is_none()) all.push_back({normals, {3, 3}, "normals"});
-    return by_type(all, [&]<class T>(std::type_identity<T>) {
-        return normals.is_none() ? add(ShapeRows<TriangleOf<T>, T>(all, count))
-                                 : add(ShapeRows<SmoothTriangleOf<T>, T>(all, count));
+    if (!normals.is_none()) columns.push_back({normals, {3, 3}, "normals"});
+    return by_type(columns, [&]<class T>(std::type_identity<T>) {
+        return normals.is_none() ? add(ShapeRows<TriangleOf<T>, T>(columns, count))
+                                 : add(ShapeRows<SmoothTriangleOf<T>, T>(columns, count));
     });
 }
 template <class To>
@@ -278,15 +278,15 @@ class Surroundings {
 
 template <class To>
 py::tuple add_solid(Shared<To>& shared, const Solid& solid, const py::object& material) {
-    const MaterialIndex of = material_or_none(material);
-    return shared.numbers([&](To& to) { to.add(solid, of); });
+    const MaterialIndex material_index = material_or_none(material);
+    return shared.numbers([&](To& to) { to.add(solid, material_index); });
 }
 
 template <class To>
 py::tuple add_group(Shared<To>& shared, SharedGroup& group, const py::object& material) {
-    const MaterialIndex of = material_or_none(material);
-    const Group members = group.change([](const Group& all) { return all; });
-    return shared.numbers([&](To& to) { to.add(members, of); });
+    const MaterialIndex material_index = material_or_none(material);
+    const Group members = group.change([](const Group& shapes) { return shapes; });
+    return shared.numbers([&](To& to) { to.add(members, material_index); });
 }
 
 py::tuple add_copies(SharedBuilder& builder, SharedGroup& group, const py::object& translate,
@@ -299,12 +299,12 @@ py::tuple add_copies(SharedBuilder& builder, SharedGroup& group, const py::objec
     std::vector<Placement> placements(count);
     for (std::size_t i = 0; i < count; ++i)
         placements[i] = rows(i);
-    const MaterialIndex of = material_or_none(material);
-    const Group members = group.change([](const Group& all) { return all; });
+    const MaterialIndex material_index = material_or_none(material);
+    const Group members = group.change([](const Group& shapes) { return shapes; });
     const std::size_t keep = count_from(keep_from, "keep_from");
     return builder.numbers([&](SceneBuilder& to) {
         to.keep_from = keep;
-        to.add(members, placements, of);
+        to.add(members, placements, material_index);
     });
 }
 
@@ -313,8 +313,8 @@ py::tuple add_sphereflake(SharedBuilder& builder, const py::object& center,
                           const py::object& material) {
     const Sphereflake flake{vector_from(center, "center"), number_from(radius, "radius"),
                             int_from(depth, "depth"), vector_from(up, "up")};
-    const MaterialIndex of = material_or_none(material);
-    return builder.numbers([&](SceneBuilder& to) { to.add(flake, of); });
+    const MaterialIndex material_index = material_or_none(material);
+    return builder.numbers([&](SceneBuilder& to) { to.add(flake, material_index); });
 }
 
 py::tuple add_lattice(SharedBuilder& builder, const py::object& n, const py::object& spacing,
@@ -332,9 +332,9 @@ py::tuple add_lattice(SharedBuilder& builder, const py::object& n, const py::obj
     const Rows<double> at(corner.is_none() ? center : corner, {3}, place, 1);
     lattice.corner = at.vector(0);
     if (corner.is_none()) lattice = centered_at(lattice, at.vector(0));
-    const MaterialIndex of = material_or_none(material),
+    const MaterialIndex material_index = material_or_none(material),
                         of_struts = material_or_none(strut_material);
-    return builder.numbers([&](SceneBuilder& to) { to.add(lattice, of, of_struts); });
+    return builder.numbers([&](SceneBuilder& to) { to.add(lattice, material_index, of_struts); });
 }
 
 /// Binds the functions that add objects to a builder or to a group.
@@ -352,8 +352,9 @@ void bind_adding(py::class_<Shared<To>>& shared) {
         .def("add_cylinders", &add_cylinders<To>)
         .def("add_cones", &add_cones<To>)
         .def("add_quadrics", &add_quadrics<To>)
-        .def("count",
-             [](Shared<To>& of) { return of.change([](const To& to) { return count_in(to); }); });
+        .def("count", [](Shared<To>& counted) {
+            return counted.change([](const To& to) { return count_in(to); });
+        });
 }
 
 } // namespace
@@ -365,27 +366,27 @@ void bind_builder(py::module_& module) {
     bind_adding(builder);
     group
         .def("of",
-             [](SharedGroup& of, const py::object& material) {
+             [](SharedGroup& shared_group, const py::object& material) {
                  const MaterialIndex index = one_material(material);
-                 return of.change([&](const Group& all) {
-                     return std::unique_ptr<SharedGroup>(new SharedGroup{all.of(index)});
+                 return shared_group.change([&](const Group& shapes) {
+                     return std::unique_ptr<SharedGroup>(new SharedGroup{shapes.of(index)});
                  });
              })
         .def("transformed",
-             [](SharedGroup& of, const Transform& transform) {
-                 return of.change([&](const Group& all) {
+             [](SharedGroup& shared_group, const Transform& transform) {
+                 return shared_group.change([&](const Group& shapes) {
                      return std::unique_ptr<SharedGroup>(
-                         new SharedGroup{all.transformed(transform)});
+                         new SharedGroup{shapes.transformed(transform)});
                  });
              })
-        .def("solid", [](SharedGroup& of) {
-            return of.change([](const Group& all) { return solid_of(all); });
+        .def("solid", [](SharedGroup& shared_group) {
+            return shared_group.change([](const Group& shapes) { return solid_of(shapes); });
         });
     builder
         .def("add_material",
              [](SharedBuilder& to, const py::object& material, const std::string& name) {
                  const Material value = material_from(material);
-                 return to.change([&](SceneBuilder& all) { return added(all, value, name); });
+                 return to.change([&](SceneBuilder& target) { return added(target, value, name); });
              })
         .def("add_copies", &add_copies)
         .def("add_sphereflake", &add_sphereflake)
@@ -393,21 +394,21 @@ void bind_builder(py::module_& module) {
         .def("add_light",
              [](SharedBuilder& to, const py::object& light) {
                  const Light value = light_from(light);
-                 to.change([&](SceneBuilder& all) { all.add_light(value); });
+                 to.change([&](SceneBuilder& target) { target.add_light(value); });
              })
-        .def("build",
-             [](SharedBuilder& of, const py::object& camera, const py::object& background,
-                const py::object& fog, const py::object& settings, const py::object& wavelengths,
-                const py::object& merge_duplicates, const py::object& camera_lights) {
-                 const Surroundings around(camera, background, fog, settings, wavelengths);
-                 const bool merge = bool_from(merge_duplicates, "merge_duplicates");
-                 const bool lights = bool_from(camera_lights, "camera_lights");
-                 return of.change([&](SceneBuilder& whole) {
-                     whole.merge_duplicates = merge;
-                     whole.camera_lights = lights;
-                     return around.built(whole);
-                 });
-             });
+        .def("build", [](SharedBuilder& shared_builder, const py::object& camera,
+                         const py::object& background, const py::object& fog,
+                         const py::object& settings, const py::object& wavelengths,
+                         const py::object& merge_duplicates, const py::object& camera_lights) {
+            const Surroundings around(camera, background, fog, settings, wavelengths);
+            const bool merge = bool_from(merge_duplicates, "merge_duplicates");
+            const bool lights = bool_from(camera_lights, "camera_lights");
+            return shared_builder.change([&](SceneBuilder& to) {
+                to.merge_duplicates = merge;
+                to.camera_lights = lights;
+                return around.built(to);
+            });
+        });
     // Throws the errors of build() for these values, before build() empties the builder.
     module.def("check",
                [](const py::object& camera, const py::object& background, const py::object& fog,

@@ -189,10 +189,10 @@ void bind_scene(py::module_& module) {
              })
         .def("lights",
              [](const Scene& scene) {
-                 py::list all;
+                 py::list list;
                  for (const Light& light : scene.lights())
-                     all.append(to_python(light));
-                 return all;
+                     list.append(to_python(light));
+                 return list;
              })
         .def("fog", [](const Scene& scene) { return to_python(scene.fog()); })
         .def("camera", [](const Scene& scene) { return to_python(scene.camera()); })

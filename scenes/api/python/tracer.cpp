@@ -130,9 +130,9 @@ class RayArrays {
     bool flatten() {
         bool in_place = true;
         for_each([&](py::object& array, const Axes& row, const char*) {
-            const auto whole = py::reinterpret_borrow<py::array>(array);
-            const py::array flat = flattened(whole, row, axes_);
-            in_place = in_place && flat.data() == whole.data();
+            const auto full_array = py::reinterpret_borrow<py::array>(array);
+            const py::array flat = flattened(full_array, row, axes_);
+            in_place = in_place && flat.data() == full_array.data();
             array = flat;
         });
         return in_place;
@@ -187,10 +187,10 @@ class RayColumns {
     const Axes& axes() const { return axes_; }
     /// Returns true if all columns are contiguous, so that no ray has to be copied.
     bool is_spans() const {
-        bool all = true;
+        bool are_hits = true;
         for (std::size_t axis = 0; axis < 3; ++axis)
-            all = all && origin_[axis].is_span() && direction_[axis].is_span();
-        return all && t_min_.column().is_span() && t_max_.column().is_span() &&
+            are_hits = are_hits && origin_[axis].is_span() && direction_[axis].is_span();
+        return are_hits && t_min_.column().is_span() && t_max_.column().is_span() &&
                shapes_.column().is_span() && faces_.column().is_span() &&
                inward_.column().is_span();
     }
@@ -322,23 +322,23 @@ std::uint64_t intersect(SharedTracer& tracer, const py::object& origins,
     with_rays(origins, directions, rest, [&](const auto& rays) {
         const Axes& n = rays.axes();
         const auto t_double = out<double>(to[7], n, to[0].is_none() ? "out.t" : "out.t_double");
-        const HitSpan all{.t = out<float>(to[0], n, "out.t"),
-                          .normal_x = out<float>(to[1], n, "out.normal"),
-                          .normal_y = out<float>(to[2], n, "out.normal"),
-                          .normal_z = out<float>(to[3], n, "out.normal"),
-                          .shape_id = out<ShapeId>(to[4], n, "out.shape_id"),
-                          .entering = out<std::uint8_t>(to[5], n, "out.entering"),
-                          .face = out<std::uint8_t>(to[6], n, "out.face"),
-                          .t_double = t_double,
-                          .normal_double_x = out<double>(to[8], n, "out.normal_double"),
-                          .normal_double_y = out<double>(to[9], n, "out.normal_double"),
-                          .normal_double_z = out<double>(to[10], n, "out.normal_double")};
+        const HitSpan hit_span{.t = out<float>(to[0], n, "out.t"),
+                               .normal_x = out<float>(to[1], n, "out.normal"),
+                               .normal_y = out<float>(to[2], n, "out.normal"),
+                               .normal_z = out<float>(to[3], n, "out.normal"),
+                               .shape_id = out<ShapeId>(to[4], n, "out.shape_id"),
+                               .entering = out<std::uint8_t>(to[5], n, "out.entering"),
+                               .face = out<std::uint8_t>(to[6], n, "out.face"),
+                               .t_double = t_double,
+                               .normal_double_x = out<double>(to[8], n, "out.normal_double"),
+                               .normal_double_y = out<double>(to[9], n, "out.normal_double"),
+                               .normal_double_z = out<double>(to[10], n, "out.normal_double")};
         rays.share_out(
             tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
                 const auto take_part = [&](auto& span) {
                     if (!span.empty()) span = span.subspan(from, end - from);
                 };
-                HitSpan hits = all;
+                HitSpan hits = hit_span;
                 for_each_shared_column(take_part, hits);
                 take_part(hits.t_double);
                 QueryStatistics statistics;
@@ -362,11 +362,11 @@ std::uint64_t fill(SharedTracer& tracer, const py::object& origins, const py::ob
                    const py::tuple& rest, const py::object& to, const Query& query) {
     std::atomic<std::uint64_t> refused = 0;
     with_rays(origins, directions, rest, [&](const auto& rays) {
-        const auto all = out<Value>(to, rays.axes(), "out");
+        const auto answers = out<Value>(to, rays.axes(), "out");
         rays.share_out(
             tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
                 QueryStatistics statistics;
-                query(asked, part, all.subspan(from, end - from), &statistics);
+                query(asked, part, answers.subspan(from, end - from), &statistics);
                 refused += statistics.refused;
             });
     });
@@ -430,9 +430,9 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
         &CrossingStatistics::by_bounds, &CrossingStatistics::by_digits,
         &CrossingStatistics::exactly, &CrossingStatistics::beyond_double,
         &CrossingStatistics::refused};
-    CrossingRows all;
+    CrossingRows crossings;
     CrossingStatistics counts;
-    all.first = {0};
+    crossings.first = {0};
     with_rays(origins, directions, rest, [&](const auto& rays) {
         rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
             CrossingRows rows;
@@ -442,27 +442,28 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
                             &statistics);
             for (const auto count : counted)
                 counts.*count += statistics.*count;
-            append_rows(all.first, rows.first);
-            for_each_shared_column([](auto& to, auto& more) { append(to, more); }, all, rows);
-            append(all.tied, rows.tied);
-            append(all.touching, rows.touching);
+            append_rows(crossings.first, rows.first);
+            for_each_shared_column([](auto& to, auto& more) { append(to, more); }, crossings, rows);
+            append(crossings.tied, rows.tied);
+            append(crossings.touching, rows.touching);
         });
     });
     py::dict result;
-    result["first"] = array_from(std::move(all.first));
-    result["t"] = array_from(std::move(all.t));
-    result["shape_id"] = array_from(std::move(all.shape_id));
-    result["entering"] = bools_from(std::move(all.entering));
-    result["face"] = array_from(std::move(all.face));
-    result["tied"] = bools_from(std::move(all.tied));
-    result["touching"] = bools_from(std::move(all.touching));
+    result["first"] = array_from(std::move(crossings.first));
+    result["t"] = array_from(std::move(crossings.t));
+    result["shape_id"] = array_from(std::move(crossings.shape_id));
+    result["entering"] = bools_from(std::move(crossings.entering));
+    result["face"] = array_from(std::move(crossings.face));
+    result["tied"] = bools_from(std::move(crossings.tied));
+    result["touching"] = bools_from(std::move(crossings.touching));
     result["refused"] = counts.refused;
     result["statistics"] = py::make_tuple(counts.by_bounds, counts.by_digits, counts.exactly,
                                           counts.beyond_double, counts.refused);
-    if (normals) result["normal"] = vectors_from(all.normal_x, all.normal_y, all.normal_z);
+    if (normals)
+        result["normal"] = vectors_from(crossings.normal_x, crossings.normal_y, crossings.normal_z);
     if (normals_double)
-        result["normal_double"] =
-            vectors_from(all.normal_double_x, all.normal_double_y, all.normal_double_z);
+        result["normal_double"] = vectors_from(crossings.normal_double_x, crossings.normal_double_y,
+                                               crossings.normal_double_z);
     return result;
 }
 
@@ -471,24 +472,24 @@ template <class AnyRows, class Query>
 py::dict lengths(SharedTracer& tracer, const py::object& origins, const py::object& directions,
                  const py::tuple& rest, const char* name,
                  std::vector<std::uint32_t> AnyRows::*column, const Query& query) {
-    AnyRows all;
+    AnyRows answers;
     QueryStatistics statistics;
     std::uint64_t refused = 0;
-    all.first = {0};
+    answers.first = {0};
     with_rays(origins, directions, rest, [&](const auto& rays) {
         rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
             AnyRows rows;
             query(asked, part, rows, &statistics);
             refused += statistics.refused;
-            append_rows(all.first, rows.first);
-            append(all.*column, rows.*column);
-            append(all.length, rows.length);
+            append_rows(answers.first, rows.first);
+            append(answers.*column, rows.*column);
+            append(answers.length, rows.length);
         });
     });
     py::dict result;
-    result["first"] = array_from(std::move(all.first));
-    result[name] = array_from(std::move(all.*column));
-    result["length"] = array_from(std::move(all.length));
+    result["first"] = array_from(std::move(answers.first));
+    result[name] = array_from(std::move(answers.*column));
+    result["length"] = array_from(std::move(answers.length));
     result["refused"] = refused;
     return result;
 }
@@ -529,26 +530,26 @@ void ask_points(const SharedTracer& tracer, const py::object& points, const Begi
 }
 
 py::dict contains(const SharedTracer& tracer, const py::object& points) {
-    SolidRows all;
+    SolidRows rows;
     QueryStatistics statistics;
     std::uint64_t refused = 0;
-    all.first = {0};
+    rows.first = {0};
     ask_points(
         tracer, points, [](const Axes&) {},
-        [&](const Tracer& asked, const auto& some, std::size_t, std::size_t) {
+        [&](const Tracer& asked, const auto& point_columns, std::size_t, std::size_t) {
             SolidRows part;
-            asked.contains(some, part, &statistics);
+            asked.contains(point_columns, part, &statistics);
             refused += statistics.refused;
-            append_rows(all.first, part.first);
-            append(all.shape_id, part.shape_id);
-            append(all.inside, part.inside);
-            append(all.on_surface, part.on_surface);
+            append_rows(rows.first, part.first);
+            append(rows.shape_id, part.shape_id);
+            append(rows.inside, part.inside);
+            append(rows.on_surface, part.on_surface);
         });
     py::dict result;
-    result["first"] = array_from(std::move(all.first));
-    result["shape_id"] = array_from(std::move(all.shape_id));
-    result["inside"] = bools_from(std::move(all.inside));
-    result["on_surface"] = bools_from(std::move(all.on_surface));
+    result["first"] = array_from(std::move(rows.first));
+    result["shape_id"] = array_from(std::move(rows.shape_id));
+    result["inside"] = bools_from(std::move(rows.inside));
+    result["on_surface"] = bools_from(std::move(rows.on_surface));
     result["refused"] = refused;
     return result;
 }
@@ -571,15 +572,17 @@ py::dict cells(const SharedTracer& tracer, const py::object& points) {
             materials = material.mutable_data();
             on = on_surface.mutable_data();
         },
-        [&](const Tracer& asked, const auto& some, std::size_t from, std::size_t to) {
+        [&](const Tracer& asked, const auto& point_columns, std::size_t from, std::size_t to) {
             const std::size_t count = to - from;
-            std::vector<MaterialIndex> of(count);
+            std::vector<MaterialIndex> material_rows(count);
             std::vector<std::uint8_t> flags(count);
             QueryStatistics statistics;
-            asked.cells(some, {std::span(shapes + from, count), of, flags}, &statistics);
+            asked.cells(point_columns, {std::span(shapes + from, count), material_rows, flags},
+                        &statistics);
             refused += statistics.refused;
             for (std::size_t i = 0; i < count; ++i) {
-                materials[from + i] = of[i] == no_material ? -1 : std::int64_t{of[i]};
+                materials[from + i] =
+                    material_rows[i] == no_material ? -1 : std::int64_t{material_rows[i]};
                 on[from + i] = flags[i] != 0;
             }
         });
@@ -599,7 +602,7 @@ py::dict closest(const SharedTracer& tracer, const py::object& points,
     py::array_t<std::uint8_t> face;
     Values<double> limit;
     Room<double> room;
-    ClosestSpan all;
+    ClosestSpan closest;
     std::uint64_t refused = 0;
     ask_points(
         tracer, points,
@@ -612,19 +615,19 @@ py::dict closest(const SharedTracer& tracer, const py::object& points,
             shape_id = py::array_t<ShapeId>(axes);
             face = py::array_t<std::uint8_t>(axes);
             double* const to = point.mutable_data();
-            all = {{distance.mutable_data(), count},
-                   {to, count},
-                   {to + count, count},
-                   {to + 2 * count, count},
-                   {shape_id.mutable_data(), count},
-                   {face.mutable_data(), count}};
+            closest = {{distance.mutable_data(), count},
+                       {to, count},
+                       {to + count, count},
+                       {to + 2 * count, count},
+                       {shape_id.mutable_data(), count},
+                       {face.mutable_data(), count}};
         },
-        [&](const Tracer& asked, const auto& some, std::size_t from, std::size_t to) {
+        [&](const Tracer& asked, const auto& point_columns, std::size_t from, std::size_t to) {
             const auto part = [&](auto span) { return span.subspan(from, to - from); };
             QueryStatistics statistics;
-            asked.closest(some,
-                          {part(all.distance), part(all.point_x), part(all.point_y),
-                           part(all.point_z), part(all.shape_id), part(all.face)},
+            asked.closest(point_columns,
+                          {part(closest.distance), part(closest.point_x), part(closest.point_y),
+                           part(closest.point_z), part(closest.shape_id), part(closest.face)},
                           limit.column().part(from, to, room), &statistics);
             refused += statistics.refused;
         });

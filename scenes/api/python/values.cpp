@@ -256,7 +256,7 @@ py::object give(const Pattern& pattern) {
 }
 template <class Value>
 py::object give_fields(const char* name, const Value& value) {
-    py::dict all;
+    py::dict values;
     for_each_field(
         [&]<class Member>(const Field& field, const Member& member) {
             py::object object;
@@ -267,10 +267,10 @@ py::object give_fields(const char* name, const Value& value) {
                 object = give_axes(member, field.spelling.first_bit);
             else
                 object = give(member);
-            all[field.python()] = object;
+            values[field.python()] = object;
         },
         value);
-    return module_of_values().attr(name)(**all);
+    return module_of_values().attr(name)(**values);
 }
 
 } // namespace
@@ -339,12 +339,12 @@ Settings settings_from(const py::handle& settings) {
     return value_from<Settings>(settings, "Settings", "settings");
 }
 std::vector<double> wavelengths_from(const py::handle& wavelengths) {
-    const py::array_t<double, py::array::forcecast> all =
+    const py::array_t<double, py::array::forcecast> numbers =
         array_of<double>(wavelengths, "wavelengths");
-    if (all.ndim() != 1) refuse("wavelengths", "a list of numbers", wavelengths);
+    if (numbers.ndim() != 1) refuse("wavelengths", "a list of numbers", wavelengths);
     std::vector<double> result;
-    for (py::ssize_t i = 0; i < all.size(); ++i)
-        result.push_back(all.at(i));
+    for (py::ssize_t i = 0; i < numbers.size(); ++i)
+        result.push_back(numbers.at(i));
     return result;
 }
 Color color_from(const py::handle& color, const std::string& field) {

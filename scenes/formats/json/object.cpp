@@ -162,10 +162,10 @@ class ObjectReader {
 
     /// Throws if the object has keys other than these and the transform's.
     void allow(std::initializer_list<std::string_view> keys) const {
-        std::array<std::string_view, 16> all;
-        const auto end = std::copy(keys.begin(), keys.end(), all.begin());
+        std::array<std::string_view, 16> words;
+        const auto end = std::copy(keys.begin(), keys.end(), words.begin());
         const auto last = std::copy(transform_keys.begin(), transform_keys.end(), end);
-        object_.allow_only(std::span<const std::string_view>(all.begin(), last));
+        object_.allow_only(std::span<const std::string_view>(words.begin(), last));
     }
 
     template <class Shape>

@@ -198,9 +198,9 @@ core::Material Materials::material_of(const Look& look, const Place& place,
             // In POV-Ray, highlights and reflections apply to the whole surface. In raylane, they
             // apply to the opaque share of the surface only.
             material.opacity = static_cast<float>(1.0 - through);
-            const double whole = through < 1.0 ? 1.0 / (1.0 - through) : 1.0;
-            material.specular *= static_cast<float>(whole);
-            reflection = std::min(reflection * whole, 1.0);
+            const double sum_of_series = through < 1.0 ? 1.0 / (1.0 - through) : 1.0;
+            material.specular *= static_cast<float>(sum_of_series);
+            reflection = std::min(reflection * sum_of_series, 1.0);
         }
     }
     if (finish.fresnel)

@@ -34,11 +34,11 @@ Motion rotation(const Vec3d& degrees) {
     const core::Transform exact = core::Transform::rotation(degrees);
     Vec3d axes[3];
     for (int axis = 0; axis < 3; ++axis) {
-        core::Solid of;
+        core::Solid plane_solid;
         core::PlaneOf<double> plane{Vec3d(0.0), Vec3d(0.0)};
         plane.normal[axis] = 1.0;
-        of.shape = plane;
-        axes[axis] = std::get<core::PlaneOf<double>>(exact(of).shape).normal;
+        plane_solid.shape = plane;
+        axes[axis] = std::get<core::PlaneOf<double>>(exact(plane_solid).shape).normal;
     }
     return linear(exact, axes[0], axes[1], axes[2]);
 }

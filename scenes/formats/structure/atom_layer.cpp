@@ -141,15 +141,15 @@ class LayerShapes {
     }
 
     void add_bonds() {
-        const Structure& all = atoms_.all();
-        if (*layer_.look.style != Style::licorice) find_neighbours(all);
+        const Structure& structure = atoms_.all();
+        if (*layer_.look.style != Style::licorice) find_neighbours(structure);
         for (const Bond& bond : atoms_.bonds) {
             const AtomIndex of_a = atoms_.original(bond.a), of_b = atoms_.original(bond.b);
             if (!(has(of_a) && atoms_.shows_bonds_of(of_b)) &&
                 !(has(of_b) && atoms_.shows_bonds_of(of_a)))
                 continue;
-            const Vec3d a = core::convert<double>(all.positions[bond.a]);
-            const Vec3d b = core::convert<double>(all.positions[bond.b]);
+            const Vec3d a = core::convert<double>(structure.positions[bond.a]);
+            const Vec3d b = core::convert<double>(structure.positions[bond.b]);
             if (a == b || (*layer_.look.style == Style::touching && is_inside(of_a, of_b, a, b)))
                 continue;
             const int sticks = *layer_.look.style == Style::licorice ? 1 : bond.order;
@@ -159,7 +159,7 @@ class LayerShapes {
                           b - hidden_length(of_b, way) * way, 1.0F);
                 continue;
             }
-            const Vec3d side = beside(all, bond, a, b);
+            const Vec3d side = beside(structure, bond, a, b);
             if (sticks == Bond::aromatic) {
                 add_stick(bond, a - apart * side, b - apart * side, share_of_stick);
                 add_dashes(bond, a + apart * side, b + apart * side);

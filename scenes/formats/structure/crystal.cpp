@@ -98,7 +98,8 @@ std::optional<Cluster> cluster_of(const Structure& structure, const Rows& rows) 
 /// A crystal's molecules: finite sets of bonded atoms. Atoms of infinite networks are alone.
 class Molecules {
   public:
-    Molecules(const Structure& structure, const PeriodicBonds& bonds, const Rows& rows, bool whole)
+    Molecules(const Structure& structure, const PeriodicBonds& bonds, const Rows& rows,
+              bool whole_molecules)
         : structure_(structure), bonds_(bonds), shift_(structure.size()),
           middle_(structure.size()) {
         std::vector<char> is_done(structure.size());
@@ -106,8 +107,8 @@ class Molecules {
             if (is_done[atom] != 0) continue;
             std::vector<AtomIndex> members = {atom};
             is_done[atom] = 1;
-            bool is_finite = whole;
-            if (whole) is_finite = collect(members, is_done);
+            bool is_finite = whole_molecules;
+            if (whole_molecules) is_finite = collect(members, is_done);
             if (is_finite) {
                 place(members, rows);
                 continue;

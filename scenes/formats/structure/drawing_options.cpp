@@ -82,7 +82,7 @@ void show(Drawing& drawing, const std::string& option, const std::string& text) 
 }
 
 const std::vector<std::pair<std::string_view, SetOption>>& setters() {
-    static const std::vector<std::pair<std::string_view, SetOption>> all = {
+    static const std::vector<std::pair<std::string_view, SetOption>> setters = {
         {"style", setter_of(&Drawing::style, style_of)},
         {"color", setter_of_text(&Drawing::color, color_words_of)},
         {"palette", setter_of(&Drawing::palette, palette_of)},
@@ -132,7 +132,7 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
                  drawing.fit_camera.projection = core::Projection::orthographic;
          }},
     };
-    return all;
+    return setters;
 }
 
 } // namespace

@@ -152,14 +152,14 @@ void add_hydrogen_bonds(const DrawnAtoms& atoms, core::SceneBuilder& builder,
     const core::MaterialIndex material = Palette(builder, 1.0F, atoms.finish).of(0x4A90C8, [] {
         return std::string("hydrogen bond");
     });
-    const Structure& all = atoms.all();
-    for (const auto& [a, b] : find_hydrogen_bonds(all, atoms.bonds)) {
+    const Structure& structure = atoms.all();
+    for (const auto& [a, b] : find_hydrogen_bonds(structure, atoms.bonds)) {
         const AtomPair pair = {atoms.original(a), atoms.original(b)};
         if (atoms.representations[pair[0]] == DrawnAtoms::hidden ||
             atoms.representations[pair[1]] == DrawnAtoms::hidden)
             continue;
-        for (const auto& [from, to] : dashes_of(core::convert<double>(all.positions[a]),
-                                                core::convert<double>(all.positions[b]))) {
+        for (const auto& [from, to] : dashes_of(core::convert<double>(structure.positions[a]),
+                                                core::convert<double>(structure.positions[b]))) {
             builder.add(core::CappedCylinder{core::convert<float>(from),
                                              core::convert<float>(to - from), radius},
                         material);

@@ -34,8 +34,8 @@ std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& 
         cells[k] = -static_cast<int>(std::lround(part));
     }
     // In an oblique cell, one of the surrounding cells may be nearer.
-    const auto squared = [&](const std::array<int, 3>& of) {
-        const Vec3d at = way + offset_in(cell, of);
+    const auto squared = [&](const std::array<int, 3>& cell_counts) {
+        const Vec3d at = way + offset_in(cell, cell_counts);
         return core::dot(at, at);
     };
     // If images are equally near, the original one is taken.
@@ -44,10 +44,10 @@ std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& 
         for (int j = -1; j <= 1; ++j)
             for (int k = -1; k <= 1; ++k) {
                 const std::array<int, 3> by = {i, j, k};
-                std::array<int, 3> of = cells;
+                std::array<int, 3> counts = cells;
                 for (std::size_t axis = 0; axis < 3; ++axis)
-                    if (cell.periodic[axis]) of[axis] += by[axis];
-                if (squared(of) < squared(best)) best = of;
+                    if (cell.periodic[axis]) counts[axis] += by[axis];
+                if (squared(counts) < squared(best)) best = counts;
             }
     return best;
 }

@@ -89,12 +89,12 @@ std::size_t add_polyhedra_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
                                 core::SceneBuilder& builder,
                                 std::vector<AtomPair>* atoms_of_shape) {
     Palette faces(builder, *layer.look.opacity, atoms.finish), edges(builder, 1.0F, atoms.finish);
-    const Structure& all = atoms.all();
+    const Structure& structure = atoms.all();
     std::vector<std::vector<Vec3d>> neighbours(atoms.complete);
     for (const Bond& bond : atoms.bonds)
         for (const auto& [of, other] : {std::pair{bond.a, bond.b}, std::pair{bond.b, bond.a}})
             if (of < neighbours.size() && layer.has(atoms, atoms.original(of)))
-                neighbours[of].push_back(core::convert<double>(all.positions[other]));
+                neighbours[of].push_back(core::convert<double>(structure.positions[other]));
     std::size_t count = 0;
     for (AtomIndex i = 0; i < neighbours.size(); ++i) {
         const std::vector<Vec3d>& points = neighbours[i];

@@ -45,8 +45,8 @@ class PqrReader : public FrameReader {
     /// are separated by blanks, except that coordinates may fill their columns of a PDB file.
     void read_atom(Structure& frame, KindTable& kinds) {
         std::vector<std::string_view> words;
-        Words all(lines_);
-        for (std::string_view word; !(word = all.next()).empty();)
+        Words columns(lines_);
+        for (std::string_view word; !(word = columns.next()).empty();)
             words.push_back(word);
         constexpr std::size_t numbers = 5, min_words = 8; // also record, number and name
         if (words.size() < 4)

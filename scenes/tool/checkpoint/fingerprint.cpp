@@ -71,8 +71,9 @@ void add_image(Hash& hash, const core::Texture& image) {
     if (!image.any()) return;
     hash.add(static_cast<std::uint64_t>(image.width()));
     hash.add(image.components().index());
-    std::visit([&](const auto& all) { hash.add(all.data(), all.size() * sizeof all[0]); },
-               image.components());
+    std::visit(
+        [&](const auto& values) { hash.add(values.data(), values.size() * sizeof values[0]); },
+        image.components());
 }
 
 void add_spaces(Hash& hash, const core::Scene& scene) {

@@ -296,10 +296,10 @@ class Verifier {
     }
 
     std::vector<std::size_t> all_pixels() const {
-        std::vector<std::size_t> all(static_cast<std::size_t>(image_.width) *
-                                     static_cast<std::size_t>(image_.height));
-        std::iota(all.begin(), all.end(), std::size_t{0});
-        return all;
+        std::vector<std::size_t> pixels(static_cast<std::size_t>(image_.width) *
+                                        static_cast<std::size_t>(image_.height));
+        std::iota(pixels.begin(), pixels.end(), std::size_t{0});
+        return pixels;
     }
     /// Returns the side of tiles that hold the fewest pixels besides the chosen ones.
     int side_of_tile() const {

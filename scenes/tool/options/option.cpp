@@ -107,11 +107,11 @@ void OptionTable::apply_to(core::Settings& settings) const {
 
 std::vector<std::pair<std::string, std::string>>
 OptionTable::recorded(const Rendered& rendered) const {
-    std::vector<std::pair<std::string, std::string>> all;
+    std::vector<std::pair<std::string, std::string>> options;
     for (const AnyOption* option : options_)
         for (std::string& value : option->recorded(rendered))
-            all.emplace_back(option->name(), std::move(value));
-    return all;
+            options.emplace_back(option->name(), std::move(value));
+    return options;
 }
 
 std::string OptionTable::first_given() const {

@@ -47,13 +47,13 @@ void wait_for_all(Ranks& ranks) {
 
 std::vector<std::string> gathered(Ranks& ranks, const std::string& text) {
     wait_for_all(ranks);
-    const char* all = nullptr;
+    const char* gathered = nullptr;
     const std::size_t* counts = nullptr;
-    ranks.gather(text.data(), text.size(), all, counts);
+    ranks.gather(text.data(), text.size(), gathered, counts);
     std::vector<std::string> texts;
     for (int rank = 0; rank < ranks.size(); ++rank) {
-        texts.emplace_back(all, counts[rank]);
-        all += counts[rank];
+        texts.emplace_back(gathered, counts[rank]);
+        gathered += counts[rank];
     }
     return texts;
 }

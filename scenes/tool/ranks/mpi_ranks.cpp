@@ -45,7 +45,7 @@ class MpiRanks : public Ranks {
     int size_of_host() const override { return size_of_host_; }
     int first_of_host() const override { return first_of_host_; }
 
-    void gather(const void* bytes, std::size_t count, const char*& all,
+    void gather(const void* bytes, std::size_t count, const char*& gathered,
                 const std::size_t*& counts) override {
         std::vector<int> lengths(static_cast<std::size_t>(size_));
         const int length = static_cast<int>(count);
@@ -57,7 +57,7 @@ class MpiRanks : public Ranks {
         MPI_Allgatherv(bytes, length, MPI_BYTE, gathered_.data(), lengths.data(), places.data(),
                        MPI_BYTE, all_);
         counts_.assign(lengths.begin(), lengths.end());
-        all = gathered_.data();
+        gathered = gathered_.data();
         counts = counts_.data();
     }
 

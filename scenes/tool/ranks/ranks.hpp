@@ -25,7 +25,7 @@ class Ranks {
     /// Collective: gathers the bytes of all ranks, any number from each. `all` receives them in the
     /// order of the ranks, and `counts` the numbers of bytes (size() of them). Both belong to this
     /// object and are valid until the next call.
-    virtual void gather(const void* bytes, std::size_t count, const char*& all,
+    virtual void gather(const void* bytes, std::size_t count, const char*& gathered,
                         const std::size_t*& counts) = 0;
     /// Collective: sends the bytes of rank 0 to all ranks.
     virtual void broadcast(void* bytes, std::size_t count) = 0;

@@ -101,10 +101,10 @@ void check(const DoubleFaults& faults) {
 
 TEST_CASE("rays of tiny and huge doubles have the answers of real arithmetic", "[meetings]") {
     Random random(seed(20261129));
-    const std::vector<AnyShapeInDouble> all = shapes_at_origin();
+    const std::vector<AnyShapeInDouble> shapes = shapes_at_origin();
     DoubleFaults of_each, of_all;
     for (int round = 0; round < rounds(2, 1); ++round) {
-        for (const AnyShapeInDouble& shape : all) {
+        for (const AnyShapeInDouble& shape : shapes) {
             std::vector<core::Ray<double>> rays;
             for (int i = 0; i < 30; ++i)
                 rays.push_back(changed(lattice_ray(random), random));
@@ -113,7 +113,7 @@ TEST_CASE("rays of tiny and huge doubles have the answers of real arithmetic", "
         std::vector<core::Ray<double>> rays;
         for (int i = 0; i < 120; ++i)
             rays.push_back(changed(lattice_ray(random), random));
-        ask(all, rays, of_all);
+        ask(shapes, rays, of_all);
     }
     check(of_each);
     check(of_all);
@@ -140,11 +140,11 @@ TEST_CASE("rays of tiny and huge doubles are exact where shapes meet", "[meeting
 }
 
 TEST_CASE("a direction's power of two scales t alone") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene);
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene);
     DoubleRays rays, scaled;
-    for (std::size_t i = 0; i < all.rays.size() && i < 400; ++i) {
-        core::Ray<double> ray = all.rays.ray(i);
+    for (std::size_t i = 0; i < setup.rays.size() && i < 400; ++i) {
+        core::Ray<double> ray = setup.rays.ray(i);
         rays.add(ray, 0.0, endless);
         for (int axis = 0; axis < 3; ++axis)
             ray.direction[axis] = std::ldexp(ray.direction[axis], -700);

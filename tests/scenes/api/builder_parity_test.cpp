@@ -653,13 +653,13 @@ std::vector<Case> images() {
 }
 
 std::vector<Case> all_cases() {
-    std::vector<Case> all = {
+    std::vector<Case> cases = {
         shapes(),  sphereflake(), lattices(), solids(), transforms(),         groups(),
         numbers(), presets(),     glasses(),  looks(),  patterns_on_objects()};
     for (const auto& make : {checkers, lights_and_fog, views, images})
         for (Case& one : make())
-            all.push_back(std::move(one));
-    return all;
+            cases.push_back(std::move(one));
+    return cases;
 }
 
 /// Adds all keys of objects and all texts of a scene.

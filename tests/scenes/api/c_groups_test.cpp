@@ -38,14 +38,15 @@ GroupHandle dumbbell_in_c() {
     REQUIRE(raylane_group_add_capped_cylinders(group.get(), &rod, 1, RAYLANE_NO_MATERIAL) ==
             RAYLANE_OK);
     REQUIRE(raylane_group_add_spheres(group.get(), balls, 1, 0) == RAYLANE_OK);
-    const auto ball = [](const raylane_double_sphere& of) {
-        return made<SolidHandle>(
-            [&](raylane_solid** to) { return raylane_solid_sphere(&of, RAYLANE_NO_MATERIAL, to); });
+    const auto ball = [](const raylane_double_sphere& sphere) {
+        return made<SolidHandle>([&](raylane_solid** to) {
+            return raylane_solid_sphere(&sphere, RAYLANE_NO_MATERIAL, to);
+        });
     };
-    const SolidHandle whole = ball(balls[1]), hole = ball(dent);
+    const SolidHandle solid = ball(balls[1]), hole = ball(dent);
     const raylane_solid* const holes[] = {hole.get()};
     const SolidHandle dented = made<SolidHandle>([&](raylane_solid** to) {
-        return raylane_solid_difference(whole.get(), holes, 1, RAYLANE_NO_MATERIAL, to);
+        return raylane_solid_difference(solid.get(), holes, 1, RAYLANE_NO_MATERIAL, to);
     });
     const GroupHandle last = group_in_c();
     REQUIRE(raylane_group_add_solid(last.get(), dented.get(), RAYLANE_NO_MATERIAL) == RAYLANE_OK);
@@ -55,7 +56,7 @@ GroupHandle dumbbell_in_c() {
 }
 
 Group dumbbell() {
-    const auto ball = [](const auto& of) { return std::bit_cast<SphereOf<double>>(of); };
+    const auto ball = [](const auto& sphere) { return std::bit_cast<SphereOf<double>>(sphere); };
     Group group;
     group.add(std::bit_cast<CappedCylinderOf<double>>(rod));
     group.add(ball(balls[0]), 0);
@@ -89,18 +90,19 @@ std::size_t check_shapes(const SceneHandle& in_c, const Scene& scene,
                          raylane_status (*shapes)(const raylane_scene*, std::uint32_t*,
                                                   std::uint32_t*, CShape*, std::size_t,
                                                   std::size_t*)) {
-    const auto all = scene.shapes<ShapeOf>();
+    const auto returned = scene.shapes<ShapeOf>();
     std::size_t count = 77;
     CHECK(shapes(in_c.get(), nullptr, nullptr, nullptr, 0, &count) == RAYLANE_OK);
-    CHECK(count == all.id.size());
-    const auto size = all.id.size();
+    CHECK(count == returned.id.size());
+    const auto size = returned.id.size();
     std::vector<std::uint32_t> ids(size), materials(size);
     std::vector<CShape> given(size + 1);
     CHECK(shapes(in_c.get(), ids.data(), materials.data(), given.data(), size + 1, nullptr) ==
           RAYLANE_OK);
-    CHECK(ids == all.id);
-    CHECK(materials == all.material);
-    if (size != 0) CHECK(std::memcmp(given.data(), all.shape.data(), size * sizeof(CShape)) == 0);
+    CHECK(ids == returned.id);
+    CHECK(materials == returned.material);
+    if (size != 0)
+        CHECK(std::memcmp(given.data(), returned.shape.data(), size * sizeof(CShape)) == 0);
     if (size > 1) {
         std::uint32_t one[] = {77, 77};
         CHECK(shapes(in_c.get(), one, nullptr, nullptr, 1, &count) == RAYLANE_OK);
@@ -237,18 +239,18 @@ TEST_CASE("copies of groups in C are those of C++, kept or not") {
 }
 
 TEST_CASE("a scene of all types gives its shapes back in C") {
-    Heap all = heap(false, 3, 32);
+    Heap setup = heap(false, 3, 32);
     SceneHandle in_c;
     { // through a file, as C has no other way to this scene
         const TemporaryDirectory folder;
         const std::string path = (folder.path() / "all.rl").string();
-        save(all.scene, path);
+        save(setup.scene, path);
         in_c =
             made<SceneHandle>([&](raylane_scene** to) { return raylane_load(path.c_str(), to); });
     }
-    check_each_shape(in_c, all.scene);
+    check_each_shape(in_c, setup.scene);
 #define RAYLANE_CHECK(Shape, shapes)                                                               \
-    CHECK(check_shapes<Shape##Of>(in_c, all.scene, raylane_scene_##shapes) >= 2);
+    CHECK(check_shapes<Shape##Of>(in_c, setup.scene, raylane_scene_##shapes) >= 2);
     RAYLANE_CHECK(Sphere, spheres)
     RAYLANE_CHECK(Plane, planes)
     RAYLANE_CHECK(Disc, discs)
@@ -398,9 +400,9 @@ TEST_CASE("atoms are read with options in C") {
     });
     CHECK(raylane_shape_count(one.get()) == 1);
     const TemporaryFile file(atoms, ".xyz");
-    const auto count = [&](const raylane_atom_option* all, std::size_t size) {
+    const auto count = [&](const raylane_atom_option* options, std::size_t size) {
         return raylane_shape_count(made<SceneHandle>([&](raylane_scene** to) {
-                                       return raylane_load_atoms(file.path().c_str(), all, size,
+                                       return raylane_load_atoms(file.path().c_str(), options, size,
                                                                  to);
                                    }).get());
     };
@@ -491,11 +493,11 @@ TEST_CASE("parts, alpha and AOVs of images in C are those of C++") {
     CHECK(std::count(shape_id.begin(), shape_id.end(), 0U) > 5);
     CHECK(std::count(alpha.begin(), alpha.end(), 0.0F) > 5);
 
-    std::vector<float> whole(3 * 24 * 16);
+    std::vector<float> pixels(3 * 24 * 16);
     raylane_image colors{};
-    colors.rgb = whole.data();
+    colors.rgb = pixels.data();
     REQUIRE(raylane_render_image(scene.get(), nullptr, &colors) == RAYLANE_OK);
-    CHECK(whole == render(same).rgb);
+    CHECK(pixels == render(same).rgb);
     options.crop_x = 20;
     says(raylane_render_image(scene.get(), &options, &image), message_of<InvalidValue>([&] {
              render(same, {.crop = PixelRect{20, 2, 10, 9}});

@@ -90,17 +90,17 @@ SolidHandle body_in_c() {
     };
     const SolidHandle both = join(raylane_solid_union, solid_in_c(raylane_solid_box, brick, 1),
                                   solid_in_c(raylane_solid_sphere, big_ball), RAYLANE_NO_MATERIAL);
-    const SolidHandle whole =
+    const SolidHandle whole_solid =
         join(raylane_solid_intersection, both, solid_in_c(raylane_solid_sphere, outer_ball), 2);
     const SolidHandle hole = solid_in_c(raylane_solid_capped_cylinder, bore);
     const raylane_solid* const holes[] = {hole.get()};
     return made<SolidHandle>([&](raylane_solid** to) {
-        return raylane_solid_difference(whole.get(), holes, 1, RAYLANE_NO_MATERIAL, to);
+        return raylane_solid_difference(whole_solid.get(), holes, 1, RAYLANE_NO_MATERIAL, to);
     });
 }
 
 raylane::Solid body() {
-    const auto ball = [](const auto& of) { return std::bit_cast<SphereOf<double>>(of); };
+    const auto ball = [](const auto& sphere) { return std::bit_cast<SphereOf<double>>(sphere); };
     const raylane::Solid both =
         union_of({raylane::Solid(std::bit_cast<BoxOf<double>>(brick), 1), ball(big_ball)});
     return difference_of(intersection_of({both, ball(outer_ball)}).of(2),
@@ -168,11 +168,12 @@ TEST_CASE("C makes solids of every kind of shape as C++ does") {
         SceneBuilder builder;
         const std::uint32_t material = add_material_in_c(in_c);
         builder.add_material(Material{});
-        const SolidHandle whole = solid_in_c<typename InC<Shape>::Type>(InC<Shape>::solid, shape);
+        const SolidHandle whole_solid =
+            solid_in_c<typename InC<Shape>::Type>(InC<Shape>::solid, shape);
         const SolidHandle by = solid_in_c(raylane_solid_sphere, everything);
         const raylane_solid* const all_by[] = {by.get()};
         const SolidHandle part = made<SolidHandle>([&](raylane_solid** to) {
-            return raylane_solid_clipped(whole.get(), all_by, 1, RAYLANE_NO_MATERIAL, to);
+            return raylane_solid_clipped(whole_solid.get(), all_by, 1, RAYLANE_NO_MATERIAL, to);
         });
         const raylane_status status = raylane_add_solid(in_c.get(), part.get(), material, nullptr);
         std::optional<std::string> refusal;

@@ -89,8 +89,8 @@ Placement any_placement(Random& random, double size) {
     Placement placement;
     placement.translate = point_in(random, size);
     if (random.integer(0, 2) == 0) {
-        const auto whole = [&] { return static_cast<double>(random.integer(-20, 20)); };
-        placement.translate = {whole(), whole(), whole()};
+        const auto random_integer = [&] { return static_cast<double>(random.integer(-20, 20)); };
+        placement.translate = {random_integer(), random_integer(), random_integer()};
     }
     if (random.integer(0, 2) != 0) placement.rotate = point_in(random, 360);
     if (random.integer(0, 2) == 0) placement.rotate = {0, 90.0 * random.integer(0, 3), 0};

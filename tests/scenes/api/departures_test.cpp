@@ -161,13 +161,13 @@ TEST_CASE("a ray must start on the shape that it names, and go to the side that 
 }
 
 TEST_CASE("onward rays leave the surfaces of hits") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene);
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene);
     DoubleRays rays;
     std::vector<double> away[3];
     Random random(5);
-    for (std::size_t i = 0; i < all.rays.size(); ++i) {
-        rays.add(all.rays.ray(i), 0.0, endless);
+    for (std::size_t i = 0; i < setup.rays.size(); ++i) {
+        rays.add(setup.rays.ray(i), 0.0, endless);
         for (std::vector<double>& component : away)
             component.push_back(random.uniform(-1, 1));
     }
@@ -272,11 +272,11 @@ TEST_CASE("onward rays are not refused next to a tip or on a tiny shape") {
 }
 
 TEST_CASE("limits of rays in double compare with t as it is answered, also if that is a float") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene);
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene);
     DoubleRays rays;
-    for (std::size_t i = 0; i < all.rays.size(); ++i) {
-        core::Ray<double> ray = all.rays.ray(i);
+    for (std::size_t i = 0; i < setup.rays.size(); ++i) {
+        core::Ray<double> ray = setup.rays.ray(i);
         ray.origin.x += 1e-9; // t is no float
         rays.add(ray, 0.0, endless);
     }

@@ -53,14 +53,14 @@ std::size_t differences(const Tracer& tracer, const BasicRaySpan<Real>& rays) {
 
 TEST_CASE("normals in double round to the normals in float") {
     for (const bool lattice : {false, true}) {
-        const Heap all = heap(lattice, sanitized ? 4 : 20, 31);
-        const Tracer tracer(all.scene, {.threads = 2});
-        CHECK(differences(tracer, all.rays.span()) == 0);
+        const Heap setup = heap(lattice, sanitized ? 4 : 20, 31);
+        const Tracer tracer(setup.scene, {.threads = 2});
+        CHECK(differences(tracer, setup.rays.span()) == 0);
         for (const std::size_t count : {1, 2, 4, 5, 17})
-            CHECK(differences(tracer, all.rays.part(7, count)) == 0);
+            CHECK(differences(tracer, setup.rays.part(7, count)) == 0);
         DoubleRays rays;
-        for (std::size_t i = 0; i < all.rays.size(); ++i)
-            rays.add(all.rays.ray(i), 0.0, i % 4 == 0 ? 1.0 : endless);
+        for (std::size_t i = 0; i < setup.rays.size(); ++i)
+            rays.add(setup.rays.ray(i), 0.0, i % 4 == 0 ? 1.0 : endless);
         CHECK(differences(tracer, rays.span()) == 0);
         // Rays that go on from hits, straight and in other directions.
         rays.t_max.assign(rays.size(), endless);
@@ -124,15 +124,15 @@ TEST_CASE(
 }
 
 TEST_CASE("normals in double of other precisions are close to those in float") {
-    const Heap all = heap(false, 10, 41);
+    const Heap setup = heap(false, 10, 41);
     for (const Precision precision :
          {Precision::fast, Precision::robust, Precision::plain_double}) {
-        const Tracer tracer(all.scene, {.precision = precision});
-        Hits hits(all.rays.size());
-        DoubleNormals normals(all.rays.size());
+        const Tracer tracer(setup.scene, {.precision = precision});
+        Hits hits(setup.rays.size());
+        DoubleNormals normals(setup.rays.size());
         HitSpan span = hits.span();
         normals.add_to(span);
-        tracer.intersect(all.rays.span(), span);
+        tracer.intersect(setup.rays.span(), span);
         std::size_t close = 0, met = 0;
         for (std::size_t i = 0; i < hits.t.size(); ++i) {
             const core::Vec3d in_float(hits.nx[i], hits.ny[i], hits.nz[i]);

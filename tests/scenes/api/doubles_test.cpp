@@ -65,18 +65,18 @@ TEST_CASE("answers for rays in double are exact for these doubles", "[meetings]"
 }
 
 TEST_CASE("equal rays in double and in float have equal answers") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene);
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene);
     DoubleRays rays;
-    for (std::size_t i = 0; i < all.rays.size(); ++i)
-        rays.add(all.rays.ray(i), 0.0, endless);
+    for (std::size_t i = 0; i < setup.rays.size(); ++i)
+        rays.add(setup.rays.ray(i), 0.0, endless);
     const DoubleAnswers answers(tracer, rays);
-    const Hits hits = intersect(tracer, all.rays);
+    const Hits hits = intersect(tracer, setup.rays);
     CHECK(answers.hits == hits);
-    CHECK(answers.blocked == occluded(tracer, all.rays));
+    CHECK(answers.blocked == occluded(tracer, setup.rays));
     // t in float is t in double, rounded.
-    std::vector<double> t_double(all.rays.size(), -1.0);
-    tracer.intersect(all.rays.span(), {.t_double = t_double});
+    std::vector<double> t_double(setup.rays.size(), -1.0);
+    tracer.intersect(setup.rays.span(), {.t_double = t_double});
     CHECK(t_double == answers.t_double);
     for (std::size_t i = 0; i < t_double.size(); ++i) {
         const auto t = static_cast<double>(hits.t[i]);
@@ -127,12 +127,12 @@ TEST_CASE("rays of any finite doubles are traced, and others are counted") {
     for (std::size_t i = 0; i < rays.size(); ++i)
         CHECK(lengths.first[i + 1] == std::min(i + 1, found));
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const auto of = [i](const std::vector<double>& column) {
+        const auto value_at = [i](const std::vector<double>& column) {
             return std::span(column).subspan(i, 1);
         };
-        const DoubleRaySpan alone{of(rays.origin[0]),    of(rays.origin[1]),
-                                  of(rays.origin[2]),    of(rays.direction[0]),
-                                  of(rays.direction[1]), of(rays.direction[2])};
+        const DoubleRaySpan alone{value_at(rays.origin[0]),    value_at(rays.origin[1]),
+                                  value_at(rays.origin[2]),    value_at(rays.direction[0]),
+                                  value_at(rays.direction[1]), value_at(rays.direction[2])};
         tracer.intersect(alone, HitSpan{.t = std::span(hits.t).first(1)}, &statistics);
         CHECK(hits.t[0] == answers.hits.t[i]);
         CHECK(std::exchange(statistics.refused, 0) == (i < found ? 0 : 1));

@@ -58,9 +58,9 @@ long wrong_normals(const CrossingRows& rows, std::size_t row, oracle::Sight& sig
 } // namespace
 
 template <oracle::Variant Any>
-void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays,
+void ask(const std::vector<Any>& given_shapes, const std::vector<core::Ray<double>>& rays,
          DoubleFaults& faults) {
-    const std::vector<Any> shapes = valid(all);
+    const std::vector<Any> shapes = valid(given_shapes);
     const oracle::Neighbours neighbours(shapes);
     const std::vector<char> counts = which_count(shapes);
     const Tracer tracer(scene_of(shapes), {.threads = 1});

@@ -63,7 +63,7 @@ struct DoubleFaults {
 /// Checks rays without limits, and with limits at the first three crossings and next to them.
 /// Omits shapes that core finds invalid.
 template <oracle::Variant Any>
-void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays,
+void ask(const std::vector<Any>& given_shapes, const std::vector<core::Ray<double>>& rays,
          DoubleFaults& faults);
 
 } // namespace raylane::tests

@@ -27,13 +27,13 @@ using AllGiven = std::vector<Given<CoreShape>>;
 /// Adds a shape to a builder and to a list. `in_double`: with numbers that are not floats.
 template <class CoreShape>
 void give(SceneBuilder& builder, const CoreShape& shape, bool in_double, MaterialIndex material,
-          AllGiven<CoreShape>& all) {
+          AllGiven<CoreShape>& given) {
     core::Numbers<core::InDouble<CoreShape>> numbers = core::numbers_of(core::to_doubles(shape));
     for (double& number : numbers)
         if (in_double) number *= 1.0 + 0x1p-40;
     const auto exact = core::shape_of<core::InDouble<CoreShape>>(numbers);
     const ShapeId id = in_double ? add(builder, exact, material) : add(builder, shape, material);
-    all.push_back({id, material, exact});
+    given.push_back({id, material, exact});
 }
 
 /// Returns true if a shape of the library has the bits of a shape of core.
@@ -71,10 +71,10 @@ TEST_CASE("a scene returns each shape with the numbers that it was given") {
             builder.merge_duplicates = merge;
             for (int i = 0; i < 3; ++i)
                 builder.add_material({});
-            core::OfEachShape<AllGiven> all;
+            core::OfEachShape<AllGiven> given_shapes;
             for (int round = 0; round < 24; ++round)
                 core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
-                    auto& given = std::get<AllGiven<Shape>>(all);
+                    auto& given = std::get<AllGiven<Shape>>(given_shapes);
                     const auto material = static_cast<MaterialIndex>(random.integer(0, 2));
                     const bool in_double = doubles == 2 || (doubles == 1 && round % 2 == 0);
                     give(builder, ray_sets::Target<Shape>::make(random, false), in_double, material,
@@ -83,12 +83,13 @@ TEST_CASE("a scene returns each shape with the numbers that it was given") {
                     if (round % 3 != 0) return;
                     const Given<Shape> other =
                         given[static_cast<std::size_t>(random.integer(0, round))];
-                    const MaterialIndex of = round % 2 == 0 ? other.material : 0;
-                    given.push_back({add(builder, other.shape, of), of, other.shape});
+                    const MaterialIndex material_index = round % 2 == 0 ? other.material : 0;
+                    given.push_back(
+                        {add(builder, other.shape, material_index), material_index, other.shape});
                 });
             const Scene scene = builder.build();
 #define RAYLANE_CHECK(Shape, name, text)                                                           \
-    check_kind<core::Shape, Shape##Of>(scene, std::get<AllGiven<core::Shape>>(all));
+    check_kind<core::Shape, Shape##Of>(scene, std::get<AllGiven<core::Shape>>(given_shapes));
             RAYLANE_SHAPES(RAYLANE_CHECK)
 #undef RAYLANE_CHECK
         }
@@ -135,7 +136,7 @@ TEST_CASE("camera rays are those of the renderer's camera, with one sample a pix
             core::Settings settings;
             settings.width = width;
             settings.height = height;
-            const core::CameraRays<double> of(
+            const core::CameraRays<double> camera_rays(
                 {.projection = static_cast<core::Projection>(projection),
                  .from = {1, 2, 9},
                  .at = {0.3F, 0, 0},
@@ -149,7 +150,7 @@ TEST_CASE("camera rays are those of the renderer's camera, with one sample a pix
             REQUIRE(span.origin_z.size() == width * height);
             for (std::size_t i = 0; i < width * height; ++i) {
                 const core::Ray<double> ray =
-                    of.ray(static_cast<int>(i % width), static_cast<int>(i / width), 0);
+                    camera_rays.ray(static_cast<int>(i % width), static_cast<int>(i / width), 0);
                 CHECK(core::Vec3d(span.origin_x[i], span.origin_y[i], span.origin_z[i]) ==
                       ray.origin);
                 CHECK(core::Vec3d(span.direction_x[i], span.direction_y[i], span.direction_z[i]) ==

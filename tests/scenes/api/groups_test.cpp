@@ -33,7 +33,7 @@ TEST_CASE("objects without a material have the default one, which gets an index 
     const ShapeId ball = builder.add(Sphere{{0, 0, 0}, 1});
     const ShapeId pair =
         builder.add(Solid(Sphere{{5, 0, 0}, 1}, red) | Solid(Sphere{{5, 1, 0}, 1}));
-    const ShapeId whole =
+    const ShapeId solid_id =
         builder.add(Solid(Sphere{{9, 0, 0}, 1}, red) | Solid(Sphere{{9, 1, 0}, 1}, blue));
     Group group;
     group.add(Disc{{0, 5, 0}, {0, 1, 0}, 1});
@@ -44,7 +44,7 @@ TEST_CASE("objects without a material have the default one, which gets an index 
     CHECK(scene.material_of(ball) == 2);
     CHECK(scene.material_of(pair) == red);
     CHECK(scene.material_of(pair + 1) == 2);
-    CHECK(scene.material_of(whole + 1) == blue);
+    CHECK(scene.material_of(solid_id + 1) == blue);
     CHECK(scene.material_of(first) == 2);
     CHECK(scene.material_of(first + 1) == blue);
     CHECK(scene.material_of(first + 2) == red);

@@ -239,15 +239,15 @@ TEST_CASE("an image with alpha has no background") {
 
 TEST_CASE("a crop has the pixels and AOVs of the whole image") {
     const Scene scene = mirrored_ball();
-    const Image whole = render(scene, {.aovs = true});
-    REQUIRE(whole.aovs.depth.size() == 70 * 50);
-    CHECK(whole.aovs.shape_id[0] == no_shape);
-    CHECK(whole.aovs.depth[0] == std::numeric_limits<float>::infinity());
+    const Image whole_image = render(scene, {.aovs = true});
+    REQUIRE(whole_image.aovs.depth.size() == 70 * 50);
+    CHECK(whole_image.aovs.shape_id[0] == no_shape);
+    CHECK(whole_image.aovs.depth[0] == std::numeric_limits<float>::infinity());
     const std::size_t middle = 25 * 70 + 35;
-    CHECK(whole.aovs.shape_id[middle] == 0);
-    CHECK(whole.aovs.material[middle] == 0);
-    CHECK(whole.aovs.samples[middle] == 1);
-    const float* const normal = &whole.aovs.normal[3 * middle];
+    CHECK(whole_image.aovs.shape_id[middle] == 0);
+    CHECK(whole_image.aovs.material[middle] == 0);
+    CHECK(whole_image.aovs.samples[middle] == 1);
+    const float* const normal = &whole_image.aovs.normal[3 * middle];
     CHECK(std::hypot(normal[0], normal[1], normal[2]) == Approx(1.0F).epsilon(1e-6));
     CHECK(render(scene).aovs.depth.empty());
 
@@ -265,9 +265,9 @@ TEST_CASE("a crop has the pixels and AOVs of the whole image") {
     CHECK((part->width == 11 && part->height == 7));
     for (int y = 0; y < 7; ++y)
         for (int x = 0; x < 11; ++x) {
-            CHECK(part->at(x, y) == whole.at(30 + x, 20 + y));
+            CHECK(part->at(x, y) == whole_image.at(30 + x, 20 + y));
             CHECK(part->aovs.depth[static_cast<std::size_t>(y * 11 + x)] ==
-                  whole.aovs.depth[static_cast<std::size_t>((20 + y) * 70 + 30 + x)]);
+                  whole_image.aovs.depth[static_cast<std::size_t>((20 + y) * 70 + 30 + x)]);
         }
     constexpr int most = std::numeric_limits<int>::max();
     for (const PixelRect& outside : {PixelRect{0, 0, 71, 1},

@@ -269,22 +269,22 @@ TEST_CASE("shapes that are far away are hit in order and with their normals", "[
     CHECK(answer({core::Sphere{{0, 0, 0}, 1e-20F}}, {{0, 0, 1}, {0, 0, -1}}).normal ==
           Vec3f(0, 0, 1));
 
-    const Shapes all = {one,
-                        other,
-                        core::CappedCylinder{{0, 0, -3}, {0.25F, 0, 4.5F}, 0.5F},
-                        core::OpenCylinder{{0, 0, -3}, {0, 0, 4.25F}, 0.75F},
-                        core::Disc{{0, 0, 1.5F}, {0.5F, 0, 1}, 0.5F},
-                        cube({-0.5F, -0.5F, 0.625F}),
-                        core::CappedCone{{0, 0, 0}, {0, 0, 3}, 0.5F, 0.125F}};
+    const Shapes setup = {one,
+                          other,
+                          core::CappedCylinder{{0, 0, -3}, {0.25F, 0, 4.5F}, 0.5F},
+                          core::OpenCylinder{{0, 0, -3}, {0, 0, 4.25F}, 0.75F},
+                          core::Disc{{0, 0, 1.5F}, {0.5F, 0, 1}, 0.5F},
+                          cube({-0.5F, -0.5F, 0.625F}),
+                          core::CappedCone{{0, 0, 0}, {0, 0, 3}, 0.5F, 0.125F}};
     for (const double distance : {1e10, 1e16, 1e17, 1e25})
-        for (std::size_t first = 0; first < all.size(); ++first) {
+        for (std::size_t first = 0; first < setup.size(); ++first) {
             std::vector<Ray> rays;
             for (int i = 0; i < 20; ++i) {
                 Vec3d from = random.cube(0.75);
                 from.z = distance;
                 rays.push_back({rounded(from), {0, 0, -1}});
             }
-            check({all.begin() + static_cast<std::ptrdiff_t>(first), all.end()}, rays, 0.1);
+            check({setup.begin() + static_cast<std::ptrdiff_t>(first), setup.end()}, rays, 0.1);
         }
 }
 

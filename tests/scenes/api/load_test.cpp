@@ -296,7 +296,9 @@ TEST_CASE("a scene of atoms that is saved as JSON has light from every view") {
     Settings settings = scene.settings();
     settings.width = 40;
     settings.height = 30;
-    const auto drawn = [&](const Scene& of) { return render(of, {.settings = settings}).rgb; };
+    const auto drawn = [&](const Scene& loaded) {
+        return render(loaded, {.settings = settings}).rgb;
+    };
     CHECK(drawn(again) == drawn(scene));
     for (const Vec3 direction : {Vec3{0, -1, 0}, Vec3{1, 2, -3}}) {
         const Camera camera = scene.camera_on_all(direction);
@@ -358,9 +360,9 @@ TEST_CASE("images of atoms have annotations, or an SVG file has them") {
            render(plain.seen_by(camera), bare_options).rgb));
     CHECK(tests::content_of(options.annotations) != svg);
 
-    const auto message = [&](const Scene& of, const char* file) {
+    const auto message = [&](const Scene& subject, const char* file) {
         options.annotations = file;
-        return tests::message_of<InvalidValue>([&] { render(of, options); });
+        return tests::message_of<InvalidValue>([&] { render(subject, options); });
     };
     CHECK(message(plain, "a.svg") == "annotations: goes with a scene of atoms that has "
                                      "annotations, such as label or scale_bar");

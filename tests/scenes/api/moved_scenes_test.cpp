@@ -238,17 +238,17 @@ void check_same(const Scene& moved, const Scene& fresh, const Rays& rays) {
 
 /// Checks that the hierarchy is a tree that has each shape within its bounds.
 void check_tree(const Scene& scene) {
-    const core::Scene& of = library::Internals::of(scene);
-    if (of.solids().any()) return; // the checks are those of files, which have none
+    const core::Scene& inner = library::Internals::of(scene);
+    if (inner.solids().any()) return; // the checks are those of files, which have none
     core::Workers alone;
-    CHECK_NOTHROW(core::check({of.shapes(),
-                               of.material_indices(),
-                               {of.polygons().begin(), of.polygons().end()},
-                               of.merged(),
-                               of.hierarchy(),
+    CHECK_NOTHROW(core::check({inner.shapes(),
+                               inner.material_indices(),
+                               {inner.polygons().begin(), inner.polygons().end()},
+                               inner.merged(),
+                               inner.hierarchy(),
                                {},
                                0},
-                              of.materials().size(), alone));
+                              inner.materials().size(), alone));
 }
 
 void check_chain(const Contents& contents, Random& random, int steps, int ray_count) {
@@ -308,8 +308,8 @@ TEST_CASE("packed spheres stay packed when they move") {
         builder.add(core::Sphere{{at.x, at.y, at.z}, i % 2 == 0 ? 0.25F : 0.5F},
                     contents.balls[i].material);
     }
-    const auto scene =
-        library::Internals::scene(std::make_shared<const core::Scene>(std::move(builder).build()));
+    const auto scene = library::Internals::scene(
+        std::make_shared<const core::Scene>(std::move(builder).build()), nullptr);
     const Scene moved = contents.moved(scene, after);
     const core::Tables& tables = library::Internals::of(moved).shapes();
     CHECK(std::get<core::Table<core::Sphere>>(tables).is_packed());

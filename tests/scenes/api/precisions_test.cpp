@@ -20,22 +20,23 @@ Heap heap_of(const Material& material) {
 #else
     constexpr int of_each_kind = 14;
 #endif
-    Heap all = heap(false, of_each_kind, 11, material);
+    Heap setup = heap(false, of_each_kind, 11, material);
     Random random(3);
-    for (std::size_t i = 0; i < all.rays.size(); ++i) {
+    for (std::size_t i = 0; i < setup.rays.size(); ++i) {
         const bool from_start = random.integer(0, 2) == 0;
         const bool without_end = random.integer(0, 2) == 0;
-        all.rays.t_min.push_back(from_start ? 0.0F : static_cast<float>(random.uniform(-1.0, 9.0)));
-        all.rays.t_max.push_back(without_end ? infinity
-                                             : static_cast<float>(random.uniform(0.0, 30.0)));
+        setup.rays.t_min.push_back(from_start ? 0.0F
+                                              : static_cast<float>(random.uniform(-1.0, 9.0)));
+        setup.rays.t_max.push_back(without_end ? infinity
+                                               : static_cast<float>(random.uniform(0.0, 30.0)));
     }
-    return all;
+    return setup;
 }
 
 class BruteForce {
   public:
-    explicit BruteForce(const Heap& all)
-        : scene_(library::Internals::of(all.scene)), rays_(all.rays),
+    explicit BruteForce(const Heap& setup)
+        : scene_(library::Internals::of(setup.scene)), rays_(setup.rays),
           searcher_(scene_, core::Search::every_shape) {}
 
     /// Returns the nearest hit between a ray's limits if all neighbouring rays hit the same shape
@@ -84,27 +85,28 @@ const Material materials[] = {
 
 TEST_CASE("every precision finds clear hits between a ray's limits") {
     for (const Material& material : materials) {
-        const Heap all = heap_of(material);
-        BruteForce brute_force(all);
+        const Heap setup = heap_of(material);
+        BruteForce brute_force(setup);
         std::vector<std::optional<core::Hit<double>>> expected;
         std::size_t clear = 0, clear_hits = 0;
-        for (std::size_t i = 0; i < all.rays.size(); ++i) {
+        for (std::size_t i = 0; i < setup.rays.size(); ++i) {
             expected.push_back(brute_force.clear_answer(i));
             clear += expected[i] ? 1 : 0;
             clear_hits += expected[i] && expected[i]->any() ? 1 : 0;
         }
-        CHECK(clear > all.rays.size() / 2);
-        CHECK(clear_hits > all.rays.size() / 6);
+        CHECK(clear > setup.rays.size() / 2);
+        CHECK(clear_hits > setup.rays.size() / 6);
 
         for (const Precision precision : not_certified) {
-            const Tracer tracer(all.scene, {.precision = precision});
-            const Hits hits = intersect(tracer, all.rays);
-            const std::vector<std::uint8_t> blocked = occluded(tracer, all.rays);
+            const Tracer tracer(setup.scene, {.precision = precision});
+            const Hits hits = intersect(tracer, setup.rays);
+            const std::vector<std::uint8_t> blocked = occluded(tracer, setup.rays);
             std::size_t wrong = 0, wrongly_blocked = 0, out_of_limits = 0;
-            for (std::size_t i = 0; i < all.rays.size(); ++i) {
+            for (std::size_t i = 0; i < setup.rays.size(); ++i) {
                 out_of_limits +=
-                    hits.is_none(i) || (hits.t[i] > std::max(0.0F, all.rays.t_min[i]) &&
-                                        hits.t[i] <= all.rays.t_max[i] && hits.shape[i] != no_shape)
+                    hits.is_none(i) ||
+                            (hits.t[i] > std::max(0.0F, setup.rays.t_min[i]) &&
+                             hits.t[i] <= setup.rays.t_max[i] && hits.shape[i] != no_shape)
                         ? 0
                         : 1;
                 if (!expected[i]) continue;
@@ -129,16 +131,16 @@ TEST_CASE("every precision finds clear hits between a ray's limits") {
 }
 
 TEST_CASE("rays with each t as the next t_min advance and end with every precision") {
-    const Heap all = heap_of({});
+    const Heap setup = heap_of({});
     for (const Precision precision : not_certified) {
-        const Tracer tracer(all.scene, {.precision = precision});
-        Rays rays = all.rays;
+        const Tracer tracer(setup.scene, {.precision = precision});
+        Rays rays = setup.rays;
         rays.t_min.assign(rays.size(), 0.0F);
         rays.t_max.clear();
         std::size_t steps = 0, not_behind = 0;
         for (bool any = true; any; ++steps) {
             // A ray crosses each shape at most once on its way in and once on its way out.
-            REQUIRE(steps <= 2 * all.scene.shape_count() + 1);
+            REQUIRE(steps <= 2 * setup.scene.shape_count() + 1);
             any = false;
             const Hits hits = intersect(tracer, rays);
             for (std::size_t i = 0; i < rays.size(); ++i) {

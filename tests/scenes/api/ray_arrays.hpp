@@ -31,11 +31,12 @@ struct Rays {
     std::size_t size() const { return x.size(); }
     RaySpan span() const { return {x, y, z, dx, dy, dz, t_min, t_max}; }
     RaySpan part(std::size_t first, std::size_t count) const {
-        const auto of = [&](const std::vector<float>& values) {
+        const auto column = [&](const std::vector<float>& values) {
             return values.empty() ? std::span<const float>()
                                   : std::span(values).subspan(first, count);
         };
-        return {of(x), of(y), of(z), of(dx), of(dy), of(dz), of(t_min), of(t_max)};
+        return {column(x),  column(y),  column(z),     column(dx),
+                column(dy), column(dz), column(t_min), column(t_max)};
     }
     core::Ray<double> ray(std::size_t i) const {
         return {core::convert<double>(core::Vec3f(x[i], y[i], z[i])),
@@ -77,10 +78,10 @@ struct FullHits : Hits {
     std::vector<double> t_double;
 
     HitSpan span() {
-        HitSpan all = Hits::span();
-        all.face = face;
-        all.t_double = t_double;
-        return all;
+        HitSpan hits = Hits::span();
+        hits.face = face;
+        hits.t_double = t_double;
+        return hits;
     }
     bool is_same(std::size_t i, const FullHits& other, std::size_t k) const {
         return t[i] == other.t[k] && nx[i] == other.nx[k] && ny[i] == other.ny[k] &&
@@ -143,11 +144,11 @@ void add_kind(SceneBuilder& builder, MaterialIndex material, int count, bool lat
 }
 
 /// Returns a scene of all kinds of shapes in one heap, with rays that are hard for some of them.
-inline Heap heap(bool lattice, int of_each_kind, std::uint64_t seed, const Material& of = {}) {
+inline Heap heap(bool lattice, int of_each_kind, std::uint64_t seed, const Material& look = {}) {
     Random random(seed);
     SceneBuilder builder;
     Rays rays;
-    const MaterialIndex material = builder.add_material(of);
+    const MaterialIndex material = builder.add_material(look);
     core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
         const int count = is_bounded<Shape> ? of_each_kind : 2;
         add_kind<Shape>(builder, material, count, lattice, random, rays);

@@ -58,14 +58,14 @@ class OddRounding {
 
 /// Returns balls whose numbers are computed once, before the rounding changes.
 const std::vector<SphereOf<double>>& balls() {
-    static const std::vector<SphereOf<double>> all = [] {
+    static const std::vector<SphereOf<double>> spheres = [] {
         std::vector<SphereOf<double>> result;
         for (int i = 0; i < 300; ++i)
             result.push_back(
                 {{i % 7 / 3.0 - 1, i % 11 / 5.0 - 1, i % 13 / 6.0 - 1}, 0.1 + i % 3 / 30.0});
         return result;
     }();
-    return all;
+    return spheres;
 }
 
 Scene crowd() {

@@ -26,14 +26,14 @@ using Strings = std::vector<std::string>;
 /// Returns a word for each crossing: "+0@2" if the ray enters shape 0 at t = 2, "-0@2" if it leaves
 /// it. "=" in front marks a tie with the crossing before, "~" a touch.
 Strings words(const CrossingRows& rows, std::size_t i = 0) {
-    Strings all;
+    Strings strings;
     for (std::uint64_t k = rows.first[i]; k < rows.first[i + 1]; ++k) {
         std::ostringstream word;
         word << (rows.tied[k] != 0 ? "=" : "") << (rows.touching[k] != 0 ? "~" : "")
              << (rows.entering[k] != 0 ? "+" : "-") << rows.shape_id[k] << "@" << rows.t[k];
-        all.push_back(word.str());
+        strings.push_back(word.str());
     }
-    return all;
+    return strings;
 }
 
 CrossingRows crossings(const Scene& scene, const Rays& rays, const CrossingOptions& options = {},
@@ -66,10 +66,10 @@ Lengths lengths_along(const Scene& scene, const Vec3& origin, const Vec3& direct
     rays.t_max = {t_max};
     LengthRows rows;
     Tracer(scene).path_lengths(rays.span(), rows);
-    Lengths all;
+    Lengths lengths;
     for (std::size_t k = 0; k < rows.material.size(); ++k)
-        all.emplace_back(rows.material[k], rows.length[k]);
-    return all;
+        lengths.emplace_back(rows.material[k], rows.length[k]);
+    return lengths;
 }
 
 } // namespace
@@ -321,10 +321,10 @@ TEST_CASE("solid lengths are the lengths inside of each solid") {
         SolidLengthRows rows;
         tracer.solid_lengths(rays.span(), rows);
         CHECK(rows.first == std::vector<std::uint64_t>{0, rows.length.size()});
-        Lengths all;
+        Lengths sums;
         for (std::size_t k = 0; k < rows.length.size(); ++k)
-            all.emplace_back(rows.shape_id[k], rows.length[k]);
-        return all;
+            sums.emplace_back(rows.shape_id[k], rows.length[k]);
+        return sums;
     };
     CHECK(lengths({-10, 0, 0}, {3, 0, 0}, 0, infinity) ==
           Lengths{{0, 4.0}, {1, 4.0}, {shell, 2.0}});
@@ -479,17 +479,17 @@ using Intervals = std::vector<std::pair<oracle::Number, oracle::Number>>;
 /// Returns the intervals of t of a ray inside of solids, by shape.
 std::map<ShapeId, Intervals> intervals_of(const oracle::Sight& sight) {
     std::map<ShapeId, oracle::Number> begins;
-    std::map<ShapeId, Intervals> all;
+    std::map<ShapeId, Intervals> intervals;
     for (const oracle::Found& found : sight.all()) {
         if (found.hit.entering) {
             begins[found.shape] = found.hit.t;
             continue;
         }
         const auto begin = begins.find(found.shape);
-        all[found.shape].emplace_back(begin == begins.end() ? oracle::Number(0) : begin->second,
-                                      found.hit.t);
+        intervals[found.shape].emplace_back(
+            begin == begins.end() ? oracle::Number(0) : begin->second, found.hit.t);
     }
-    return all;
+    return intervals;
 }
 
 /// Returns the length of the union of intervals.

@@ -26,9 +26,9 @@ std::vector<Answer> answers(const Vec3& origin, const Vec3& direction, const Sha
     const MaterialIndex material = builder.add_material({});
     (builder.add(shapes, material), ...);
     const Tracer tracer(builder.build());
-    std::vector<Answer> all;
+    std::vector<Answer> found;
     float t = 0.0F;
-    while (all.size() < 10) {
+    while (found.size() < 10) {
         Rays rays;
         rays.add(origin, direction);
         rays.t_min = {t};
@@ -36,10 +36,10 @@ std::vector<Answer> answers(const Vec3& origin, const Vec3& direction, const Sha
         CHECK(occluded(tracer, rays)[0] == (hits.shape[0] != no_shape));
         if (hits.shape[0] == no_shape) break;
         t = hits.t[0];
-        all.push_back(
+        found.push_back(
             {hits.shape[0], t, hits.entering[0] == 1, {hits.nx[0], hits.ny[0], hits.nz[0]}});
     }
-    return all;
+    return found;
 }
 
 void check(const Answer& answer, ShapeId shape, float t, bool entering, const Vec3& normal) {
@@ -53,9 +53,9 @@ void check(const Answer& answer, ShapeId shape, float t, bool entering, const Ve
 template <class... Shapes>
 void check_one(float t, bool entering, const Vec3& normal, const Vec3& origin,
                const Vec3& direction, const Shapes&... shapes) {
-    const std::vector<Answer> all = answers(origin, direction, shapes...);
-    REQUIRE(all.size() == 1);
-    check(all[0], 0, t, entering, normal);
+    const std::vector<Answer> found = answers(origin, direction, shapes...);
+    REQUIRE(found.size() == 1);
+    check(found[0], 0, t, entering, normal);
 }
 
 Quadric saddle() { // z = x y

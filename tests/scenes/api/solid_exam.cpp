@@ -219,9 +219,9 @@ void ask_onward(const Scene& scene, const std::vector<core::Ray<float>>& asked, 
     from.origin_shape = shape;
     from.origin_face = face;
     from.origin_inward = inward;
-    CrossingRows all;
-    tracer.crossings(from, all, {.normals = true});
-    check_firsts(tracer, from, all, wrong);
+    CrossingRows crossings;
+    tracer.crossings(from, crossings, {.normals = true});
+    check_firsts(tracer, from, crossings, wrong);
 }
 
 } // namespace raylane::tests

@@ -134,8 +134,8 @@ struct DoubleRays {
                                      (i % 3 == 0 ? 1.0 : 1.0 + 0x1p-40));
     }
     DoubleRaySpan part(std::size_t first, std::size_t count) const {
-        const auto of = [&](int k) { return std::span(columns[k]).subspan(first, count); };
-        return {of(0), of(1), of(2), of(3), of(4), of(5)};
+        const auto part_of = [&](int k) { return std::span(columns[k]).subspan(first, count); };
+        return {part_of(0), part_of(1), part_of(2), part_of(3), part_of(4), part_of(5)};
     }
 };
 
@@ -304,22 +304,22 @@ TEST_CASE("rays are reordered into tiles where that makes packets more compact")
         const simd::RayStream<float> rays = {
             count, {none.data(), none.data(), none.data()}, {u.data(), v.data(), one.data()}};
         if (!order.find(rays, false)) return false;
-        std::vector<std::uint32_t> all(order.order().begin(), order.order().end());
+        std::vector<std::uint32_t> indices(order.order().begin(), order.order().end());
         // Packets are squares of about 4 by 4.
         double rims = 0.0;
         for (std::size_t first = 0; first < count; first += 16)
             for (const std::vector<float>& values : {u, v}) {
                 float low = infinity, high = -infinity;
                 for (std::size_t k = first; k < first + 16; ++k) {
-                    low = std::min(low, values[all[k]]);
-                    high = std::max(high, values[all[k]]);
+                    low = std::min(low, values[indices[k]]);
+                    high = std::max(high, values[indices[k]]);
                 }
                 rims += static_cast<double>(high - low) * 512.0;
             }
         CHECK(rims / (count / 16) < 11.5); // a packet on a line has 15
-        std::sort(all.begin(), all.end());
+        std::sort(indices.begin(), indices.end());
         for (std::uint32_t i = 0; i < count; ++i)
-            CHECK(all[i] == i);
+            CHECK(indices[i] == i);
         return true;
     };
     const auto at = [](int x, int y) {
@@ -390,11 +390,11 @@ Next rays_from(const core::Scene& scene, core::Searcher<double>& searcher, const
 
 TEST_CASE("rays with an origin surface start on it") {
     for (const bool lattice : {false, true}) {
-        const Heap all = heap(lattice, 20, 11);
-        const core::Scene& scene = library::Internals::of(all.scene);
+        const Heap setup = heap(lattice, 20, 11);
+        const core::Scene& scene = library::Internals::of(setup.scene);
         core::Searcher<double> searcher(scene, core::Search::hierarchy);
-        const Next next = rays_from(scene, searcher, all.rays);
-        const Tracer tracer(all.scene);
+        const Next next = rays_from(scene, searcher, setup.rays);
+        const Tracer tracer(setup.scene);
         Hits hits(next.rays.size());
         std::vector<std::uint8_t> face(next.rays.size(), 77), blocked(next.rays.size(), 77);
         HitSpan span = hits.span();

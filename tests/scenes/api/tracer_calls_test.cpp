@@ -10,27 +10,29 @@ using namespace raylane;
 using namespace raylane::tests;
 
 TEST_CASE("answers depend on the ray alone and not on the length of the span") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene), one_thread(all.scene, {.threads = 1}),
-        many_threads(all.scene, {.threads = 5});
-    const Hits whole = intersect(tracer, all.rays);
-    CHECK(intersect(one_thread, all.rays) == whole);
-    CHECK(intersect(many_threads, all.rays) == whole);
-    const std::vector<std::uint8_t> blocked = occluded(tracer, all.rays);
-    CHECK(occluded(one_thread, all.rays) == blocked);
-    CHECK(occluded(many_threads, all.rays) == blocked);
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene), one_thread(setup.scene, {.threads = 1}),
+        many_threads(setup.scene, {.threads = 5});
+    const Hits hits_of_all = intersect(tracer, setup.rays);
+    CHECK(intersect(one_thread, setup.rays) == hits_of_all);
+    CHECK(intersect(many_threads, setup.rays) == hits_of_all);
+    const std::vector<std::uint8_t> blocked = occluded(tracer, setup.rays);
+    CHECK(occluded(one_thread, setup.rays) == blocked);
+    CHECK(occluded(many_threads, setup.rays) == blocked);
     for (const std::size_t length : {1, 17, 300, 1000}) {
-        Hits parts(all.rays.size());
-        std::vector<std::uint8_t> blocked_parts(all.rays.size());
-        for (std::size_t first = 0; first < all.rays.size(); first += length) {
-            const std::size_t count = std::min(length, all.rays.size() - first);
-            const auto of = [&](auto& values) { return std::span(values).subspan(first, count); };
-            tracer.intersect(all.rays.part(first, count),
-                             {of(parts.t), of(parts.nx), of(parts.ny), of(parts.nz),
-                              of(parts.shape), of(parts.entering)});
-            tracer.occluded(all.rays.part(first, count), of(blocked_parts));
+        Hits parts(setup.rays.size());
+        std::vector<std::uint8_t> blocked_parts(setup.rays.size());
+        for (std::size_t first = 0; first < setup.rays.size(); first += length) {
+            const std::size_t count = std::min(length, setup.rays.size() - first);
+            const auto part_of = [&](auto& values) {
+                return std::span(values).subspan(first, count);
+            };
+            tracer.intersect(setup.rays.part(first, count),
+                             {part_of(parts.t), part_of(parts.nx), part_of(parts.ny),
+                              part_of(parts.nz), part_of(parts.shape), part_of(parts.entering)});
+            tracer.occluded(setup.rays.part(first, count), part_of(blocked_parts));
         }
-        CHECK(parts == whole);
+        CHECK(parts == hits_of_all);
         CHECK(blocked_parts == blocked);
     }
 }
@@ -43,18 +45,18 @@ TEST_CASE("a call without rays gives no answers") {
 }
 
 TEST_CASE("outputs that are not wanted may be omitted") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene);
-    const Hits whole = intersect(tracer, all.rays);
-    Hits hits(all.rays.size());
-    tracer.intersect(all.rays.span(), {.t = hits.t});
-    tracer.intersect(all.rays.span(), {.normal_x = hits.nx});
-    tracer.intersect(all.rays.span(), {.normal_y = hits.ny});
-    tracer.intersect(all.rays.span(), {.normal_z = hits.nz});
-    tracer.intersect(all.rays.span(), {.shape_id = hits.shape});
-    tracer.intersect(all.rays.span(), {.entering = hits.entering});
-    tracer.intersect(all.rays.span(), {});
-    CHECK(hits == whole);
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene);
+    const Hits hits_of_all = intersect(tracer, setup.rays);
+    Hits hits(setup.rays.size());
+    tracer.intersect(setup.rays.span(), {.t = hits.t});
+    tracer.intersect(setup.rays.span(), {.normal_x = hits.nx});
+    tracer.intersect(setup.rays.span(), {.normal_y = hits.ny});
+    tracer.intersect(setup.rays.span(), {.normal_z = hits.nz});
+    tracer.intersect(setup.rays.span(), {.shape_id = hits.shape});
+    tracer.intersect(setup.rays.span(), {.entering = hits.entering});
+    tracer.intersect(setup.rays.span(), {});
+    CHECK(hits == hits_of_all);
 }
 
 TEST_CASE("a span of the wrong length is refused with its name") {
@@ -155,23 +157,23 @@ TEST_CASE("a tracer keeps its scene alive and a copy gives the same answers") {
 }
 
 TEST_CASE("any number of threads may ask one tracer") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene);
-    const Hits whole = intersect(tracer, all.rays);
-    const std::vector<std::uint8_t> blocked = occluded(tracer, all.rays);
-    std::vector<Hits> hits(6, Hits(all.rays.size()));
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene);
+    const Hits hits_of_all = intersect(tracer, setup.rays);
+    const std::vector<std::uint8_t> blocked = occluded(tracer, setup.rays);
+    std::vector<Hits> hits(6, Hits(setup.rays.size()));
     std::vector<std::vector<std::uint8_t>> flags(hits.size(),
-                                                 std::vector<std::uint8_t>(all.rays.size()));
+                                                 std::vector<std::uint8_t>(setup.rays.size()));
     {
         std::vector<std::jthread> threads;
         for (std::size_t k = 0; k < hits.size(); ++k)
             threads.emplace_back([&, k] {
-                tracer.intersect(all.rays.span(), hits[k].span());
-                tracer.occluded(all.rays.span(), flags[k]);
+                tracer.intersect(setup.rays.span(), hits[k].span());
+                tracer.occluded(setup.rays.span(), flags[k]);
             });
     }
     for (std::size_t k = 0; k < hits.size(); ++k) {
-        CHECK(hits[k] == whole);
+        CHECK(hits[k] == hits_of_all);
         CHECK(flags[k] == blocked);
     }
 }

@@ -12,13 +12,13 @@ using namespace raylane::tests;
 
 TEST_CASE("the nearest crossings are those of a brute-force search") {
     for (const bool lattice : {false, true}) {
-        const Heap all = heap(lattice, 20, 7);
-        const Hits hits = intersect(Tracer(all.scene), all.rays);
-        core::Searcher<double> searcher(library::Internals::of(all.scene),
+        const Heap setup = heap(lattice, 20, 7);
+        const Hits hits = intersect(Tracer(setup.scene), setup.rays);
+        core::Searcher<double> searcher(library::Internals::of(setup.scene),
                                         core::Search::every_shape);
         std::size_t wrong = 0, found = 0;
-        for (std::size_t i = 0; i < all.rays.size(); ++i) {
-            const core::Ray<double> ray = all.rays.ray(i);
+        for (std::size_t i = 0; i < setup.rays.size(); ++i) {
+            const core::Ray<double> ray = setup.rays.ray(i);
             const auto hit =
                 searcher.nearest(ray, {}, [](const core::Hit<double>&) { return true; }).hit;
             if (!hit.any()) {
@@ -26,7 +26,7 @@ TEST_CASE("the nearest crossings are those of a brute-force search") {
                 continue;
             }
             ++found;
-            const core::Scene& scene = library::Internals::of(all.scene);
+            const core::Scene& scene = library::Internals::of(setup.scene);
             const core::Vec3f normal = core::rounded_normal(scene, {ray, {}}, hit);
             const bool same = hits.shape[i] == hit.shape &&
                               hits.t[i] == core::rounded_t(scene, {ray, {}}, hit, 0) &&
@@ -35,25 +35,25 @@ TEST_CASE("the nearest crossings are those of a brute-force search") {
             wrong += same ? 0 : 1;
         }
         CHECK(wrong == 0);
-        CHECK(found > all.rays.size() / 2);
+        CHECK(found > setup.rays.size() / 2);
     }
 }
 
 TEST_CASE("a ray with a hit's t as t_min finds the next crossing") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene);
-    core::Searcher<double> searcher(library::Internals::of(all.scene), core::Search::every_shape);
-    std::vector<std::set<float>> expected(all.rays.size()), found(all.rays.size());
-    for (std::size_t i = 0; i < all.rays.size(); ++i) {
-        const core::Ray<double> ray = all.rays.ray(i);
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene);
+    core::Searcher<double> searcher(library::Internals::of(setup.scene), core::Search::every_shape);
+    std::vector<std::set<float>> expected(setup.rays.size()), found(setup.rays.size());
+    for (std::size_t i = 0; i < setup.rays.size(); ++i) {
+        const core::Ray<double> ray = setup.rays.ray(i);
         searcher.each(ray, {}, std::numeric_limits<double>::infinity(),
                       [&](const core::Hit<double>& hit) {
-                          expected[i].insert(core::rounded_t(library::Internals::of(all.scene),
+                          expected[i].insert(core::rounded_t(library::Internals::of(setup.scene),
                                                              {ray, {}}, hit, 0));
                           return true;
                       });
     }
-    Rays rays = all.rays;
+    Rays rays = setup.rays;
     rays.t_min.assign(rays.size(), 0.0F);
     for (bool any = true; any;) {
         any = false;
@@ -72,10 +72,10 @@ TEST_CASE("a ray with a hit's t as t_min finds the next crossing") {
 }
 
 TEST_CASE("the range of t includes t_max and excludes t_min") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene);
-    const Hits hits = intersect(tracer, all.rays);
-    Rays rays = all.rays;
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene);
+    const Hits hits = intersect(tracer, setup.rays);
+    Rays rays = setup.rays;
     rays.t_max = hits.t;
     CHECK(intersect(tracer, rays) == hits);
     for (std::size_t i = 0; i < rays.size(); ++i)
@@ -100,9 +100,9 @@ TEST_CASE("the range of t includes t_max and excludes t_min") {
 }
 
 TEST_CASE("a ray is occluded where intersect finds a shape") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene);
-    Rays rays = all.rays;
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene);
+    Rays rays = setup.rays;
     const auto check = [&] {
         const Hits hits = intersect(tracer, rays);
         const std::vector<std::uint8_t> blocked = occluded(tracer, rays);
@@ -118,17 +118,17 @@ TEST_CASE("a ray is occluded where intersect finds a shape") {
         rays.t_max.push_back(static_cast<float>(random.uniform(0.0, 20.0)));
     }
     check();
-    rays.t_min = intersect(tracer, all.rays).t;
+    rays.t_min = intersect(tracer, setup.rays).t;
     rays.t_max.clear();
     check();
 }
 
 TEST_CASE("directions may have any length") {
-    const Heap all = heap();
-    const Tracer tracer(all.scene);
-    const Hits hits = intersect(tracer, all.rays);
+    const Heap setup = heap();
+    const Tracer tracer(setup.scene);
+    const Hits hits = intersect(tracer, setup.rays);
     for (const int power : {-40, -1, 3, 50}) {
-        Rays rays = all.rays;
+        Rays rays = setup.rays;
         for (std::vector<float>* components : {&rays.dx, &rays.dy, &rays.dz})
             for (float& value : *components)
                 value = std::ldexp(value, power);
@@ -210,25 +210,25 @@ TEST_CASE("a ray hits nothing in a scene without shapes") {
 }
 
 TEST_CASE("other precisions answer nearly the same") {
-    const Heap all = heap(false, 20, 7);
-    const Hits expected = intersect(Tracer(all.scene), all.rays);
+    const Heap setup = heap(false, 20, 7);
+    const Hits expected = intersect(Tracer(setup.scene), setup.rays);
     for (const Precision precision :
          {Precision::fast, Precision::robust, Precision::plain_double}) {
-        const Tracer tracer(all.scene, {.precision = precision});
-        const Hits hits = intersect(tracer, all.rays);
+        const Tracer tracer(setup.scene, {.precision = precision});
+        const Hits hits = intersect(tracer, setup.rays);
         std::size_t other = 0, not_equal = 0;
-        for (std::size_t i = 0; i < all.rays.size(); ++i) {
+        for (std::size_t i = 0; i < setup.rays.size(); ++i) {
             const bool same = hits.shape[i] == expected.shape[i];
             other += same && (hits.is_none(i) || std::abs(hits.t[i] / expected.t[i] - 1.0F) < 1e-3F)
                          ? 0
                          : 1;
             not_equal += hits.t[i] == expected.t[i] ? 0 : 1;
         }
-        CAPTURE(static_cast<int>(precision), other, not_equal, all.rays.size());
-        CHECK(other < all.rays.size() / 5);
+        CAPTURE(static_cast<int>(precision), other, not_equal, setup.rays.size());
+        CHECK(other < setup.rays.size() / 5);
         if (precision != Precision::plain_double) CHECK(not_equal > 0);
     }
     CHECK(message_of<InvalidValue>([&] {
-              Tracer(all.scene, {.precision = static_cast<Precision>(4)});
+              Tracer(setup.scene, {.precision = static_cast<Precision>(4)});
           }) == "precision: must be a Precision");
 }

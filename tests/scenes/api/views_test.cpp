@@ -56,8 +56,8 @@ TEST_CASE("a scene seen by another camera shares the memory of shapes") {
     const Scene scene = row_of_balls({}, 5000), same = scene.seen_by(aside);
     const core::Scene &a = Internals::of(scene), &b = Internals::of(same);
     CHECK(a.hierarchy().nodes.data() == b.hierarchy().nodes.data());
-    const auto& spheres = [](const core::Scene& of) -> const core::Table<core::Sphere>& {
-        return std::get<core::Table<core::Sphere>>(of.shapes());
+    const auto& spheres = [](const core::Scene& inner) -> const core::Table<core::Sphere>& {
+        return std::get<core::Table<core::Sphere>>(inner.shapes());
     };
     CHECK(spheres(a).plain_blocks().data() == spheres(b).plain_blocks().data());
     // The memory lasts as long as any of the scenes.
@@ -74,7 +74,7 @@ TEST_CASE("lights and fog that follow the camera move with another camera") {
     REQUIRE(same.lights().size() == 2);
     CHECK(same.lights()[1].position != scene.lights()[1].position);
     CHECK(same.fog().start != scene.fog().start);
-    const auto drawn = [](const Scene& of) { return render(of, {.settings = small}).rgb; };
+    const auto drawn = [](const Scene& viewed) { return render(viewed, {.settings = small}).rgb; };
     CHECK(drawn(same) != drawn(scene));
     CHECK(drawn(same.seen_by(scene.camera())) == drawn(scene));
 }

@@ -17,25 +17,26 @@ namespace {
 
 /// Returns all numbers of a view that its projection uses. A sky light has no position.
 std::vector<float> view_of(const core::Scene& scene) {
-    std::vector<float> all;
-    const auto add = [&](const core::Vec3f& v) { all.insert(all.end(), {v.x, v.y, v.z}); };
+    std::vector<float> floats;
+    const auto add = [&](const core::Vec3f& v) { floats.insert(floats.end(), {v.x, v.y, v.z}); };
     const core::Camera& camera = scene.camera();
     const bool perspective = camera.projection == core::Projection::perspective;
     for (const core::Vec3f& v : {camera.from, camera.at, camera.up})
         add(v);
-    all.insert(all.end(), {static_cast<float>(camera.projection),
-                           perspective ? camera.field_of_view : camera.height, camera.lens_radius});
+    floats.insert(floats.end(),
+                  {static_cast<float>(camera.projection),
+                   perspective ? camera.field_of_view : camera.height, camera.lens_radius});
     const core::Fog& fog = scene.fog();
     add(fog.color);
-    all.insert(all.end(), {static_cast<float>(fog.kind), fog.start, fog.end, fog.density});
+    floats.insert(floats.end(), {static_cast<float>(fog.kind), fog.start, fog.end, fog.density});
     for (const core::Light& light : scene.lights()) {
         if (light.kind != core::LightKind::sky) add(light.position);
         for (const core::Vec3f& v :
              {light.direction, light.color, light.edge_u, light.edge_v, light.ground})
             add(v);
-        all.insert(all.end(), {static_cast<float>(light.kind), light.radius, light.reach});
+        floats.insert(floats.end(), {static_cast<float>(light.kind), light.radius, light.reach});
     }
-    return all;
+    return floats;
 }
 
 /// Returns the scene as the tool's --view shows it.
@@ -145,8 +146,8 @@ TEST_CASE("JSON export reports lost camera features and keeps the image") {
     const core::Scene again = check(seen_by(scene, aside), {fog});
     CHECK(again.auto_camera().lights);
     const core::Camera another{.from = {-6, 3, 8}, .at = {1, 0, 0}};
-    const auto lights_of = [](const core::Scene& of) {
-        return std::pair(of.lights()[1].position.x, of.lights()[1].radius);
+    const auto lights_of = [](const core::Scene& lit) {
+        return std::pair(lit.lights()[1].position.x, lit.lights()[1].radius);
     };
     CHECK(lights_of(seen_by(again, another)) == lights_of(seen_by(scene, another)));
 

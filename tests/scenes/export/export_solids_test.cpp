@@ -207,7 +207,7 @@ TEST_CASE("export keeps the order of a solid's parts and clips by any form of so
     const std::string ball = R"({"type": "sphere", "center": [0, 0, 1], "radius": 1})",
                       plane = R"({"type": "plane", "point": [0, 0, 0], "normal": [1, 0, 0]})",
                       box = R"({"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]})";
-    const auto of = [](const std::string& type, const std::vector<std::string>& objects) {
+    const auto solid_text = [](const std::string& type, const std::vector<std::string>& objects) {
         std::string list;
         for (const std::string& object : objects)
             list += (list.empty() ? "" : ", ") + object;
@@ -216,22 +216,30 @@ TEST_CASE("export keeps the order of a solid's parts and clips by any form of so
     const auto red = [](std::string object) { return object.insert(1, R"("material": "red", )"); };
     const tests::TemporaryDirectory directory;
     for (const std::string& object : {
-             of("clip", {ball, of("union", {box, plane})}),
-             of("clip", {box, of("union", {of("clip", {ball, plane}), plane})}),
-             of("clip", {box, of("union", {of("difference", {ball, plane}), box})}),
-             of("clip", {box, of("intersection", {of("union", {ball, box}), plane})}),
-             of("clip", {box, of("difference", {box, of("union", {ball, plane})})}),
-             of("difference", {box, of("clip", {ball, of("union", {plane, box})})}),
-             of("intersection", {of("difference", {box, red(ball)}), box}),
-             of("intersection", {of("difference", {box, ball, red(box)}), ball,
-                                 of("difference", {red(box), plane, ball})}),
-             of("difference", {box, of("difference", {ball, red(box)}), ball}),
-             of("difference",
-                {box, of("intersection", {of("difference", {ball, box}), red(ball)})}),
-             of("union", {of("intersection", {of("difference", {box, ball}), red(box)}), ball}),
-             of("union", {ball}),
-             of("union", {red(box)}),
-             of("intersection", {plane}),
+             solid_text("clip", {ball, solid_text("union", {box, plane})}),
+             solid_text("clip",
+                        {box, solid_text("union", {solid_text("clip", {ball, plane}), plane})}),
+             solid_text("clip",
+                        {box, solid_text("union", {solid_text("difference", {ball, plane}), box})}),
+             solid_text("clip", {box, solid_text("intersection",
+                                                 {solid_text("union", {ball, box}), plane})}),
+             solid_text("clip",
+                        {box, solid_text("difference", {box, solid_text("union", {ball, plane})})}),
+             solid_text("difference",
+                        {box, solid_text("clip", {ball, solid_text("union", {plane, box})})}),
+             solid_text("intersection", {solid_text("difference", {box, red(ball)}), box}),
+             solid_text("intersection", {solid_text("difference", {box, ball, red(box)}), ball,
+                                         solid_text("difference", {red(box), plane, ball})}),
+             solid_text("difference", {box, solid_text("difference", {ball, red(box)}), ball}),
+             solid_text("difference",
+                        {box, solid_text("intersection",
+                                         {solid_text("difference", {ball, box}), red(ball)})}),
+             solid_text("union", {solid_text("intersection",
+                                             {solid_text("difference", {box, ball}), red(box)}),
+                                  ball}),
+             solid_text("union", {ball}),
+             solid_text("union", {red(box)}),
+             solid_text("intersection", {plane}),
          }) {
         CAPTURE(object);
         std::string with_material = object;

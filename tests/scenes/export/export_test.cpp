@@ -40,13 +40,13 @@ std::vector<std::filesystem::path> all_shipped() {
 
 /// Returns kind and numbers of all shapes as floats, by id.
 std::vector<float> floats_in(const core::Scene& scene) {
-    std::vector<float> all;
+    std::vector<float> values;
     for_each_by_id(scene, [&](const auto& shape, core::ShapeId) {
         const auto floats = core::numbers_of(shape);
-        all.push_back(static_cast<float>(core::kind_of<std::decay_t<decltype(shape)>>));
-        all.insert(all.end(), floats.begin(), floats.end());
+        values.push_back(static_cast<float>(core::kind_of<std::decay_t<decltype(shape)>>));
+        values.insert(values.end(), floats.begin(), floats.end());
     });
-    return all;
+    return values;
 }
 
 std::string text_of(const std::filesystem::path& path) {
@@ -278,9 +278,9 @@ TEST_CASE("Materials keep the names that are valid in POV-Ray's language") {
         builder.auto_camera.fit_camera.emplace();
         builder.wants_light = false;
         for (const char* name : names) {
-            core::Material of;
-            of.ambient = 0.01F * static_cast<float>(builder.shape_count()); // all differ
-            const core::MaterialIndex material = builder.add_material(of);
+            core::Material expected;
+            expected.ambient = 0.01F * static_cast<float>(builder.shape_count()); // all differ
+            const core::MaterialIndex material = builder.add_material(expected);
             builder.name_material(material, name);
             builder.add(core::Sphere{{static_cast<float>(3 * material), 0, 0}, 1}, material);
         }

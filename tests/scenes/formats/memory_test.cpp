@@ -198,10 +198,10 @@ TEST_CASE("each of four million packed spheres takes at "
 namespace {
 
 std::string repeated(int times, const std::string& text) {
-    std::string all;
+    std::string joined;
     for (int i = 0; i < times; ++i)
-        all += text;
-    return all;
+        joined += text;
+    return joined;
 }
 
 /// A row of the table in SECURITY.md, and a file to test it with.

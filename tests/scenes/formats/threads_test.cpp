@@ -33,7 +33,7 @@ struct Input {
 /// Returns scenes of nearly all formats, and files with mistakes.
 std::vector<Input> inputs() {
     const std::filesystem::path root(RAYLANE_SOURCE_DIR), seeds = root / "tests/fuzz/seeds";
-    std::vector<Input> all = {
+    std::vector<Input> inputs_of_test = {
         {"a.json", tests::content_of(root / "scenes/lens.json")},
         {"b.json", tests::content_of(root / "scenes/prism.json")},
         {"a.pov", "camera { location -6*z look_at 0 }\nlight_source { 9, rgb 1 }\n"
@@ -50,8 +50,8 @@ std::vector<Input> inputs() {
         {"b.mol", "mol.v3000"},    {"a.mol2", "mol2.plain"},
         {"a.pqr", "pqr.plain"}};
     for (const auto& [name, seed] : of_seeds)
-        all.push_back({name, tests::content_of(seeds / seed)});
-    return all;
+        inputs_of_test.push_back({name, tests::content_of(seeds / seed)});
+    return inputs_of_test;
 }
 
 /// Returns the fingerprint of the scene that is read, or the error.
@@ -80,15 +80,16 @@ struct Drawing {
 } // namespace
 
 TEST_CASE("several threads can read scenes at a time") {
-    const std::vector<Input> all = inputs();
+    const std::vector<Input> inputs_of_test = inputs();
     std::vector<std::string> alone;
-    for (const Input& input : all)
+    for (const Input& input : inputs_of_test)
         alone.push_back(outcome_of(input));
     std::atomic<int> wrong = 0;
     on_threads(4, [&](int thread) {
-        for (std::size_t i = 0; i < 2 * all.size(); ++i) {
-            const std::size_t which = (i + static_cast<std::size_t>(5 * thread)) % all.size();
-            wrong += outcome_of(all[which]) == alone[which] ? 0 : 1;
+        for (std::size_t i = 0; i < 2 * inputs_of_test.size(); ++i) {
+            const std::size_t which =
+                (i + static_cast<std::size_t>(5 * thread)) % inputs_of_test.size();
+            wrong += outcome_of(inputs_of_test[which]) == alone[which] ? 0 : 1;
         }
     });
     CHECK(wrong == 0);
@@ -98,7 +99,8 @@ TEST_CASE(
     "a checkpoint records tiles of several threads until another stops them and restores them") {
     const tests::TemporaryDirectory directory;
     Drawing drawing;
-    const simd::Rendering whole = simd::render(drawing.scene, drawing.settings, drawing.options);
+    const simd::Rendering whole_rendering =
+        simd::render(drawing.scene, drawing.settings, drawing.options);
     const auto draw = [&](bool stops) {
         scenes::Checkpoint checkpoint(directory.path() / "picture",
                                       {scenes::fingerprint_of(drawing.scene), "options"},
@@ -121,8 +123,8 @@ TEST_CASE(
     static_cast<void>(draw(true));
     const simd::Rendering rest = draw(false);
     CHECK(rest.complete);
-    CHECK(rest.film.pixels() == whole.film.pixels());
-    CHECK(rest.counters.rays() == whole.counters.rays());
+    CHECK(rest.film.pixels() == whole_rendering.film.pixels());
+    CHECK(rest.counters.rays() == whole_rendering.counters.rays());
 }
 
 TEST_CASE("several renderings can be abandoned at a time") {

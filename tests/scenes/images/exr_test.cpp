@@ -208,7 +208,7 @@ TEST_CASE("a damaged EXR is bad input") {
     const TemporaryDirectory directory;
     const core::Aovs aovs(3, 2);
     const scenes::ImageOptions named{.texts = {{"Title", "a scene"}}};
-    const std::string whole = scenes::exr_of(core::Film(3, 2, /*with_alpha=*/true), &aovs, named);
+    const std::string bytes = scenes::exr_of(core::Film(3, 2, /*with_alpha=*/true), &aovs, named);
     const auto read = [&](const std::string& content) {
         const auto path = directory.write("a.exr", content);
         return tests::message_in<scenes::BadInput>(directory.path(),
@@ -216,11 +216,11 @@ TEST_CASE("a damaged EXR is bad input") {
     };
     const std::string damaged =
         "a.exr: must be a PNG, TIFF, EXR, HDR or PFM image, got a damaged EXR";
-    CHECK(read(whole) == "no error");
-    for (std::size_t size = 4; size + 1 < whole.size(); size += 7)
-        CHECK(read(whole.substr(0, size)) == damaged);
+    CHECK(read(bytes) == "no error");
+    for (std::size_t size = 4; size + 1 < bytes.size(); size += 7)
+        CHECK(read(bytes.substr(0, size)) == damaged);
     // OpenEXR allocates the length that a string attribute claims.
-    std::string claims = whole;
+    std::string claims = bytes;
     const std::string text("\0string\0", 8);
     claims.replace(claims.find(text) + text.size(), 4, std::string("\x00\x00\x00\x7E", 4));
     CHECK(read(claims) == damaged);
@@ -230,7 +230,7 @@ TEST_CASE("a damaged EXR is bad input") {
     if (!tests::sanitized) CHECK(tests::within(100, reads) == tests::Ended::as_bad_input);
     std::mt19937 random(1);
     for (int i = 0; i < 2000; ++i) {
-        std::string mutated = whole;
+        std::string mutated = bytes;
         for (int k = 0; k < 1 + i % 3; ++k)
             mutated[4 + random() % (mutated.size() - 4)] = static_cast<char>(random());
         const std::string message = read(mutated); // throws no other exception

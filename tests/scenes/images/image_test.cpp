@@ -158,8 +158,8 @@ TEST_CASE("a PNG has the resolution and texts of the options and no time stamp")
         CHECK(scenes::read_image(path).width == 5);
         return content_of(path);
     };
-    const auto holds = [](const std::string& content, const std::string& some) {
-        return content.find(some) != std::string::npos;
+    const auto holds = [](const std::string& content, const std::string& part) {
+        return content.find(part) != std::string::npos;
     };
     const std::string plain = written({});
     for (const char* type : {"pHYs", "tEXt", "iTXt", "tIME"})
@@ -322,19 +322,19 @@ TEST_CASE("a truncated image is bad input and a damaged PNG is always noticed") 
     for (const char* name : {"a.png", "a.hdr", "a.pfm"}) {
         const auto path = directory.path() / name;
         write(path, film_of(19, 7), Transfer::srgb);
-        const std::string whole = content_of(path);
+        const std::string content = content_of(path);
         int accepted = 0;
-        for (std::size_t length = 0; length < whole.size(); ++length) {
-            directory.write(name, whole.substr(0, length));
+        for (std::size_t length = 0; length < content.size(); ++length) {
+            directory.write(name, content.substr(0, length));
             if (error_of_reading(path) == "no error") ++accepted;
         }
         CHECK(accepted == 0);
         accepted = 0;
         for (int i = 0; i < 300; ++i) {
-            std::string damaged = whole;
+            std::string damaged = content;
             damaged[random() % damaged.size()] = static_cast<char>(random());
             directory.write(name, damaged);
-            if (damaged != whole && error_of_reading(path) == "no error") ++accepted;
+            if (damaged != content && error_of_reading(path) == "no error") ++accepted;
         }
         if (path.extension() == ".png") CHECK(accepted == 0); // PNG has checksums
     }

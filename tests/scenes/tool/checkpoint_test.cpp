@@ -112,7 +112,7 @@ TEST_CASE("a checkpoint that is truncated or damaged at any byte does not change
     drawing.options.tile = 8;
     drawing.options.aovs = true;
     drawing.settings.alpha = true;
-    const simd::Rendering whole = drawing.draw(nullptr);
+    const simd::Rendering whole_rendering = drawing.draw(nullptr);
     {
         Checkpoint checkpoint(drawing.path, drawing.subject(), drawing.records());
         CHECK(checkpoint.found() == Checkpoint::Found::nothing);
@@ -126,10 +126,10 @@ TEST_CASE("a checkpoint that is truncated or damaged at any byte does not change
         CHECK(checkpoint.found_pixels() <= max_pixels);
         const simd::Rendering rendering = drawing.draw(&checkpoint);
         REQUIRE(rendering.complete);
-        REQUIRE(rendering.film.pixels() == whole.film.pixels());
-        REQUIRE(rendering.film.alphas() == whole.film.alphas());
-        REQUIRE(same(rendering.aovs, whole.aovs));
-        REQUIRE(rendering.counters.as_numbers() == whole.counters.as_numbers());
+        REQUIRE(rendering.film.pixels() == whole_rendering.film.pixels());
+        REQUIRE(rendering.film.alphas() == whole_rendering.film.alphas());
+        REQUIRE(same(rendering.aovs, whole_rendering.aovs));
+        REQUIRE(rendering.counters.as_numbers() == whole_rendering.counters.as_numbers());
         return checkpoint.found_pixels();
     };
     std::int64_t first_four = 0;
@@ -253,20 +253,20 @@ TEST_CASE("Checkpoints of other options or scenes or versions stay until the ima
     const Notes notes;
     const TileRecords records = notes.drawing.records();
     const scenes::CheckpointSubject subject = notes.drawing.subject();
-    const auto of = [&](const scenes::CheckpointSubject& of_it) {
+    const auto text_of_subject = [&](const scenes::CheckpointSubject& of_it) {
         return std::make_unique<Checkpoint>(notes.drawing.path, of_it, records);
     };
     const auto keep_tile = [&](Checkpoint& checkpoint, std::size_t number) {
         checkpoint.note(number, notes.bytes(number));
         REQUIRE(checkpoint.keep());
     };
-    keep_tile(*of(subject), 0);
+    keep_tile(*text_of_subject(subject), 0);
     const std::string first = tests::content_of(notes.path);
     const scenes::CheckpointSubject others[] = {{subject.scene, "others"}, {"0", subject.options}};
     const Checkpoint::Found kinds[] = {Checkpoint::Found::other_options,
                                        Checkpoint::Found::other_scene};
     for (std::size_t i = 0; i < 2; ++i) {
-        const auto checkpoint = of(others[i]);
+        const auto checkpoint = text_of_subject(others[i]);
         CHECK(checkpoint->found() == kinds[i]);
         CHECK(checkpoint->found_at() == notes.path);
         CHECK(checkpoint->path() != notes.path);
@@ -274,7 +274,7 @@ TEST_CASE("Checkpoints of other options or scenes or versions stay until the ima
     }
     CHECK(tests::content_of(notes.path) == first);
     for (std::size_t i = 0; i < 2; ++i) {
-        const auto checkpoint = of(others[i]);
+        const auto checkpoint = text_of_subject(others[i]);
         CHECK(checkpoint->found() == Checkpoint::Found::same);
         CHECK(checkpoint->found_at() == checkpoint->path());
         CHECK(checkpoint->has(i + 1));
@@ -290,10 +290,10 @@ TEST_CASE("Checkpoints of other options or scenes or versions stay until the ima
         notes.directory.write(name, first);
     notes.directory.write("picture.0123456789abcdef.part", "mine");
     notes.directory.write("picture", "drawn");
-    const auto goes_on = of(subject);
+    const auto goes_on = text_of_subject(subject);
     CHECK(goes_on->found() == Checkpoint::Found::same);
     CHECK(goes_on->has(0));
-    const auto in_use = of(others[0]);
+    const auto in_use = text_of_subject(others[0]);
     goes_on->remove();
     CHECK(!std::filesystem::exists(notes.path));
     CHECK(std::filesystem::exists(in_use->path()));

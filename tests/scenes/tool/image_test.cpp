@@ -23,7 +23,7 @@ TEST_CASE("a crop has the pixels of the whole image") {
     const ToolFixture fixture;
     for (const Options& sampling : {Options{"--spp", "4"}, {"--quality", "40"}}) {
         const Options options = joined(sampling, {"--size", "40x30", "--outline", "2"});
-        const scenes::Image whole = fixture.rendered("whole.pfm", options);
+        const scenes::Image whole_image = fixture.rendered("whole.pfm", options);
         const scenes::Image part =
             fixture.rendered("part.pfm", joined(options, {"--crop", "7,3,21x19"}));
         REQUIRE(part.width == 21);
@@ -31,7 +31,7 @@ TEST_CASE("a crop has the pixels of the whole image") {
         for (int y = 0; y < 19; ++y)
             for (int i = 0; i < 3 * 21; ++i)
                 CHECK(part.rgb[static_cast<std::size_t>(3 * 21 * y + i)] ==
-                      whole.rgb[static_cast<std::size_t>(3 * 40 * (y + 3) + 3 * 7 + i)]);
+                      whole_image.rgb[static_cast<std::size_t>(3 * 40 * (y + 3) + 3 * 7 + i)]);
     }
 }
 

@@ -85,9 +85,9 @@ Process::Process(const std::vector<std::string>& arguments, const Setup& setup) 
     const int program = checked(::open(started, O_RDONLY | O_CLOEXEC), started);
     const Ends out = pipe_ends();
     const Ends err = setup.terminal ? terminal_ends() : pipe_ends();
-    sigset_t all, mask;
-    ::sigfillset(&all);
-    ::sigprocmask(SIG_SETMASK, &all, &mask);
+    sigset_t signals, mask;
+    ::sigfillset(&signals);
+    ::sigprocmask(SIG_SETMASK, &signals, &mask);
     child_ = ::fork();
     if (child_ == 0) {
         restore_signals(mask);

@@ -29,13 +29,13 @@ struct Room {
     std::condition_variable changed;
     std::deque<std::string> messages;
     std::string broadcasted;
-    int here = 0, round = 0;
+    int rank = 0, round = 0;
 
     void wait_for_all() {
         std::unique_lock lock(mutex);
         const int mine = round;
-        if (++here == size) {
-            here = 0;
+        if (++rank == size) {
+            rank = 0;
             ++round;
             changed.notify_all();
         } else {
@@ -114,13 +114,13 @@ std::string result_of(std::size_t piece) {
 /// Calls `visit` with each piece that next() gives, on several threads, until it gives none.
 void for_each_piece(SharedWork& work, int threads,
                     const std::function<void(SharedWork::Piece)>& visit) {
-    std::vector<std::thread> all;
+    std::vector<std::thread> workers;
     for (int thread = 0; thread < threads; ++thread)
-        all.emplace_back([&] {
+        workers.emplace_back([&] {
             while (std::optional<SharedWork::Piece> piece = work.next())
                 visit(*std::move(piece));
         });
-    for (std::thread& thread : all)
+    for (std::thread& thread : workers)
         thread.join();
 }
 
@@ -192,9 +192,9 @@ class Begun {
 TEST_CASE("no piece is begun a window or more ahead of a slow one") {
     constexpr std::size_t count = 2000, window = 24;
     const tests::TemporaryDirectory directory;
-    std::string all;
+    std::string text;
     for (std::size_t piece = 0; piece < count; ++piece)
-        all += result_of(piece);
+        text += result_of(piece);
     for (const int ranks : {1, 2, 3})
         for (const std::size_t slow : {0, 700}) {
             CAPTURE(ranks, slow);
@@ -230,7 +230,7 @@ TEST_CASE("no piece is begun a window or more ahead of a slow one") {
             CHECK(others_go_on);
             CHECK(max_ahead < window);
             CHECK(left == 0);
-            CHECK(tests::content_of(path) == all);
+            CHECK(tests::content_of(path) == text);
         }
 }
 
@@ -258,10 +258,10 @@ TEST_CASE("threads without ranks begin no piece a window or more ahead") {
         thread.join();
     CHECK(max_ahead == window - 1);
     file.commit();
-    std::string all;
+    std::string text;
     for (std::size_t piece = 0; piece < count; ++piece)
-        all += result_of(piece);
-    CHECK(tests::content_of(directory.path() / "a") == all);
+        text += result_of(piece);
+    CHECK(tests::content_of(directory.path() / "a") == text);
     // A piece that fails instead of being added.
     std::atomic<bool> may_begin = true;
     std::thread waits([&] { may_begin = output.wait_for(count + window); });

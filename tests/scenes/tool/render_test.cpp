@@ -200,17 +200,17 @@ TEST_CASE("fingerprints depend on scene and options and not on threads or tiles"
     const auto fingerprints = [&](const Options& options) {
         REQUIRE(fixture.render("a.png", joined(options, {"--stats", "s.json"})).code == 0);
         const auto stats = nlohmann::json::parse(content_of(fixture.path() / "s.json"));
-        std::vector<std::string> all;
+        std::vector<std::string> lines;
         const scenes::Image image = scenes::read_image(fixture.path() / "a.png");
         for (const auto& [name, key] : {std::pair{"Scene", "scene_fingerprint"},
                                         {"Options", "options_fingerprint"},
                                         {"Pixels", "pixels_fingerprint"}}) {
-            all.push_back(stats[key]);
+            lines.push_back(stats[key]);
             CHECK(std::find(image.texts.begin(), image.texts.end(),
-                            std::pair<std::string, std::string>(name, all.back())) !=
+                            std::pair<std::string, std::string>(name, lines.back())) !=
                   image.texts.end());
         }
-        return all;
+        return lines;
     };
     const std::vector<std::string> usual = fingerprints({});
     const std::string narrowest(simd::name_of(simd::narrowest_isa()));

@@ -13,10 +13,10 @@ constexpr rlim_t stated = 1 << 20;                          // bytes
 constexpr rlim_t allowed = sanitized ? 8 * stated : stated; // sanitizers' frames are larger
 
 std::string times(int count, const std::string& text) {
-    std::string all;
+    std::string joined;
     for (int i = 0; i < count; ++i)
-        all += text;
-    return all;
+        joined += text;
+    return joined;
 }
 
 Outcome render(const ToolFixture& fixture, const std::string& scene,

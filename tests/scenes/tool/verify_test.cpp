@@ -75,10 +75,10 @@ TEST_CASE("an image records how its rays were decided") {
     const std::uint64_t refined = number("rays_refined");
     const std::uint64_t left = stats["left_to_the_reference"]["rays"].get<std::uint64_t>();
     const std::uint64_t paths = stats["left_to_the_reference"]["paths"].get<std::uint64_t>();
-    const std::uint64_t all = stats["rays"]["total"].get<std::uint64_t>();
-    CHECK(all > 8000);
+    const std::uint64_t total = stats["rays"]["total"].get<std::uint64_t>();
+    CHECK(total > 8000);
     CHECK(rays->second ==
-          std::to_string(all - refined - left) + " at first sight, " + std::to_string(refined) +
+          std::to_string(total - refined - left) + " at first sight, " + std::to_string(refined) +
               " at second, " + std::to_string(left + paths) + " by the reference, " +
               std::to_string(number("tests_beyond_double")) + " tests beyond double");
 }

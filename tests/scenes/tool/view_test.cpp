@@ -48,11 +48,11 @@ class Display {
     /// Returns red, green and blue of each pixel of the screen, whose file has the format xwd.
     std::vector<std::uint8_t> pixels() const {
         std::ifstream file(folder_ / "Xvfb_screen0", std::ios::binary);
-        const std::string all((std::istreambuf_iterator<char>(file)), {});
+        const std::string content((std::istreambuf_iterator<char>(file)), {});
         const auto number = [&](std::size_t at) { // most significant byte first
             std::uint32_t value = 0;
             for (std::size_t i = 0; i < 4; ++i)
-                value = value << 8 | static_cast<std::uint8_t>(all.at(4 * at + i));
+                value = value << 8 | static_cast<std::uint8_t>(content.at(4 * at + i));
             return value;
         };
         constexpr std::size_t header_size = 0, line_bytes = 12, colors = 19, color_bytes = 12;
@@ -62,7 +62,7 @@ class Display {
             for (std::size_t x = 0; x < screen_width; ++x)
                 for (const std::size_t channel : {2, 1, 0})
                     result.push_back(static_cast<std::uint8_t>(
-                        all.at(start + y * number(line_bytes) + 4 * x + channel)));
+                        content.at(start + y * number(line_bytes) + 4 * x + channel)));
         return result;
     }
 
@@ -75,8 +75,8 @@ class Display {
 /// Returns the pixels of a PPM of 8 bits: its last `count` bytes.
 std::vector<std::uint8_t> pixels_of(const std::filesystem::path& ppm, std::size_t count) {
     std::ifstream file(ppm, std::ios::binary);
-    const std::string all((std::istreambuf_iterator<char>(file)), {});
-    return {all.end() - static_cast<std::ptrdiff_t>(count), all.end()};
+    const std::string content((std::istreambuf_iterator<char>(file)), {});
+    return {content.end() - static_cast<std::ptrdiff_t>(count), content.end()};
 }
 
 Setup on_display(const std::string& name) {

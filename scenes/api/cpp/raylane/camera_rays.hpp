@@ -18,8 +18,8 @@ struct PixelRays {
     std::vector<double> directions; ///< of length 1, up to rounding
 
     DoubleRaySpan span() const {
-        const auto column = [](const std::vector<double>& of, std::size_t axis) {
-            return std::span(of).subspan(axis * (of.size() / 3), of.size() / 3);
+        const auto column = [](const std::vector<double>& values, std::size_t axis) {
+            return std::span(values).subspan(axis * (values.size() / 3), values.size() / 3);
         };
         return {.origin_x = column(origins, 0),
                 .origin_y = column(origins, 1),

@@ -105,15 +105,15 @@ class Ladders {
     void join() {
         for (std::size_t a = 0; a < ladders_.size(); ++a)
             for (std::size_t b = a + 1; b < ladders_.size(); ++b) {
-                Ladder &whole = ladders_[a], &other = ladders_[b];
-                if (whole.bridges == 0) break;
+                Ladder &ladder = ladders_[a], &other = ladders_[b];
+                if (ladder.bridges == 0) break;
                 if (other.bridges == 0) continue;
-                if (other.first >= whole.last + 6) break; // as all behind
-                if (!has_bulge(whole, other)) continue;
-                whole.last = other.last;
-                whole.other_first = std::min(whole.other_first, other.other_first);
-                whole.other_last = std::max(whole.other_last, other.other_last);
-                whole.bridges += std::exchange(other.bridges, 0);
+                if (other.first >= ladder.last + 6) break; // as all behind
+                if (!has_bulge(ladder, other)) continue;
+                ladder.last = other.last;
+                ladder.other_first = std::min(ladder.other_first, other.other_first);
+                ladder.other_last = std::max(ladder.other_last, other.other_last);
+                ladder.bridges += std::exchange(other.bridges, 0);
             }
         std::erase_if(ladders_, [](const Ladder& ladder) { return ladder.bridges == 0; });
     }

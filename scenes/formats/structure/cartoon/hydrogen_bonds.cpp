@@ -21,10 +21,10 @@ std::vector<std::pair<AtomIndex, AtomIndex>> near_pairs(const std::vector<Peptid
     std::vector<core::Vec3f> places;
     for (const PeptideAtoms& residue : residues)
         places.push_back(core::convert<float>(residue.ca));
-    std::vector<AtomIndex> all(residues.size());
-    std::iota(all.begin(), all.end(), AtomIndex{0});
+    std::vector<AtomIndex> atoms(residues.size());
+    std::iota(atoms.begin(), atoms.end(), AtomIndex{0});
     std::vector<std::pair<AtomIndex, AtomIndex>> pairs;
-    AtomGrid(places, all, static_cast<float>(reach))
+    AtomGrid(places, atoms, static_cast<float>(reach))
         .for_each([&](AtomIndex a, const AtomGrid::Near& near) {
             const std::size_t before = pairs.size();
             std::size_t visited = 0;

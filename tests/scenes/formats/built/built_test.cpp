@@ -182,12 +182,12 @@ TEST_CASE("a truncated built file or one of another version is refused") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path built = directory.path() / "a.rl";
     export_scene(built, mixture(40, 0));
-    const std::string whole = tests::content_of(built);
-    for (std::size_t size = 0; size < whole.size(); size += size < 4096 ? 1 : 977) {
-        directory.write("a.rl", whole.substr(0, size));
+    const std::string content = tests::content_of(built);
+    for (std::size_t size = 0; size < content.size(); size += size < 4096 ? 1 : 977) {
+        directory.write("a.rl", content.substr(0, size));
         CHECK(complaint(built).find("a.rl: ") != std::string::npos);
     }
-    std::string other = whole;
+    std::string other = content;
     other[16] = 99;
     directory.write("a.rl", other);
     CHECK(complaint(built).find("a.rl: was built by another version of raylane: build it again") !=
@@ -200,11 +200,11 @@ TEST_CASE("a built file with any bit of its header changed is refused") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path built = directory.path() / "a.rl";
     export_scene(built, mixture(40, 0));
-    const std::string whole = tests::content_of(built);
+    const std::string content = tests::content_of(built);
     CHECK(complaint(built).empty());
     for (std::size_t bit = 0; bit < 64 * 8; ++bit) {
         CAPTURE(bit);
-        std::string other = whole;
+        std::string other = content;
         other[bit / 8] = static_cast<char>(other[bit / 8] ^ (1 << bit % 8));
         directory.write("a.rl", other);
         CHECK(complaint(built).find("a.rl: ") != std::string::npos);
@@ -216,15 +216,15 @@ TEST_CASE("a built file includes no other file") {
     const std::filesystem::path built = directory.path() / "a.rl";
     export_scene(built, mixture(40, 0));
     directory.write("b", R"({"materials": {}})");
-    std::string whole = tests::content_of(built);
+    std::string content = tests::content_of(built);
     const std::string said = "\"background\": [0, 0, 0]";
     std::string other = "\"include\": [\"b\"]";
     other.resize(said.size(), ' ');
-    const std::size_t at = whole.find(said);
+    const std::size_t at = content.find(said);
     REQUIRE(at != std::string::npos);
-    whole.replace(at, said.size(), other);
-    seal(whole);
-    directory.write("a.rl", whole);
+    content.replace(at, said.size(), other);
+    seal(content);
+    directory.write("a.rl", content);
     CHECK(complaint(built).find("/include/0: must not be included by a built scene") !=
           std::string::npos);
 }
@@ -270,11 +270,11 @@ TEST_CASE("a built file with a changed byte is refused and does no harm with a v
         const core::Scene scene = mixture(100, pack_from);
         CHECK(std::get<core::Table<core::Sphere>>(scene.shapes()).is_packed() == (pack_from == 0));
         export_scene(built, scene);
-        const std::string whole = tests::content_of(built);
+        const std::string content = tests::content_of(built);
         int refused = 0, read = 0;
         const int rounds = tests::fixed_rounds(800, 300, 3000);
         for (int round = 0; round < rounds; ++round) {
-            std::string other = whole;
+            std::string other = content;
             const std::size_t at = engine() % other.size();
             switch (engine() % 3) {
             case 0:
@@ -287,7 +287,7 @@ TEST_CASE("a built file with a changed byte is refused and does no harm with a v
                 for (std::size_t i = at / 4 * 4; i < std::min(other.size(), at / 4 * 4 + 4); ++i)
                     other[i] = engine() % 2 == 0 ? '\xFF' : '\0';
             }
-            if (other != whole) CHECK(!is_read(directory, other));
+            if (other != content) CHECK(!is_read(directory, other));
             seal(other);
             (is_read(directory, other) ? read : refused) += 1;
         }
@@ -301,9 +301,9 @@ namespace {
 
 /// Returns a deep copy of an array. A plain copy shares the elements.
 template <class T>
-core::BigArray<T> with_own(const core::BigArray<T>& all) {
-    core::BigArray<T> own(all.size());
-    std::copy(all.begin(), all.end(), own.begin());
+core::BigArray<T> with_own(const core::BigArray<T>& array) {
+    core::BigArray<T> own(array.size());
+    std::copy(array.begin(), array.end(), own.begin());
     return own;
 }
 
@@ -338,11 +338,13 @@ TEST_CASE("the check of a built file's shapes refuses inconsistent ones") {
     CHECK(refused([&](auto& shapes) { nodes(shapes)[0].upper[1][0] -= 1.0F; }) ==
           "a shape outside of its bounds");
     CHECK(refused([](auto& shapes) {
-              core::BigArray<core::WideNode>& all = shapes.hierarchy.nodes;
+              core::BigArray<core::WideNode>& new_nodes = shapes.hierarchy.nodes;
               constexpr int last = core::block_size - 1;
-              core::WideNode* const node = std::find_if(
-                  all.begin(), all.end(), [](const auto& of) { return of.children[last].empty(); });
-              REQUIRE(node != all.end());
+              core::WideNode* const node =
+                  std::find_if(new_nodes.begin(), new_nodes.end(), [](const auto& wide_node) {
+                      return wide_node.children[last].empty();
+                  });
+              REQUIRE(node != new_nodes.end());
               node->lower[2][last] = -1.0F;
           }) == "a shape outside of its bounds");
     // A plane in an unused lane, which has no id: filters would report a shape that does not exist.

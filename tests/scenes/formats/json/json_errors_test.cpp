@@ -148,9 +148,10 @@ TEST_CASE("errors in solids name the shape and instances have a limit") {
     std::string twice = R"("definitions": {"0": )" + ball;
     std::string deep = twice;
     for (int i = 1; i < 22; ++i) {
-        const std::string of = R"({"type": "instance", "of": ")" + std::to_string(i - 1) + "\"}";
-        twice += ", \"" + std::to_string(i) + R"(": {"type": "union", "objects": [)" + of + ", " +
-                 of + "]}";
+        const std::string definition =
+            R"({"type": "instance", "of": ")" + std::to_string(i - 1) + "\"}";
+        twice += ", \"" + std::to_string(i) + R"(": {"type": "union", "objects": [)" + definition +
+                 ", " + definition + "]}";
     }
     for (int i = 1; i < 257; ++i)
         deep += ", \"" + std::to_string(i) +
@@ -443,9 +444,9 @@ TEST_CASE("invalid cameras and fogs and lights are reported") {
 }
 
 TEST_CASE("an empty list of lights adds no light") {
-    const auto lights = [](const std::string& all) {
+    const auto lights = [](const std::string& text) {
         return scene_of(
-                   "{" + all +
+                   "{" + text +
                    R"(, "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})")
             .lights()
             .size();

@@ -97,21 +97,21 @@ TEST_CASE("materials have defaults and every key has an effect") {
     CHECK(plain.reflection == core::Reflection::constant);
     CHECK(plain.index == defaults.index);
 
-    const core::Material all =
+    const core::Material material =
         material_of(R"({"color": [0.1, 0.2, 0.3], "ambient": 0.2, "diffuse": 0.3, "specular": 0.4,
         "exponent": 50, "reflectivity": 0.6, "transmission": 0.7, "index": 1.33, "absorption": [1, 2, 3.5], "opacity": 0.8, "visible": "inside"})");
-    CHECK(all.pattern.colors[0] == Color(0.1F, 0.2F, 0.3F));
-    CHECK(all.ambient == 0.2F);
-    CHECK(all.diffuse == 0.3F);
-    CHECK(all.specular == 0.4F);
-    CHECK(all.exponent == 50.0F);
-    CHECK(all.reflection == core::Reflection::constant);
-    CHECK(all.reflectivity == 0.6F);
-    CHECK(all.transmission == 0.7F);
-    CHECK(all.index == 1.33F);
-    CHECK(all.absorption == Vec3f(1, 2, 3.5F));
-    CHECK(all.opacity == 0.8F);
-    CHECK(all.visible == core::Visible::inside);
+    CHECK(material.pattern.colors[0] == Color(0.1F, 0.2F, 0.3F));
+    CHECK(material.ambient == 0.2F);
+    CHECK(material.diffuse == 0.3F);
+    CHECK(material.specular == 0.4F);
+    CHECK(material.exponent == 50.0F);
+    CHECK(material.reflection == core::Reflection::constant);
+    CHECK(material.reflectivity == 0.6F);
+    CHECK(material.transmission == 0.7F);
+    CHECK(material.index == 1.33F);
+    CHECK(material.absorption == Vec3f(1, 2, 3.5F));
+    CHECK(material.opacity == 0.8F);
+    CHECK(material.visible == core::Visible::inside);
 
     CHECK(material_of(R"({"reflection": "schlick"})").reflection == core::Reflection::schlick);
     CHECK(material_of(R"({"reflection": "dielectric"})").reflection ==

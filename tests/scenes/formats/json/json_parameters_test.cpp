@@ -209,8 +209,8 @@ TEST_CASE("materials of one name in several files are several materials") {
     const auto colors = [](const core::Scene& scene) {
         std::string text;
         for (core::ShapeId id = 0; id < scene.shape_count(); ++id) {
-            const core::Color of = scene.material_of(id).pattern.colors[0];
-            text += of.x > 0.0F ? "r" : of.y > 0.0F ? "g" : "b";
+            const core::Color resolved = scene.material_of(id).pattern.colors[0];
+            text += resolved.x > 0.0F ? "r" : resolved.y > 0.0F ? "g" : "b";
         }
         return text;
     };

@@ -25,9 +25,9 @@ constexpr const char* files[] = {
 TEST_CASE("POV-Ray: an include is accepted until a name is used that raylane does not read") {
     for (const char* file : files) {
         CAPTURE(file);
-        const Read of = read(include(file) + "sphere { 0, 1 }");
-        CHECK(of.scene.shape_count() == 1);
-        CHECK(of.remarks.empty());
+        const Read result = read(include(file) + "sphere { 0, 1 }");
+        CHECK(result.scene.shape_count() == 1);
+        CHECK(result.remarks.empty());
     }
     CHECK(complaint(include("chars.inc") + "sphere { 0, 1 }\nobject { char_A }") ==
           "a.pov:3:10: must be a supported object, got \"char_A\", which is declared in "
@@ -81,9 +81,10 @@ TEST_CASE("POV-Ray: textures of includes are those of POV-Ray's files") {
 }
 
 TEST_CASE("POV-Ray: a pattern of an include gives its mean colour and a remark where it is used") {
-    const Read of = read(include("woods.inc") + "sphere { 0, 1 texture { T_Wood1 } }");
-    CHECK(of.remarks == "a.pov:3:25: pattern \"wood\" is not supported: its mean colour is used\n");
-    const core::Vec3f color = of.material_of().pattern.colors[0];
+    const Read result = read(include("woods.inc") + "sphere { 0, 1 texture { T_Wood1 } }");
+    CHECK(result.remarks ==
+          "a.pov:3:25: pattern \"wood\" is not supported: its mean colour is used\n");
+    const core::Vec3f color = result.material_of().pattern.colors[0];
     CHECK((color.x > color.y && color.y > color.z && color.z > 0.0F));
     CHECK(read("sphere { 0, 1 pigment { bozo color_map { [0.5 rgb 0] [0.5 rgb 1] [1 rgb 0] } } }")
               .material_of()

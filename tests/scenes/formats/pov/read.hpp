@@ -39,9 +39,9 @@ inline std::string complaint(const std::string& text) {
 
 /// Returns the value of an expression after some statements, as text.
 inline std::string number(const std::string& expression, const std::string& before = "") {
-    const Read of = read(before + " sphere { <" + expression + ", 0, 0>, 1 }");
+    const Read result = read(before + " sphere { <" + expression + ", 0, 0>, 1 }");
     std::string text;
-    scenes::for_each_by_id(of.scene, [&](const auto& shape, core::ShapeId) {
+    scenes::for_each_by_id(result.scene, [&](const auto& shape, core::ShapeId) {
         text = scenes::to_text(static_cast<float>(core::numbers_of(shape)[0]));
     });
     return text;

@@ -131,13 +131,14 @@ TEST_CASE("POV-Ray: a directive follows an array without a semicolon") {
 }
 
 TEST_CASE("POV-Ray: an object has the default texture that precedes it") {
-    const Read of = read("#default { pigment { rgb <1, 0, 0> } } sphere { -2*x, 1 }\n"
-                         "#default { pigment { rgb <0, 0, 1> } } sphere { 2*x, 1 }\n" +
-                             camera + "#default { pigment { rgb <0, 1, 0> } } sphere { 2*y, 1 }",
-                         "");
-    CHECK(of.material_of(0).pattern.colors[0] == core::Color(1, 0, 0));
-    CHECK(of.material_of(1).pattern.colors[0] == core::Color(0, 0, 1));
-    CHECK(of.material_of(2).pattern.colors[0] == core::Color(0, 1, 0));
+    const Read result =
+        read("#default { pigment { rgb <1, 0, 0> } } sphere { -2*x, 1 }\n"
+             "#default { pigment { rgb <0, 0, 1> } } sphere { 2*x, 1 }\n" +
+                 camera + "#default { pigment { rgb <0, 1, 0> } } sphere { 2*y, 1 }",
+             "");
+    CHECK(result.material_of(0).pattern.colors[0] == core::Color(1, 0, 0));
+    CHECK(result.material_of(1).pattern.colors[0] == core::Color(0, 0, 1));
+    CHECK(result.material_of(2).pattern.colors[0] == core::Color(0, 1, 0));
 }
 
 TEST_CASE("a scene may begin with a byte-order mark") {

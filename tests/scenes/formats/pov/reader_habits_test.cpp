@@ -50,7 +50,9 @@ TEST_CASE("POV-Ray: a pattern of colours with different transparency gets a rema
 
 TEST_CASE("POV-Ray: cutaway_textures give a cut the texture of the object that is cut") {
     const std::string cut = "difference { sphere { 0, 2 pigment { rgb x } } box { -3, <3, 3, 0> } ";
-    const auto color_of_cut = [](const Read& of) { return of.material_of(1).pattern.colors[0]; };
+    const auto color_of_cut = [](const Read& result) {
+        return result.material_of(1).pattern.colors[0];
+    };
     CHECK(color_of_cut(read(cut + "}")) == core::Color(0, 0, 0));
     const Read one = read(cut + "cutaway_textures }");
     CHECK(color_of_cut(one) == core::Color(1, 0, 0));
@@ -196,10 +198,11 @@ TEST_CASE("POV-Ray: maps of colours and layers and skies and functions can be de
 }
 
 TEST_CASE("POV-Ray: a scene that writes files is rendered and one that reads them is refused") {
-    const Read of = read("#fopen F \"none.txt\" write\n#write (F, \"a\", (1 + 2) * 3, x, \"\\n\")\n"
-                         "#fclose F\nsphere { 0, 1 }");
-    CHECK(of.scene.shape_count() == 1);
-    CHECK(of.remarks == "a.pov:2:2: output to files is ignored\n");
+    const Read result =
+        read("#fopen F \"none.txt\" write\n#write (F, \"a\", (1 + 2) * 3, x, \"\\n\")\n"
+             "#fclose F\nsphere { 0, 1 }");
+    CHECK(result.scene.shape_count() == 1);
+    CHECK(result.remarks == "a.pov:2:2: output to files is ignored\n");
     CHECK(
         complaint("#fopen F \"none.txt\" read").starts_with("a.pov:1:21: must be write or append"));
 }

@@ -11,8 +11,8 @@ using tests::camera, tests::complaint, tests::number, tests::read, tests::Read;
 
 namespace {
 
-core::Color color_of(const Read& of, core::ShapeId id = 0) {
-    return of.material_of(id).pattern.colors[0];
+core::Color color_of(const Read& result, core::ShapeId id = 0) {
+    return result.material_of(id).pattern.colors[0];
 }
 
 } // namespace
@@ -125,11 +125,11 @@ TEST_CASE("POV-Ray: the word inverse counts inside the braces of a transformatio
 
 TEST_CASE("POV-Ray: unions and objects may have lights") {
     const auto positions = [](const std::string& text) {
-        std::string all;
-        const Read of = read(text);
-        for (const core::Light& light : of.scene.lights())
-            all += std::to_string(static_cast<int>(light.position.x)) + " ";
-        return all;
+        std::string joined;
+        const Read result = read(text);
+        for (const core::Light& light : result.scene.lights())
+            joined += std::to_string(static_cast<int>(light.position.x)) + " ";
+        return joined;
     };
     CHECK(positions("union { sphere { 0, 1 } light_source { 2*x, rgb 1 } translate x }") == "3 ");
     const std::string light = "#declare L = light_source { x, rgb 1 }\n";
@@ -189,11 +189,11 @@ TEST_CASE("POV-Ray: layers of textures are combined into one") {
     for (const std::string& text : {"sphere { 0, 1 " + layers + " }",
                                     "#declare T = " + layers + " sphere { 0, 1 texture { T } }"}) {
         CAPTURE(text);
-        const Read of = read(text);
-        CHECK(color_of(of) == core::Color(0.75F, 0, 0.25F));
-        CHECK(of.material_of().opacity == 1.0F);
-        CHECK(of.material_of().specular == 0.4375F);
-        CHECK(of.remarks_on("layered textures are not supported: their mean is used"));
+        const Read result = read(text);
+        CHECK(color_of(result) == core::Color(0.75F, 0, 0.25F));
+        CHECK(result.material_of().opacity == 1.0F);
+        CHECK(result.material_of().specular == 0.4375F);
+        CHECK(result.remarks_on("layered textures are not supported: their mean is used"));
     }
     CHECK(color_of(read("#declare T = texture { pigment { rgb y } }\n"
                         "#declare S = sphere { 0, 1 texture { T } }\nobject { S }")) ==
@@ -222,9 +222,9 @@ TEST_CASE("POV-Ray: a light on a surface moves off the surface") {
     const std::string above = "camera { location <0, 3, 9> look_at 0 right -x up y }\n";
     const auto position = [&](const std::string& light, const std::string& object,
                               const std::string& before) {
-        const Read of = read("light_source { " + light + ", rgb 1 } " + object, before);
-        CHECK(of.remarks_on("lights on a surface are moved off it"));
-        return of.scene.lights().at(0).position;
+        const Read result = read("light_source { " + light + ", rgb 1 } " + object, before);
+        CHECK(result.remarks_on("lights on a surface are moved off it"));
+        return result.scene.lights().at(0).position;
     };
     const auto is_just_above = [](float value, float edge) {
         return value > edge && value < edge + 0.01F;

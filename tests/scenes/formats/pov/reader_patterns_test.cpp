@@ -13,8 +13,8 @@ using tests::complaint, tests::read, tests::Read;
 
 namespace {
 
-core::Pattern pattern_of(const Read& of) {
-    return of.material_of().pattern;
+core::Pattern pattern_of(const Read& result) {
+    return result.material_of().pattern;
 }
 
 Read with_pigment(const std::string& text, const std::string& before = "") {
@@ -135,10 +135,10 @@ TEST_CASE("POV-Ray: gradients may have maps of colours or pigments or textures")
 
 TEST_CASE("POV-Ray: an unsupported pattern has the mean of its colours") {
     const auto color = [](const std::string& text) {
-        const Read of = with_pigment(text, "#declare N = 3;\n");
-        CHECK(of.remarks_on("is not supported: its mean"));
-        CHECK(pattern_of(of).kind == core::PatternKind::solid);
-        return pattern_of(of).colors[0];
+        const Read result = with_pigment(text, "#declare N = 3;\n");
+        CHECK(result.remarks_on("is not supported: its mean"));
+        CHECK(pattern_of(result).kind == core::PatternKind::solid);
+        return pattern_of(result).colors[0];
     };
     CHECK(color("bozo") == grey);
     CHECK(color("image_map { png \"none.png\" map_type 1 interpolate 2 once }") == grey);
@@ -181,7 +181,7 @@ TEST_CASE("POV-Ray: an image_map has the mean colour of its image") {
     directory.write("one.png", bytes_of(one_pixel));
     directory.write("half.png", bytes_of(half_clear));
     directory.write("cut.png", bytes_of(one_pixel).substr(0, 60));
-    const auto of = [&](const std::string& version, const std::string& image) {
+    const auto read_with = [&](const std::string& version, const std::string& image) {
         std::string remarks;
         scenes::LoadOptions options;
         options.on_remark = [&](const std::string& remark) { remarks += remark + "\n"; };
@@ -194,16 +194,16 @@ TEST_CASE("POV-Ray: an image_map has the mean colour of its image") {
     };
     const std::string one = "png \"one.png\" map_type 1 interpolate 2";
     // Versions before 3.7 take the file's codes.
-    CHECK(of("3.6", one).pattern.colors[0].x == Approx(128.0F / 255.0F));
+    CHECK(read_with("3.6", one).pattern.colors[0].x == Approx(128.0F / 255.0F));
     for (const std::string version : {"3.7", "3.6; global_settings { assumed_gamma 1 }"}) {
-        const core::Color linear = of(version, one).pattern.colors[0];
+        const core::Color linear = read_with(version, one).pattern.colors[0];
         CHECK(linear.x == Approx(0.21586F).epsilon(1e-4));
         CHECK(linear.y == Approx(0.05127F).epsilon(1e-4));
         CHECK(linear.z == 1.0F);
     }
-    const core::Material half = of("3.7", "\"half.png\" once");
+    const core::Material half = read_with("3.7", "\"half.png\" once");
     CHECK(half.pattern.colors[0] == red);
     CHECK(half.opacity == 0.5F);
     for (const char* other : {"png \"cut.png\"", "png \"none.png\"", "jpeg \"a.pov\""})
-        CHECK(of("3.7", other).pattern.colors[0] == grey);
+        CHECK(read_with("3.7", other).pattern.colors[0] == grey);
 }

@@ -68,8 +68,8 @@ std::string shapes_of(const core::Scene& scene) {
     return text;
 }
 
-const core::Material& material_of(const Read& of, core::ShapeId id = 0) {
-    return of.scene.material_of(id);
+const core::Material& material_of(const Read& result, core::ShapeId id = 0) {
+    return result.scene.material_of(id);
 }
 
 } // namespace
@@ -294,8 +294,8 @@ TEST_CASE("a camera along its sky vector keeps its right vector") {
 }
 
 TEST_CASE("a camera along its sky vector has the handedness of its right and up vectors") {
-    const auto up_of = [](const std::string& of) {
-        return read("sphere { 0, 1 }", "camera { " + of + " look_at 0 }\n").scene.camera().up;
+    const auto up_of = [](const std::string& image) {
+        return read("sphere { 0, 1 }", "camera { " + image + " look_at 0 }\n").scene.camera().up;
     };
     // The directions are those of POV-Ray's images. z is negated if the scene is mirrored.
     CHECK(up_of("location 9*y") == core::Vec3f(0, 0, -1));
@@ -330,8 +330,8 @@ TEST_CASE("a camera whose axes do not span an image is refused") {
 }
 
 TEST_CASE("the angle of a camera has the bounds of its projection") {
-    const auto angle = [](const std::string& of) {
-        return "camera { " + of + " location <0, 0, -9> look_at 0 }\nsphere { 0, 1 }";
+    const auto angle = [](const std::string& image) {
+        return "camera { " + image + " location <0, 0, -9> look_at 0 }\nsphere { 0, 1 }";
     };
     CHECK(complaint(angle("angle -1")) == "a.pov:1:10: must be an angle between 0 and 180 degrees");
     CHECK(read(angle("angle 0"), "").scene.camera().field_of_view == Approx(53.1301F));

@@ -32,13 +32,13 @@ Copy by_way_of_pov(const core::Scene& scene) {
 
 /// Returns kind and numbers of each shape that is not part of a solid.
 std::vector<float> numbers_in(const core::Scene& scene) {
-    std::vector<float> all;
+    std::vector<float> floats;
     for_each_by_id(scene, [&](const auto& shape, core::ShapeId) {
-        all.push_back(static_cast<float>(core::kind_of<std::decay_t<decltype(shape)>>));
+        floats.push_back(static_cast<float>(core::kind_of<std::decay_t<decltype(shape)>>));
         for (const auto number : core::numbers_of(shape))
-            all.push_back(static_cast<float>(number));
+            floats.push_back(static_cast<float>(number));
     });
-    return all;
+    return floats;
 }
 
 core::Film image_of(const core::Scene& scene, const core::Settings& like) {

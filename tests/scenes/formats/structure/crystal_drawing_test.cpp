@@ -381,7 +381,7 @@ TEST_CASE("the edges of the cell are visible in the examples of the pages") {
         const Vec3d back =
             -raylane::core::normalized(raylane::core::convert<double>(camera.direction));
         raylane::core::Searcher<double> searcher(scene, raylane::core::Search::hierarchy);
-        int all = 0, visible = 0;
+        int count = 0, visible = 0;
         const Cell& cell = legend.structure.cell;
         for (std::size_t k = 0; k < 3; ++k)
             for (int corner = 0; corner < 4; ++corner)
@@ -391,10 +391,10 @@ TEST_CASE("the edges of the cell are visible in the examples of the pages") {
                     if ((corner & 2) != 0) at = at + cell.edges[(k + 2) % 3];
                     const auto hit = searcher.nearest({at + 100.0 * back, -back}, {},
                                                       [](const auto&) { return true; });
-                    ++all;
+                    ++count;
                     visible += legend.atoms_of_shape[hit.hit.shape] == no_atoms ? 1 : 0;
                 }
-        return static_cast<double>(visible) / all;
+        return static_cast<double>(visible) / count;
     };
     CHECK(share_of_edges("perovskite.cif", [](Drawing& d) { d.polyhedra = {"Ti"}; }) > 0.5);
     CHECK(share_of_edges("salt.cif", [](Drawing& d) {
@@ -489,27 +489,29 @@ TEST_CASE("principal ellipses stand out of an ellipsoid along its principal plan
     Drawing drawing{.style = Style::balls, .ellipsoids = Ellipsoids::ellipses};
     const auto scene = draw_structure(atom, drawing, "a");
     CHECK(std::get<raylane::core::Table<raylane::core::Ellipsoid>>(scene.shapes()).size() == 4);
-    const auto whole = ellipsoid_at(Vec3f(0.0F), {Vec3d(3, 0, 0), Vec3d(0, 2, 0), Vec3d(0, 0, 1)});
-    const auto height_in = [](const raylane::core::Ellipsoid& of, double x, double y) {
+    const auto ellipsoid =
+        ellipsoid_at(Vec3f(0.0F), {Vec3d(3, 0, 0), Vec3d(0, 2, 0), Vec3d(0, 0, 1)});
+    const auto height_in = [](const raylane::core::Ellipsoid& surface, double x, double y) {
         // of the surface above a point of the plane of x and y; -1 beside it
-        const double u = x / static_cast<double>(of.axis_u.x),
-                     v = y / static_cast<double>(of.axis_v.y);
+        const double u = x / static_cast<double>(surface.axis_u.x),
+                     v = y / static_cast<double>(surface.axis_v.y);
         const double rest = 1.0 - u * u - v * v;
-        return rest < 0.0 ? -1.0 : std::sqrt(rest) * static_cast<double>(of.axis_w.z);
+        return rest < 0.0 ? -1.0 : std::sqrt(rest) * static_cast<double>(surface.axis_w.z);
     };
-    const auto rims = principal_ellipses(whole);
+    const auto rims = principal_ellipses(ellipsoid);
     for (double angle = 0.0; angle < 6.28; angle += 0.1) {
         const double c = std::cos(angle), s = std::sin(angle);
         // Just inside of the rim, the flat ellipsoid is higher; further inside, it is hidden.
         CHECK(height_in(rims[2], 2.9976 * c, 1.9984 * s) >
-              height_in(whole, 2.9976 * c, 1.9984 * s));
-        CHECK(height_in(rims[2], 2.9 * c, 1.93 * s) < height_in(whole, 2.9 * c, 1.93 * s));
+              height_in(ellipsoid, 2.9976 * c, 1.9984 * s));
+        CHECK(height_in(rims[2], 2.9 * c, 1.93 * s) < height_in(ellipsoid, 2.9 * c, 1.93 * s));
     }
 }
 
 TEST_CASE("the octant that faces the camera is cut out") {
-    const auto whole = ellipsoid_at(Vec3f(0.0F), {Vec3d(3, 0, 0), Vec3d(0, 2, 0), Vec3d(0, 0, 1)});
-    const auto solid = without_octant(whole, Vec3d(1, -2, 3), 0, 0, 0);
+    const auto ellipsoid =
+        ellipsoid_at(Vec3f(0.0F), {Vec3d(3, 0, 0), Vec3d(0, 2, 0), Vec3d(0, 0, 1)});
+    const auto solid = without_octant(ellipsoid, Vec3d(1, -2, 3), 0, 0, 0);
     REQUIRE(solid.parts.size() == 2);
     CHECK(solid.parts[0].parts.size() == 4);
     const auto is_cut = [&](const Vec3d& point) {

@@ -145,11 +145,12 @@ TEST_CASE("a crystal's displacements have the axes of its positions") {
         "loop_\n_atom_site_aniso_label\n_atom_site_aniso_U_11\n"
         "_atom_site_aniso_U_22\n_atom_site_aniso_U_33\n_atom_site_aniso_U_12\n"
         "_atom_site_aniso_U_13\n_atom_site_aniso_U_23\n";
-    const auto check = [](const Anisotropy& of, AtomIndex atom, const std::array<double, 6>& u) {
-        CHECK(of.atom == atom);
+    const auto check = [](const Anisotropy& anisotropy, AtomIndex atom,
+                          const std::array<double, 6>& u) {
+        CHECK(anisotropy.atom == atom);
         for (std::size_t k = 0; k < u.size(); ++k) {
             CAPTURE(k);
-            CHECK(static_cast<double>(of.u[k]) == Approx(u[k]).margin(1e-8));
+            CHECK(static_cast<double>(anisotropy.u[k]) == Approx(u[k]).margin(1e-8));
         }
     };
     // The angle between the reciprocal edges a* and c* is 60 degrees.
@@ -160,12 +161,12 @@ TEST_CASE("a crystal's displacements have the axes of its positions") {
         frames(open_cif, fourfold + sites + "O1 0.01 0.04 0.02 0.003 0.002 0.001\n").at(0);
     REQUIRE(turned.anisotropies.size() == 4);
     int quarter_turns = 0;
-    for (const Anisotropy& of : turned.anisotropies) {
-        const Vec3f at = turned.positions[of.atom];
+    for (const Anisotropy& anisotropy : turned.anisotropies) {
+        const Vec3f at = turned.positions[anisotropy.atom];
         if (std::abs(std::abs(at.x - 5.0F) - 3.0F) > 1e-4F) continue; // at 8 or 2
         ++quarter_turns;
         const double way = at.x > 5.0F ? 1.0 : -1.0; // x, y -> -y, x, or y, -x
-        check(of, of.atom, {0.04, 0.01, 0.02, -0.003, -way * 0.001, way * 0.002});
+        check(anisotropy, anisotropy.atom, {0.04, 0.01, 0.02, -0.003, -way * 0.001, way * 0.002});
     }
     CHECK(quarter_turns == 2);
     CHECK(turned.names.at(0) == "O1");
@@ -201,12 +202,12 @@ TEST_CASE("a crystal has the operations of symmetry of its file or of its space 
 TEST_CASE("a remark names a space group that is taken by its number alone") {
     if (!has_gemmi()) return;
     const auto remarks = [](const std::string& name) {
-        std::vector<std::string> all;
+        std::vector<std::string> lines;
         frames(open_cif,
                cube + "_symmetry_space_group_name_H-M " + name +
                    "\n_symmetry_Int_Tables_number 15\n" + sites("O1 O 0.1 0.2 0.3\n"),
-               &all);
-        return all;
+               &lines);
+        return lines;
     };
     CHECK(remarks("'P foo'") ==
           std::vector<std::string>{"a: the space group \"P foo\" is unknown: number 15 is used in "

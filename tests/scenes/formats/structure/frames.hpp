@@ -25,10 +25,10 @@ std::vector<Structure> frames(const Open& open, const std::string& text,
                                    if (remarks != nullptr) remarks->push_back(remark);
                                }});
     }();
-    std::vector<Structure> all;
+    std::vector<Structure> structures;
     for (Structure frame; reader->next(frame);)
-        all.push_back(frame);
-    return all;
+        structures.push_back(frame);
+    return structures;
 }
 
 template <class Open>

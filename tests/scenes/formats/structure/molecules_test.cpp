@@ -207,7 +207,7 @@ TEST_CASE("trajectories without elements say how to read them") {
 
 TEST_CASE("an aromatic bond is a stick and dashes on the inside of the ring") {
     const auto sticks = sticks_of("a.mol", benzene(), {.style = Style::sticks});
-    std::size_t whole = 0, dashes = 0;
+    std::size_t bonds = 0, dashes = 0;
     for (const auto& stick : sticks) {
         const Vec3d middle = stick.base + 0.5 * stick.axis;
         double outward = 0.0; // the distance from the centre, towards the middle of a bond
@@ -216,10 +216,10 @@ TEST_CASE("an aromatic bond is a stick and dashes on the inside of the ring") {
             outward = std::max(outward, middle.x * std::cos(angle) + middle.y * std::sin(angle));
         }
         const bool is_whole = raylane::core::length(stick.axis) > 1.0;
-        ++(is_whole ? whole : dashes);
+        ++(is_whole ? bonds : dashes);
         CHECK(outward == Approx(1.4 * std::sqrt(0.75) + (is_whole ? 0.13 : -0.13)).epsilon(1e-3));
     }
-    CHECK(whole == 6);
+    CHECK(bonds == 6);
     CHECK(dashes == 6 * 5);
 }
 

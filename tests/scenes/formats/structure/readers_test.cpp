@@ -27,20 +27,20 @@ std::string pdb_atom(const char* record, int serial, const char* name, const cha
 TEST_CASE("columns of an extended XYZ file have names and residues") {
     for (const std::string columns :
          {"name:S:1:resname:S:1:resid:I:1", "atomtypes:S:1:residuenames:S:1:residuenumbers:I:1"}) {
-        const Structure all =
+        const Structure structure =
             frames(open_xyz, "4\nProperties=species:S:1:pos:R:3:" + columns +
                                  ":chain:S:1\nC 0 0 0 CA ALA 7 A\nN 1 0 0 N ALA 7 A\n"
                                  "O 2 0 0 OW HOH 7 A\nC 3 0 0 C1 LIG -8 B\n")
                 .at(0);
-        CHECK(all.names == std::vector<std::string>{"CA", "N", "OW", "C1"});
-        CHECK(all.residues == std::vector<std::uint32_t>{0, 0, 1, 2});
-        CHECK(all.chains == std::vector<std::string>{"A", "B"});
-        REQUIRE(all.of_residue.size() == 3);
-        CHECK(all.of_residue[0].name == "ALA");
-        CHECK(all.of_residue[2].number == -8);
-        CHECK(all.of_residue[2].chain == 1);
-        CHECK_FALSE(all.of_residue[0].is_hetero);
-        CHECK(all.of_residue[2].is_hetero);
+        CHECK(structure.names == std::vector<std::string>{"CA", "N", "OW", "C1"});
+        CHECK(structure.residues == std::vector<std::uint32_t>{0, 0, 1, 2});
+        CHECK(structure.chains == std::vector<std::string>{"A", "B"});
+        REQUIRE(structure.of_residue.size() == 3);
+        CHECK(structure.of_residue[0].name == "ALA");
+        CHECK(structure.of_residue[2].number == -8);
+        CHECK(structure.of_residue[2].chain == 1);
+        CHECK_FALSE(structure.of_residue[0].is_hetero);
+        CHECK(structure.of_residue[2].is_hetero);
     }
     CHECK(complaint(open_xyz, "1\nProperties=pos:R:3:resid:I:1\n0 0 0 x\n")
               .find("the number of a residue") != std::string::npos);
@@ -54,24 +54,25 @@ TEST_CASE("columns of an extended XYZ file have names and residues") {
 }
 
 TEST_CASE("XYZ is read frame by frame") {
-    const std::vector<Structure> all = frames(open_xyz, "2\nwater, part of it\nO 0.1 0 -1.5e0\n"
-                                                        "h  +1 2.D0 3  extra\n\n"
-                                                        "1\n\nFe2+ 4 5 6");
-    REQUIRE(all.size() == 2);
-    CHECK(all[0].title == "water, part of it");
-    CHECK(elements_of(all[0]) == "O H ");
-    CHECK(all[0].positions == std::vector{Vec3f(0.1F, 0, -1.5F), Vec3f(1, 2, 3)});
-    CHECK_FALSE(all[0].cell.any());
-    CHECK(elements_of(all[1]) == "Fe ");
+    const std::vector<Structure> structures =
+        frames(open_xyz, "2\nwater, part of it\nO 0.1 0 -1.5e0\n"
+                         "h  +1 2.D0 3  extra\n\n"
+                         "1\n\nFe2+ 4 5 6");
+    REQUIRE(structures.size() == 2);
+    CHECK(structures[0].title == "water, part of it");
+    CHECK(elements_of(structures[0]) == "O H ");
+    CHECK(structures[0].positions == std::vector{Vec3f(0.1F, 0, -1.5F), Vec3f(1, 2, 3)});
+    CHECK_FALSE(structures[0].cell.any());
+    CHECK(elements_of(structures[1]) == "Fe ");
 }
 
 TEST_CASE("extended XYZ has columns and a cell") {
-    const std::vector<Structure> all =
+    const std::vector<Structure> structures =
         frames(open_xyz, "2\nLattice=\"4 0 0 1 5 0 0 0 6\" Origin=\"1 2 3\" pbc='T F T' title "
                          "Properties=id:I:1:pos:R:3:species:S:1:forces:R:3:radius:R:1 energy=-3\n"
                          "7 0 0 0 Na 3 4 0 1.5\n8 1 1 1 Cl 0 0 2 0.5\n");
-    REQUIRE(all.size() == 1);
-    const Structure& frame = all[0];
+    REQUIRE(structures.size() == 1);
+    const Structure& frame = structures[0];
     CHECK(elements_of(frame) == "Na Cl ");
     CHECK(frame.radii == std::vector{1.5F, 0.5F});
     CHECK(frame.cell.edges[1] == Vec3d(1, 5, 0));
@@ -112,18 +113,18 @@ TEST_CASE("GRO is read in columns of any width") {
                              "next\n    1\n"
                              "    1ALA     CB    1   0.12345   1.62345   1.67945\n"
                              " 1 2 3 0 0 0.5 0 0.25 0.125\n\n";
-    const std::vector<Structure> all = frames(open_gro, text);
-    REQUIRE(all.size() == 2);
-    CHECK(elements_of(all[0]) == "O H C Ca ");
-    CHECK(all[0].positions[0] == Vec3f(1.26F, 16.24F, 16.79F));
-    CHECK(all[0].positions[3].x == -10.0F);
-    CHECK(all[0].names[1] == "HW1");
-    CHECK(all[0].of_residue.size() == 3);
-    CHECK(all[0].of_residue[all[0].residues[2]].name == "LYS");
-    CHECK(all[0].cell.edges[0].x == Approx(18.206));
-    CHECK(all[1].positions[0] == Vec3f(1.2345F, 16.2345F, 16.7945F));
-    CHECK(all[1].cell.edges[1] == Vec3d(5, 20, 0));
-    CHECK(all[1].cell.edges[2] == Vec3d(2.5, 1.25, 30));
+    const std::vector<Structure> structures = frames(open_gro, text);
+    REQUIRE(structures.size() == 2);
+    CHECK(elements_of(structures[0]) == "O H C Ca ");
+    CHECK(structures[0].positions[0] == Vec3f(1.26F, 16.24F, 16.79F));
+    CHECK(structures[0].positions[3].x == -10.0F);
+    CHECK(structures[0].names[1] == "HW1");
+    CHECK(structures[0].of_residue.size() == 3);
+    CHECK(structures[0].of_residue[structures[0].residues[2]].name == "LYS");
+    CHECK(structures[0].cell.edges[0].x == Approx(18.206));
+    CHECK(structures[1].positions[0] == Vec3f(1.2345F, 16.2345F, 16.7945F));
+    CHECK(structures[1].cell.edges[1] == Vec3d(5, 20, 0));
+    CHECK(structures[1].cell.edges[2] == Vec3d(2.5, 1.25, 30));
     CHECK(complaint(open_gro, "a\n1\n    1SOL     OW    1   0.126   1.x24   1.679\n1 1 1\n") ==
           "a:3:29: a coordinate must be a number, got \"   1.x24\"");
     CHECK(complaint(open_gro, "a\n1\n    1SOL     OW    1\n1 1 1\n")
@@ -133,7 +134,7 @@ TEST_CASE("GRO is read in columns of any width") {
 
 TEST_CASE("LAMMPS' dumps have columns in any order and scaled coordinates") {
     const std::string head = "ITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n2\n";
-    const std::vector<Structure> all =
+    const std::vector<Structure> structures =
         frames(open_lammps_dump, head +
                                      "ITEM: BOX BOUNDS pp ff pp\n0 10\n-5 5\n0 2e1\n"
                                      "ITEM: ATOMS z type id y x vx\n3 2 1 2 1 0.5\n6 1 2 5 4 -1\n" +
@@ -141,18 +142,18 @@ TEST_CASE("LAMMPS' dumps have columns in any order and scaled coordinates") {
                                      "ITEM: BOX BOUNDS xy xz yz pp pp pp\n0 12 2\n0 10 0\n0 10 0\n"
                                      "ITEM: ATOMS id element xs ys zs radius\n"
                                      "1 Si 0.5 0.5 0.5 1\n2 O 0 1 0 2\n");
-    REQUIRE(all.size() == 2);
-    CHECK(all[0].positions == std::vector{Vec3f(1, 2, 3), Vec3f(4, 5, 6)});
-    CHECK(all[0].of_kind[all[0].kinds[0]].label == "2");
-    CHECK(all[0].cell.periodic == std::array{true, false, true});
-    CHECK(all[0].cell.origin == Vec3d(0, -5, 0));
-    REQUIRE(all[0].properties.size() == 1);
-    CHECK(all[0].properties[0].values == std::vector{0.5F, -1.0F});
+    REQUIRE(structures.size() == 2);
+    CHECK(structures[0].positions == std::vector{Vec3f(1, 2, 3), Vec3f(4, 5, 6)});
+    CHECK(structures[0].of_kind[structures[0].kinds[0]].label == "2");
+    CHECK(structures[0].cell.periodic == std::array{true, false, true});
+    CHECK(structures[0].cell.origin == Vec3d(0, -5, 0));
+    REQUIRE(structures[0].properties.size() == 1);
+    CHECK(structures[0].properties[0].values == std::vector{0.5F, -1.0F});
     // The bounds enclose a box of edges (10, 0, 0), (2, 10, 0), (0, 0, 10).
-    CHECK(elements_of(all[1]) == "Si O ");
-    CHECK(all[1].cell.edges[0] == Vec3d(10, 0, 0));
-    CHECK(all[1].positions == std::vector{Vec3f(6, 5, 5), Vec3f(2, 10, 0)});
-    CHECK(all[1].radii == std::vector{1.0F, 2.0F});
+    CHECK(elements_of(structures[1]) == "Si O ");
+    CHECK(structures[1].cell.edges[0] == Vec3d(10, 0, 0));
+    CHECK(structures[1].positions == std::vector{Vec3f(6, 5, 5), Vec3f(2, 10, 0)});
+    CHECK(structures[1].radii == std::vector{1.0F, 2.0F});
     CHECK(complaint(open_lammps_dump, head + "ITEM: ATOMS id x y\n") ==
           "a:5: must have x, y and z (or xs, xu, xsu), got \"ITEM: ATOMS id x y\"");
     CHECK(complaint(open_lammps_dump, head + "ITEM: ATOMS x y z\n1 2 3\n") ==
@@ -221,18 +222,18 @@ TEST_CASE("PDB has residues and bonds and models") {
                              "ENDMDL\nMODEL        2\n" +
                              pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 4, 2, 3, "N") +
                              "ENDMDL\nCONECT    1    2    2\nCONECT    2    1    1\nEND\n";
-    const std::vector<Structure> all = frames(open_pdb, text);
-    REQUIRE(all.size() == 2);
-    CHECK(all[0].title == "SMALL");
-    CHECK(elements_of(all[0]) == "N C Zn ");
-    CHECK(all[0].positions[2] == Vec3f(-1.5F, 0, 0));
-    CHECK(all[0].names[1] == "CA");
-    CHECK(all[0].chains == std::vector<std::string>{"A", "B"});
-    CHECK(all[0].of_residue[1].is_hetero);
-    CHECK(all[0].cell.edges[2].z == 30.0);
-    REQUIRE(all[0].bonds.size() == 1);
-    CHECK(all[0].bonds[0].order == 2);
-    CHECK(all[1].positions == std::vector{Vec3f(4, 2, 3)});
+    const std::vector<Structure> structures = frames(open_pdb, text);
+    REQUIRE(structures.size() == 2);
+    CHECK(structures[0].title == "SMALL");
+    CHECK(elements_of(structures[0]) == "N C Zn ");
+    CHECK(structures[0].positions[2] == Vec3f(-1.5F, 0, 0));
+    CHECK(structures[0].names[1] == "CA");
+    CHECK(structures[0].chains == std::vector<std::string>{"A", "B"});
+    CHECK(structures[0].of_residue[1].is_hetero);
+    CHECK(structures[0].cell.edges[2].z == 30.0);
+    REQUIRE(structures[0].bonds.size() == 1);
+    CHECK(structures[0].bonds[0].order == 2);
+    CHECK(structures[1].positions == std::vector{Vec3f(4, 2, 3)});
     CHECK(complaint(open_pdb, pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N") +
                                   "ATOM      2  CA  ALA A   5       1.0.0   2.000   3.000\n") ==
           "a:2:31: a coordinate must be a number, got \"1.0.0\"");
@@ -265,14 +266,14 @@ TEST_CASE("models of a PDB file may have the same number and different bonds") {
                pdb_atom("ATOM", 2, " CA", "ALA", 'A', 5, x + 1, 2, 3, "C");
     };
     const std::string bond = "CONECT    1    2\nCONECT    2    1\n", end = "ENDMDL\n";
-    const std::vector<Structure> all =
+    const std::vector<Structure> structures =
         frames(open_pdb, model(1) + bond + end + model(2) + bond + end + model(3) + end);
-    REQUIRE(all.size() == 3);
-    CHECK(all[1].positions[0].x == 2.0F);
-    REQUIRE(all[0].bonds.size() == 1);
-    CHECK(all[0].bonds[0].order == 1);
-    CHECK(all[1].bonds.size() == 1);
-    CHECK(all[2].bonds.empty());
+    REQUIRE(structures.size() == 3);
+    CHECK(structures[1].positions[0].x == 2.0F);
+    REQUIRE(structures[0].bonds.size() == 1);
+    CHECK(structures[0].bonds[0].order == 1);
+    CHECK(structures[1].bonds.size() == 1);
+    CHECK(structures[2].bonds.empty());
 }
 
 TEST_CASE("bonds belong to the models that END separates from others") {
@@ -283,12 +284,12 @@ TEST_CASE("bonds belong to the models that END separates from others") {
     };
     const std::string bond = "CONECT    1    2\nCONECT    2    1\n", end = "END   \n";
     const auto orders = [](const std::string& text) {
-        std::string all;
+        std::string joined;
         for (const Structure& frame : frames(open_pdb, text)) {
             REQUIRE(frame.bonds.size() < 2);
-            all += frame.bonds.empty() ? "-" : std::to_string(frame.bonds[0].order);
+            joined += frame.bonds.empty() ? "-" : std::to_string(frame.bonds[0].order);
         }
-        return all;
+        return joined;
     };
     CHECK(orders(atoms(1) + bond + end + atoms(2) + bond + end + atoms(3) + end) == "11-");
     CHECK(orders(atoms(1) + bond + end + atoms(2) + bond) == "11");
@@ -310,11 +311,11 @@ TEST_CASE("an entry behind END keeps the previous title unless it has one") {
 TEST_CASE("ENDROOT of PDBQT does not end a model") {
     if (!has_gemmi()) return;
     const std::string atom = pdb_atom("HETATM", 1, " C1", "LIG", 'A', 1, 1, 2, 3, "C");
-    const std::vector<Structure> all =
+    const std::vector<Structure> structures =
         frames(open_pdb, "ROOT\n" + atom + "ENDROOT\nBRANCH   1   2\n" + atom +
                              "ENDBRANCH   1   2\nTORSDOF 1\n");
-    REQUIRE(all.size() == 1);
-    CHECK(all[0].size() == 2);
+    REQUIRE(structures.size() == 1);
+    CHECK(structures[0].size() == 2);
 }
 
 TEST_CASE("a long title is not kept whole for each of many models") {
@@ -324,10 +325,10 @@ TEST_CASE("a long title is not kept whole for each of many models") {
         text += "TITLE     " + std::string(60, 'A') + "\nMODEL\n";
     for (int i = 0; i < 100; ++i)
         text += "MODEL\n" + pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, i, 2, 3, "N");
-    const std::vector<Structure> all = frames(open_pdb, text);
-    REQUIRE(all.size() == 100);
-    CHECK(all[99].positions[0].x == 99.0F);
-    CHECK(all[99].title.size() < 4096);
+    const std::vector<Structure> structures = frames(open_pdb, text);
+    REQUIRE(structures.size() == 100);
+    CHECK(structures[99].positions[0].x == 99.0F);
+    CHECK(structures[99].title.size() < 4096);
 }
 
 TEST_CASE("elements that a PDB file omits follow from its columns or its names") {
@@ -403,23 +404,23 @@ TEST_CASE("a residue of mmCIF continues where its number recurs in the chain") {
         "_atom_site.auth_seq_id\n_atom_site.pdbx_PDB_ins_code\n_atom_site.Cartn_x\n"
         "_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.B_iso_or_equiv\n"
         "_atom_site.pdbx_PDB_model_num\n";
-    const std::vector<Structure> all =
+    const std::vector<Structure> structures =
         frames(open_cif,
                columns + "1 ATOM N A GLY X ? 5 ? 1 0 0 7 1\n2 ATOM N . SER X . 5 B 2 0 0 7 1\n"
                          "3 ATOM CA B GLY X ? 5 ? 3 0 0 7 1\n4 HETATM O . HOH Y B 5 ? 4 0 0 7 1\n"
                          "5 ATOM C A GLY X ? 5 ? 5 0 0 7 1\n6 ATOM N . GLY X ? 5 ? 6 0 0 7 2\n");
-    REQUIRE(all.size() == 2);
-    CHECK(all[0].names == std::vector<std::string>{"N", "N", "O", "C"});
-    CHECK(all[0].chains == std::vector<std::string>{"X", "B", "X"});
-    REQUIRE(all[0].of_residue.size() == 4);
-    CHECK(all[0].of_residue[1].insertion == 'B');
-    CHECK(all[0].of_residue[2].is_hetero);
-    CHECK(all[0].cell.edges[1].y == Approx(8));
-    REQUIRE(all[0].anisotropies.size() == 1);
-    CHECK(all[0].anisotropies[0].atom == 1);
-    CHECK(all[0].anisotropies[0].u[5] == 0.6F);
-    CHECK(all[0].properties.at(0).values.at(0) == 7.0F);
-    CHECK(all[1].title == "a b");
+    REQUIRE(structures.size() == 2);
+    CHECK(structures[0].names == std::vector<std::string>{"N", "N", "O", "C"});
+    CHECK(structures[0].chains == std::vector<std::string>{"X", "B", "X"});
+    REQUIRE(structures[0].of_residue.size() == 4);
+    CHECK(structures[0].of_residue[1].insertion == 'B');
+    CHECK(structures[0].of_residue[2].is_hetero);
+    CHECK(structures[0].cell.edges[1].y == Approx(8));
+    REQUIRE(structures[0].anisotropies.size() == 1);
+    CHECK(structures[0].anisotropies[0].atom == 1);
+    CHECK(structures[0].anisotropies[0].u[5] == 0.6F);
+    CHECK(structures[0].properties.at(0).values.at(0) == 7.0F);
+    CHECK(structures[1].title == "a b");
 }
 
 TEST_CASE("coordinates are the floats nearest to the numbers of the file") {

@@ -61,9 +61,9 @@ core::Scene drawn(const Structure& structure, Drawing drawing, const Shows& show
 }
 
 /// Returns the materials' names and radii, "C 0.16 H 0.16 ".
-std::string text_of(const std::vector<Part>& all) {
+std::string text_of(const std::vector<Part>& parts) {
     std::string text;
-    for (const Part& part : all) {
+    for (const Part& part : parts) {
         char radius[32];
         std::snprintf(radius, sizeof radius, "%.3g", static_cast<double>(part.radius));
         text += part.material + " " + radius + (part.opacity < 1.0F ? "/" : "") + " ";

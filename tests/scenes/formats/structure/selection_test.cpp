@@ -14,32 +14,32 @@ namespace {
 /// Returns ALA 1 and SEP 2 (modified), a ligand, an ion, water and a nucleotide, one letter for
 /// each atom of NCS P LLL Z O R.
 Structure complex() {
-    Structure all = raylane::tests::of_atoms({{"N", {0, 0, 0}},
-                                              {"C", {1, 0, 0}},
-                                              {"C", {1, 1, 0}},
-                                              {"C", {3, 0, 0}},
-                                              {"P", {4, 0, 0}},
-                                              {"C", {10, 0, 0}},
-                                              {"O", {11, 0, 0}},
-                                              {"H", {12, 0, 0}},
-                                              {"Zn", {20, 0, 0}},
-                                              {"O", {30, 0, 0}},
-                                              {"P", {40, 0, 0}}});
-    all.names = {"N", "CA", "CB", "CA", "P", "CA", "O1", "H1", "ZN", "O", "P"};
-    all.chains = {"A"};
-    all.of_residue = {{"ALA", 1, ' ', 0, false},  {"SEP", 2, ' ', 0, true},
-                      {"XK2", 300, ' ', 0, true}, {"ZN", 400, ' ', 0, true},
-                      {"HOH", 500, ' ', 0, true}, {"DA", 600, ' ', 0, false}};
-    all.residues = {0, 0, 0, 1, 1, 2, 2, 2, 3, 4, 5};
-    all.properties = {{"b_factor", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}}};
-    return all;
+    Structure structure = raylane::tests::of_atoms({{"N", {0, 0, 0}},
+                                                    {"C", {1, 0, 0}},
+                                                    {"C", {1, 1, 0}},
+                                                    {"C", {3, 0, 0}},
+                                                    {"P", {4, 0, 0}},
+                                                    {"C", {10, 0, 0}},
+                                                    {"O", {11, 0, 0}},
+                                                    {"H", {12, 0, 0}},
+                                                    {"Zn", {20, 0, 0}},
+                                                    {"O", {30, 0, 0}},
+                                                    {"P", {40, 0, 0}}});
+    structure.names = {"N", "CA", "CB", "CA", "P", "CA", "O1", "H1", "ZN", "O", "P"};
+    structure.chains = {"A"};
+    structure.of_residue = {{"ALA", 1, ' ', 0, false},  {"SEP", 2, ' ', 0, true},
+                            {"XK2", 300, ' ', 0, true}, {"ZN", 400, ' ', 0, true},
+                            {"HOH", 500, ' ', 0, true}, {"DA", 600, ' ', 0, false}};
+    structure.residues = {0, 0, 0, 1, 1, 2, 2, 2, 3, 4, 5};
+    structure.properties = {{"b_factor", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}}};
+    return structure;
 }
 
 std::string selected(const std::string& expression) {
     std::string result;
     std::vector<std::string> unmatched;
-    const Structure all = complex();
-    for (const char is_selected : select_atoms(all, expression, unmatched))
+    const Structure structure = complex();
+    for (const char is_selected : select_atoms(structure, expression, unmatched))
         result.push_back(is_selected != 0 ? '1' : '0');
     return result;
 }

@@ -170,65 +170,71 @@ TEST_CASE("bonds of a file keep their orders") {
 }
 
 TEST_CASE("atoms can be selected by words") {
-    const Structure all = peptide();
-    CHECK(selected(all, "all") == "11111");
-    CHECK(selected(all, "none") == "00000");
-    CHECK(selected(all, "protein") == "11110");
-    CHECK(selected(all, "water") == "00001");
-    CHECK(selected(all, "hetero") == "00001");
-    CHECK(selected(all, "HYDROGEN") == "00100");
-    CHECK(selected(all, "backbone") == "11000");
-    CHECK(selected(all, "chain A") == "11110");
-    CHECK(selected(all, "chain a B") == "00000"); // chains may differ in case alone
-    CHECK(selected(all, "chain A b") == "11111");
-    CHECK(selected(all, "residue ala 300-302") == "11101");
-    CHECK(selected(all, "residue -1") == "11100");
-    CHECK(selected(all, "residue -5--1,20") == "11110");
-    CHECK(selected(all, "element c N") == "11010");
-    CHECK(selected(all, "name cb o") == "00011");
-    CHECK(selected(all, "type C") == "01010");
-    CHECK(selected(all, "index 2-3 5") == "01101");
-    CHECK(selected(all, "b_factor >= 30") == "00111");
-    CHECK(selected(all, "b_factor=20") == "01000");
-    CHECK(selected(all, "not element C and chain A") == "10100");
-    CHECK(selected(all, "not (element C and chain A)") == "10101");
-    CHECK(selected(all, "element N or element C and residue 20") == "10010");
-    CHECK(selected(all, "within 1.2 of element N") == "10100");
-    CHECK(selected(all, "within 2 of water and not water") == "00010");
-    CHECK(selected(all, "within 0 of name N") == "10000");
-    CHECK(selected(all, "within 5 of none") == "00000");
+    const Structure structure = peptide();
+    CHECK(selected(structure, "all") == "11111");
+    CHECK(selected(structure, "none") == "00000");
+    CHECK(selected(structure, "protein") == "11110");
+    CHECK(selected(structure, "water") == "00001");
+    CHECK(selected(structure, "hetero") == "00001");
+    CHECK(selected(structure, "HYDROGEN") == "00100");
+    CHECK(selected(structure, "backbone") == "11000");
+    CHECK(selected(structure, "chain A") == "11110");
+    CHECK(selected(structure, "chain a B") == "00000"); // chains may differ in case alone
+    CHECK(selected(structure, "chain A b") == "11111");
+    CHECK(selected(structure, "residue ala 300-302") == "11101");
+    CHECK(selected(structure, "residue -1") == "11100");
+    CHECK(selected(structure, "residue -5--1,20") == "11110");
+    CHECK(selected(structure, "element c N") == "11010");
+    CHECK(selected(structure, "name cb o") == "00011");
+    CHECK(selected(structure, "type C") == "01010");
+    CHECK(selected(structure, "index 2-3 5") == "01101");
+    CHECK(selected(structure, "b_factor >= 30") == "00111");
+    CHECK(selected(structure, "b_factor=20") == "01000");
+    CHECK(selected(structure, "not element C and chain A") == "10100");
+    CHECK(selected(structure, "not (element C and chain A)") == "10101");
+    CHECK(selected(structure, "element N or element C and residue 20") == "10010");
+    CHECK(selected(structure, "within 1.2 of element N") == "10100");
+    CHECK(selected(structure, "within 2 of water and not water") == "00010");
+    CHECK(selected(structure, "within 0 of name N") == "10000");
+    CHECK(selected(structure, "within 5 of none") == "00000");
 }
 
 TEST_CASE("an invalid selection is refused with its column") {
-    const Structure all = peptide();
-    CHECK(complaint(all, "") == "--select: column 1: must be a selection, got nothing");
-    CHECK(complaint(all, "foo").starts_with("--select: column 1: must be one of "));
-    CHECK(complaint(all, "within 5 of foo").starts_with("--select: column 13: must be one of "));
-    CHECK(complaint(all, "within -5 of all").starts_with("--select: column 8: a distance "));
-    CHECK(complaint(all, "b_factor 30") ==
+    const Structure structure = peptide();
+    CHECK(complaint(structure, "") == "--select: column 1: must be a selection, got nothing");
+    CHECK(complaint(structure, "foo").starts_with("--select: column 1: must be one of "));
+    CHECK(complaint(structure, "within 5 of foo")
+              .starts_with("--select: column 13: must be one of "));
+    CHECK(complaint(structure, "within -5 of all").starts_with("--select: column 8: a distance "));
+    CHECK(complaint(structure, "b_factor 30") ==
           "--select: column 10: must have <, <=, >, >= or = behind it, got \"30\"");
-    CHECK(complaint(all, "b_factor < x all").starts_with("--select: column 12: must be a number"));
-    CHECK(complaint(all, "element C Q N").starts_with("--select: column 11: must be an element"));
-    CHECK(complaint(all, "index 1 x 2").starts_with("--select: column 9: must be a number or"));
-    CHECK(complaint(all, "chane A").find("did you mean \"chain\"?") != std::string::npos);
-    CHECK(complaint(all, "element C and") ==
+    CHECK(complaint(structure, "b_factor < x all")
+              .starts_with("--select: column 12: must be a number"));
+    CHECK(complaint(structure, "element C Q N")
+              .starts_with("--select: column 11: must be an element"));
+    CHECK(
+        complaint(structure, "index 1 x 2").starts_with("--select: column 9: must be a number or"));
+    CHECK(complaint(structure, "chane A").find("did you mean \"chain\"?") != std::string::npos);
+    CHECK(complaint(structure, "element C and") ==
           "--select: column 14: must be a selection, got nothing");
-    CHECK(complaint(all, "(all") == "--select: column 5: must be \")\", got nothing");
-    CHECK(complaint(all, "all all") ==
+    CHECK(complaint(structure, "(all") == "--select: column 5: must be \")\", got nothing");
+    CHECK(complaint(structure, "all all") ==
           "--select: column 5: must be \"and\", \"or\" or the end, got \"all\"");
-    CHECK(complaint(all, "within near of all").find("must be a distance, got \"near\"") !=
+    CHECK(complaint(structure, "within near of all").find("must be a distance, got \"near\"") !=
           std::string::npos);
-    CHECK(complaint(all, "b_factor 3").find("must have <, <=, >, >= or = behind it") !=
+    CHECK(complaint(structure, "b_factor 3").find("must have <, <=, >, >= or = behind it") !=
           std::string::npos);
-    CHECK(complaint(all, "element Q").find("must be an element, got \"Q\"") != std::string::npos);
-    CHECK(complaint(all, std::string(1000, '(')).find("deeper than 100") != std::string::npos);
+    CHECK(complaint(structure, "element Q").find("must be an element, got \"Q\"") !=
+          std::string::npos);
+    CHECK(complaint(structure, std::string(1000, '(')).find("deeper than 100") !=
+          std::string::npos);
 }
 
 TEST_CASE("a remark has the column of a name in a list that matches nothing") {
-    const Structure all = peptide();
+    const Structure structure = peptide();
     const auto unmatched = [&](const std::string& expression) {
         std::vector<std::string> messages;
-        select_atoms(all, expression, messages);
+        select_atoms(structure, expression, messages);
         return messages;
     };
     using Messages = std::vector<std::string>;
@@ -243,7 +249,7 @@ TEST_CASE("a remark has the column of a name in a list that matches nothing") {
     CHECK(unmatched("chain A b and residue ala -5--1").empty());
     const Drawing drawing{.select = "chain A foo"};
     Messages told;
-    draw_structure(all, drawing, "a", nullptr, nullptr,
+    draw_structure(structure, drawing, "a", nullptr, nullptr,
                    [&](const std::string& remark) { told.push_back(remark); });
     CHECK(told == unmatched("chain A foo"));
 }

@@ -31,10 +31,12 @@ struct Shapes {
 
     void add(const CartoonShape& shape, AtomIndex atom) {
         atoms.push_back(atom);
-        if (const auto* of = std::get_if<SmoothTriangle>(&shape)) triangles.push_back(*of);
-        if (const auto* of = std::get_if<Sphere>(&shape)) spheres.push_back(*of);
-        if (const auto* of = std::get_if<CappedCylinder>(&shape)) cylinders.push_back(*of);
-        if (const auto* of = std::get_if<Box>(&shape)) boxes.push_back(*of);
+        if (const auto* triangle = std::get_if<SmoothTriangle>(&shape))
+            triangles.push_back(*triangle);
+        if (const auto* sphere = std::get_if<Sphere>(&shape)) spheres.push_back(*sphere);
+        if (const auto* cylinder = std::get_if<CappedCylinder>(&shape))
+            cylinders.push_back(*cylinder);
+        if (const auto* box = std::get_if<Box>(&shape)) boxes.push_back(*box);
     }
     std::size_t count() const { return atoms.size(); }
 };
@@ -69,8 +71,8 @@ std::size_t open_edges(const std::vector<SmoothTriangle>& triangles) {
             else
                 --balance[{b, a}];
         }
-    return static_cast<std::size_t>(std::count_if(balance.begin(), balance.end(),
-                                                  [](const auto& of) { return of.second != 0; }));
+    return static_cast<std::size_t>(std::count_if(
+        balance.begin(), balance.end(), [](const auto& entry) { return entry.second != 0; }));
 }
 
 /// Returns a chain with random torsions of all secondary structures.
@@ -211,13 +213,13 @@ TEST_CASE("the ribbon of a helix is wide along the axis, and does not twist") {
 TEST_CASE("half of a chain has the shape that it has in the whole chain") {
     Random random(3);
     const Structure structure = with_random_classes(random);
-    const Shapes whole = drawn(structure);
+    const Shapes shapes = drawn(structure);
     const Shapes first = drawn(structure, {}, [](AtomIndex atom) { return atom < 80; });
     const Shapes second = drawn(structure, {}, [](AtomIndex atom) { return atom >= 80; });
     CHECK(std::all_of(first.atoms.begin(), first.atoms.end(), [](AtomIndex i) { return i < 80; }));
     // Only the faces at the cut are new.
-    CHECK(first.count() + second.count() >= whole.count());
-    CHECK(first.count() + second.count() <= whole.count() + 200);
+    CHECK(first.count() + second.count() >= shapes.count());
+    CHECK(first.count() + second.count() <= shapes.count() + 200);
     CHECK(open_edges(first.triangles) <= 48 * first.spheres.size());
 }
 

@@ -55,7 +55,7 @@ inline void append_chain(scenes::Structure& structure, const std::vector<Backbon
     using namespace scenes;
     structure.of_kind = {{"N", 7}, {"C", 6}, {"O", 8}};
     structure.chains.push_back(name);
-    for (const BackbonePlaces& of : places) {
+    for (const BackbonePlaces& places_of_residue : places) {
         const auto number = static_cast<int>(structure.of_residue.size()) + 1;
         structure.of_residue.push_back(
             {.name = "ALA",
@@ -64,7 +64,7 @@ inline void append_chain(scenes::Structure& structure, const std::vector<Backbon
         constexpr const char* names[] = {"N", "CA", "C", "O"};
         constexpr std::uint16_t kinds[] = {0, 1, 1, 2};
         for (std::size_t k = 0; k < 4; ++k) {
-            structure.positions.push_back(core::convert<float>(of[k]));
+            structure.positions.push_back(core::convert<float>(places_of_residue[k]));
             structure.kinds.push_back(kinds[k]);
             structure.names.emplace_back(names[k]);
             structure.residues.push_back(
