@@ -61,16 +61,6 @@ CutPlane cut_plane_of(const std::string& option, const std::string& text) {
     return *plane;
 }
 
-std::pair<double, double> depths_of(const std::string& option, const std::string& text) {
-    for (const char separator : {':', ' '})
-        if (const std::vector<double> list = numbers_in(trimmed(text), separator);
-            list.size() == 2 && list[0] < list[1])
-            return {list[0], list[1]};
-    throw BadInput(option, "",
-                   "must be two depths in angstrom, the lesser one first, such as -2 2, got \"" +
-                       printable(text) + '"');
-}
-
 std::pair<double, double> range_along(const core::Vec3d& normal, const core::Bounds& bounds) {
     double least = 0.0, most = 0.0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -21,9 +21,6 @@ struct CutPlane {
 /// Parses "z<1.5", "x > 0" or "A,B,C,D", which keeps A x + B y + C z <= D. Throws BadInput.
 CutPlane cut_plane_of(const std::string& option, const std::string& text);
 
-/// Parses the depths of a slab, "A B" or "A:B", in angstrom. Throws BadInput.
-std::pair<double, double> depths_of(const std::string& option, const std::string& text);
-
 /// Returns the range of dot(normal, p) over a box.
 std::pair<double, double> range_along(const core::Vec3d& normal, const core::Bounds& bounds);
 

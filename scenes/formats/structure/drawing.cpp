@@ -98,8 +98,7 @@ class SceneFromAtoms {
         builder_.reserve(count_ * atoms_.images.size());
         add_layers();
         if (!atoms_.cuts.empty() && builder_.shape_count() == 0)
-            throw BadInput(drawing_.cuts.empty() ? "--slab" : "--cut", "",
-                           "must leave a part of the atoms, got none");
+            throw BadInput(emptying_option(), "", "must leave a part of the atoms, got none");
         find_places();
         find_atoms_in_chains();
         if (drawing_.show_cell) {
@@ -130,6 +129,23 @@ class SceneFromAtoms {
         }
         shared.add_to(builder_, atoms_.cuts, atoms_of_shape_);
         if (drawing_.hydrogen_bonds) add_hydrogen_bonds(atoms_, builder_, atoms_of_shape_);
+    }
+
+    /// Returns the option whose planes leave nothing, or both if neither does so alone.
+    std::string emptying_option() const {
+        if (!drawing_.slab) return "--cut";
+        const std::span<const CutPlane> cuts = atoms_.cuts;
+        const auto empties = [&](std::span<const CutPlane> planes) {
+            bool is_empty = true;
+            for (const AtomLayer& layer : layers_)
+                atoms_.for_each([&](AtomIndex atom, const Vec3f& at) {
+                    if (is_empty && layer.has(atoms_, atom))
+                        is_empty = !planes_through(core::Sphere{at, layer.radii.of(atom)}, planes);
+                });
+            return is_empty;
+        };
+        if (empties(cuts.last(2))) return "--slab";
+        return empties(cuts.first(drawing_.cuts.size())) ? "--cut" : "--cut and --slab";
     }
 
     double largest_radius() const {

@@ -104,7 +104,7 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
          [](Drawing& drawing, const std::string& option, const std::string& text) {
              drawing.cuts.push_back(cut_plane_of(option, text));
          }},
-        {"slab", setter_of(&Drawing::slab, depths_of)},
+        {"slab", setter_of(&Drawing::slab, range_of)},
         {"cell-edges", setter_of(&Drawing::show_cell, on_or_off_of)},
         {"cell", setter_of(&Drawing::show_cell, on_or_off_of)},
         {"axes", setter_of(&Drawing::show_axes, on_or_off_of)},
@@ -182,17 +182,41 @@ std::vector<std::pair<std::string_view, Finish>> named_finishes() {
             {"print", Finish::print}};
 }
 
+namespace {
+
+/// Returns a colour of three parts from 0 to 1, such as "0.1,0.2,0.3".
+std::optional<core::Color> color_of_parts(const std::string& text) {
+    const std::vector<std::string_view> parts = parts_of(text, ',');
+    if (parts.size() != 3) return std::nullopt;
+    core::Color color(0.0F);
+    for (int channel = 0; channel < 3; ++channel) {
+        const std::optional<float> part = to_float(parts[static_cast<std::size_t>(channel)]);
+        if (!part || !(*part >= 0.0F && *part <= 1.0F)) return std::nullopt;
+        color[channel] = *part;
+    }
+    return color;
+}
+
+} // namespace
+
 core::Color background_of(const std::string& option, const std::string& text,
                           const std::string& others) {
+    if (const std::optional<core::Color> parts = color_of_parts(text)) return *parts;
     const std::optional<std::uint32_t> code = color_named(text);
     if (!code)
         throw BadInput(option, "",
-                       "must be " + others + "a colour such as black or #204060, got \"" +
+                       "must be " + others +
+                           "a colour such as black, #204060 or 0.1,0.2,0.3, got \"" +
                            printable(text) + '"' + suggestion(text, color_names()));
     return core::color_from_srgb(*code);
 }
 
 std::optional<core::Vec3f> direction_in(const std::string& text) {
+    constexpr std::pair<const char*, core::Vec3f> axes[] = {{"x", {1, 0, 0}},   {"y", {0, 1, 0}},
+                                                            {"z", {0, 0, 1}},   {"-x", {-1, 0, 0}},
+                                                            {"-y", {0, -1, 0}}, {"-z", {0, 0, -1}}};
+    for (const auto& [name, axis] : axes)
+        if (text == name) return axis;
     const std::vector<std::string_view> parts = parts_of(text, ',');
     if (parts.size() != 3) return std::nullopt;
     core::Vec3f direction(0.0F);
@@ -213,12 +237,16 @@ core::NamedView view_named(const std::string& option, const std::string& text) {
         names.push_back(view.name);
         if (text == view.name) return view;
     }
+    // From the side opposite to x, y or z.
+    for (const core::NamedView& view : core::named_views())
+        if (view.name.size() == 1 && text == "-" + std::string(view.name))
+            return {"", -view.direction, view.up};
     const std::optional<core::Vec3f> direction = direction_in(text);
     if (!direction)
         throw BadInput(option, "",
                        "must be " + alternatives({names.begin(), names.end()}) +
-                           ", or a direction such as 1,-1,-0.5, got \"" + printable(text) + "\"" +
-                           suggestion(text, names));
+                           ", or a direction such as -y or 1,-1,-0.5, got \"" + printable(text) +
+                           "\"" + suggestion(text, names));
     return {"", *direction, core::upright(*direction)};
 }
 

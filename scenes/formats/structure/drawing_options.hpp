@@ -29,14 +29,14 @@ void set_option(Drawing& drawing, const std::string& name, const std::string& te
 std::vector<std::pair<std::string_view, std::string>> named_palettes();
 std::vector<std::pair<std::string_view, Finish>> named_finishes();
 
-/// A direction such as "1,-1,-0.5"; nothing if it is malformed or 0.
+/// A direction such as "1,-1,-0.5" or "-y"; nothing if it is malformed or 0.
 std::optional<core::Vec3f> direction_in(const std::string& text);
 /// Names of views that depend on the contents: the best one, and those along the edges of a cell.
 inline constexpr std::string_view later_views[] = {core::best_view_name, "a", "b", "c"};
-/// The name of a view, or a direction to look in, such as "1,-1,-0.5". later_views are returned
+/// The name of a view, or a direction to look in, such as "1,-1,-0.5" or "-y". later_views are returned
 /// without directions.
 core::NamedView view_named(const std::string& option, const std::string& text);
-/// A colour such as "black" or "#204060". `others`: words of other values, for messages.
+/// A colour such as "black" or "#204060", or linear red, green and blue such as "0.1,0.2,0.3". `others`: words of other values, for messages.
 core::Color background_of(const std::string& option, const std::string& text,
                           const std::string& others = "");
 

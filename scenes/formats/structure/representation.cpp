@@ -58,10 +58,10 @@ class WordList {
 
     /// Returns the part of the word behind "=", or the word if it has none.
     std::string_view value() const { return word_.substr(word_.find('=') + 1); }
-    /// Takes "A B" or "A:B".
+    /// Takes "A B", "A:B" or "A,B".
     std::pair<double, double> range() {
         const std::size_t start = position_ - word_.size();
-        const std::size_t colon = word_.find(':', 1);
+        const std::size_t colon = word_.find_first_of(":,", 1);
         if (colon != std::string_view::npos) { // splits the word
             word_ = word_.substr(0, colon);
             position_ = start + colon + 1;

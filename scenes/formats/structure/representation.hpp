@@ -104,7 +104,7 @@ SizeWords size_words_of(const std::string& option, const std::string& text);
 /// Returns the message for a KIND that no atom has.
 std::string matches_no_kind(const std::string& option, const std::string& kind);
 
-/// Parses "A B" or "A:B", two numbers of which the first is less. Throws BadInput.
+/// Parses "A B", "A:B" or "A,B", two numbers of which the first is less. Throws BadInput.
 std::pair<double, double> range_of(const std::string& option, const std::string& text);
 
 } // namespace raylane::scenes

@@ -87,6 +87,7 @@ TEST_CASE("a malformed cut is refused") {
     for (const std::string text : {"", "z", "w<1", "z<", "z<1,2", "1,2,3", "0,0,0,1", "z=1", "z<a"})
         CHECK_THROWS_AS(cut_plane_of("--cut", text), BadInput);
     for (const std::string text : {"", "1", "2 1", "1 1", "a b", "1:2:3"})
-        CHECK_THROWS_AS(depths_of("--slab", text), BadInput);
-    CHECK(depths_of("--slab", "-2:1") == std::pair(-2.0, 1.0));
+        CHECK_THROWS_AS(range_of("--slab", text), BadInput);
+    for (const std::string text : {"-2:1", "-2 1", "-2,1"})
+        CHECK(range_of("--slab", text) == std::pair(-2.0, 1.0));
 }
