@@ -33,10 +33,11 @@ std::vector<std::pair<std::string_view, Finish>> named_finishes();
 std::optional<core::Vec3f> direction_in(const std::string& text);
 /// Names of views that depend on the contents: the best one, and those along the edges of a cell.
 inline constexpr std::string_view later_views[] = {core::best_view_name, "a", "b", "c"};
-/// The name of a view, or a direction to look in, such as "1,-1,-0.5" or "-y". later_views are returned
-/// without directions.
+/// The name of a view, or a direction to look in, such as "1,-1,-0.5" or "-y". later_views are
+/// returned without directions.
 core::NamedView view_named(const std::string& option, const std::string& text);
-/// A colour such as "black" or "#204060", or linear red, green and blue such as "0.1,0.2,0.3". `others`: words of other values, for messages.
+/// A colour such as "black" or "#204060", or linear red, green and blue such as "0.1,0.2,0.3".
+/// `others`: words of other values, for messages.
 core::Color background_of(const std::string& option, const std::string& text,
                           const std::string& others = "");
 
