@@ -33,6 +33,39 @@ constexpr void transform(const Range& range, Out out, Function function) {
     std::transform(std::begin(range), std::end(range), out,
                    [&](const auto& each) { return std::invoke(function, each); });
 }
+template <class Range, class Out>
+constexpr void copy(const Range& range, Out out) {
+    std::copy(std::begin(range), std::end(range), out);
+}
+template <class Range, class Value>
+constexpr void fill(Range& range, const Value& value) {
+    std::fill(std::begin(range), std::end(range), value);
+}
+template <class Range, class Value, class Projection>
+constexpr auto find(Range&& range, const Value& value, Projection projection) {
+    return std::find_if(std::begin(range), std::end(range),
+                        [&](const auto& each) { return std::invoke(projection, each) == value; });
+}
+template <class Range, class Value, class Compare = std::less<>, class Projection>
+constexpr auto lower_bound(Range&& range, const Value& value, Compare compare,
+                           Projection projection) {
+    return std::lower_bound(std::begin(range), std::end(range), value,
+                            [&](const auto& each, const Value& bound) {
+                                return compare(std::invoke(projection, each), bound);
+                            });
+}
+template <class Range, class Compare = std::less<>, class Projection>
+constexpr void sort(Range& range, Compare compare, Projection projection) {
+    std::sort(std::begin(range), std::end(range), [&](const auto& a, const auto& b) {
+        return compare(std::invoke(projection, a), std::invoke(projection, b));
+    });
+}
+template <class Range, class Compare = std::less<>, class Projection>
+constexpr void stable_sort(Range& range, Compare compare, Projection projection) {
+    std::stable_sort(std::begin(range), std::end(range), [&](const auto& a, const auto& b) {
+        return compare(std::invoke(projection, a), std::invoke(projection, b));
+    });
+}
 } // namespace ranges
 #endif
 
