@@ -40,7 +40,8 @@ class CallerStream {
         }
         if (!(steps.turn <= max_turn * most)) {
             coherence.loose = coherence.scattered = true;
-            return count >= fewest_near && steps.near >= 0.1 * most;
+            return count >= fewest_near &&
+                   steps.move <= max_spread * static_cast<double>(radius) * most;
         }
         if (steps.turn == 0.0) {
             coherence.parallel = steps.is_near(radius, most);
@@ -111,8 +112,9 @@ class CallerStream {
     /// The same, of rays that have nothing in common but near origins.
     static constexpr std::size_t fewest_near = 128;
     /// Mean steps from one ray to the next that count as small: of directions, and of origins in
-    /// radii of the scene.
-    static constexpr double max_turn = 0.25, max_move = 0.05;
+    /// radii of the scene. max_spread: of origins, for rays that have nothing else in common. Those
+    /// of random rays are larger than 1.
+    static constexpr double max_turn = 0.25, max_move = 0.05, max_spread = 0.5;
 
     static std::size_t least(std::size_t a, std::size_t b) { return a < b ? a : b; }
 

@@ -34,7 +34,7 @@ struct TakenRays {
         }
     }
 
-    /// Returns false if the first `some` rays share no property.
+    /// Returns false if the first `ray_count` rays share no property.
     bool find(Isa isa, std::size_t ray_count, Coherence& coherence) {
         StreamRays rays{};
         rays.t_limit = t_limit.data();
@@ -59,17 +59,18 @@ TEST_CASE("rays from near origins are coherent, whatever their directions") {
     const auto near = [&](std::size_t i) {
         return i % 8 == 0 ? any() : Vec3d(0.5, 0.2, 0.1) + 0.001 * any();
     };
-    const auto in_pairs = [&](std::size_t each) { // of which one in `each` rays is near the last
-        return [&, each](std::size_t i) { return near(i % each < 2 ? 1 : 0); };
-    };
+    const auto near_thrice = [&](std::size_t i) { return near(i % 5 < 2 ? 0 : 1); };
+    // Steps of a third of the scene, as of rays off surfaces far apart from each other.
+    const auto spread = [&](std::size_t) { return 0.2 * any(); };
     const auto any_direction = [&](const Vec3d&) { return any(); };
     const auto to_light = [](const Vec3d& from) { return Vec3d(3.0, 4.0, 5.0) - from; };
     for (const Isa isa : available_isas()) {
         CAPTURE(std::string(name_of(isa)));
         Coherence coherence;
         CHECK_FALSE(TakenRays(anywhere, any_direction).find(isa, 1024, coherence));
-        CHECK_FALSE(TakenRays(in_pairs(16), any_direction).find(isa, 1024, coherence));
-        CHECK(TakenRays(in_pairs(8), any_direction).find(isa, 1024, coherence));
+        CHECK_FALSE(TakenRays(near_thrice, any_direction).find(isa, 1024, coherence));
+        REQUIRE(TakenRays(spread, any_direction).find(isa, 1024, coherence));
+        CHECK(coherence.scattered);
 
         TakenRays scattered(near, any_direction);
         REQUIRE(scattered.find(isa, 1024, coherence));
