@@ -45,7 +45,9 @@ EqualSpheres::EqualSpheres(std::size_t slots)
 void EqualSpheres::add(const Blocks<Sphere>& blocks, std::size_t first, std::size_t last,
                        const MaterialIndices& material_of, const Solids& solids) {
     // A number's place comes from a hash's upper bits, the number from the lower ones.
-    const auto place_of = [&](std::uint64_t hash) { return hash >> (64 - bits_); };
+    const auto place_of = [&](std::uint64_t hash) {
+        return static_cast<std::size_t>(hash >> (64 - bits_));
+    };
     BlockHashes next{};
     for (std::size_t index = first; index <= last; ++index) {
         const BlockHashes hashes = next;

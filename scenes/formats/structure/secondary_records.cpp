@@ -64,15 +64,14 @@ class MarkedResidues {
         }
         if (range.first.number > range.last.number) return;
         const std::string& chain = range.first.chain;
-        const auto bound = [&](const auto& bound_of, int number) {
-            return bound_of(by_number_, std::tie(chain, number), {},
-                            [&](std::uint32_t i) { return number_of(i); }) -
-                   by_number_.begin();
-        };
-        ++starts_by_number_[static_cast<std::size_t>(
-            bound(std::ranges::lower_bound, range.first.number))];
-        --starts_by_number_[static_cast<std::size_t>(
-            bound(std::ranges::upper_bound, range.last.number))];
+        const auto start = std::lower_bound(
+            by_number_.begin(), by_number_.end(), std::tie(chain, range.first.number),
+            [&](std::uint32_t i, const auto& number) { return number_of(i) < number; });
+        const auto end = std::upper_bound(
+            by_number_.begin(), by_number_.end(), std::tie(chain, range.last.number),
+            [&](const auto& number, std::uint32_t i) { return number < number_of(i); });
+        ++starts_by_number_[static_cast<std::size_t>(start - by_number_.begin())];
+        --starts_by_number_[static_cast<std::size_t>(end - by_number_.begin())];
     }
 
     /// Calls visit(index) for the residues in marked ranges, and removes the marks.

@@ -17,12 +17,13 @@ struct PackedSpheres {
                                               float (*to)[16]) {
         const PackedBlockView& block = packed.blocks[number];
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-            const BlockRows rows(packed, block, from);
+            const BlockRows spheres(packed, block, from);
             const F nan(__builtin_nanf(""));
             for (int axis = 0; axis < 3; ++axis)
-                select(rows.empty, nan, rows.coordinates(axis)).store_unaligned(to[axis] + from);
-            select(rows.empty, nan, rows.radii()).store_unaligned(to[3] + from);
-            select(rows.empty, rows.words, rows.ids()).store_unaligned(to[4] + from);
+                select(spheres.empty, nan, spheres.coordinates(axis))
+                    .store_unaligned(to[axis] + from);
+            select(spheres.empty, nan, spheres.radii()).store_unaligned(to[3] + from);
+            select(spheres.empty, spheres.words, spheres.ids()).store_unaligned(to[4] + from);
         }
         if (!is_of_steps(block)) [[unlikely]]
             copy_whole_rows(packed, block, to);
