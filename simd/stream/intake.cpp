@@ -113,8 +113,11 @@ RayStream<Real> StreamIntake::take(const RayStream<Real>& rays, std::size_t firs
 
 /// Returns true if the first rays share a property that makes them faster.
 bool StreamIntake::finds_coherence(std::size_t count) {
+    // Lists pay for wider rays if their order in flight waits for memory. Steps of random rays are
+    // 1.1 radii.
+    const float max_spread = scene_.is_large() ? 0.5F : 0.2F;
     if (tracing_.precision != core::Precision::exact ||
-        !kernels().find_coherence(count, taken_, scene_.radius(), in_common_))
+        !kernels().find_coherence(count, taken_, scene_.radius(), max_spread, in_common_))
         return false;
     constexpr std::size_t fewest_in_large = 512; // near origins alone do not pay for fewer rays
     return !in_common_.loose || !in_common_.scattered || !scene_.is_large() ||

@@ -95,9 +95,10 @@ struct StreamKernels {
     std::size_t (*take_doubles)(const RayStream<double>& rays, const StreamRays& taken);
 
     /// Finds a property that all of the first `count` rays share. Returns false if they share none.
-    /// `radius`: of the scene.
+    /// `radius`: of the scene. `max_spread`: mean step between origins that have nothing else in
+    /// common, in radii of the scene.
     bool (*find_coherence)(std::size_t count, const StreamRays& rays, float radius,
-                           Coherence& coherence);
+                           float max_spread, Coherence& coherence);
 
     /// Hands the hits that were found over to the caller, with t in the caller's units. Each list
     /// of `left` has capacity for as many lanes.

@@ -28,8 +28,9 @@ class CallerStream {
     /// Finds the common properties of rays. Rays through one point or in one direction are coherent
     /// if consecutive ones are near each other. Rays that end at one point are always coherent, as
     /// they are sorted later. Rays that are only near each other are loosely coherent.
+    /// `max_spread`: the mean step between their origins, in radii of the scene.
     static bool find_coherence(std::size_t count, const StreamRays& rays, float radius,
-                               Coherence& coherence) {
+                               float max_spread, Coherence& coherence) {
         coherence = {};
         if (count < fewest) return false;
         const Steps steps = steps_between(count, rays, max_move * static_cast<double>(radius));
@@ -40,8 +41,8 @@ class CallerStream {
         }
         if (!(steps.turn <= max_turn * most)) {
             coherence.loose = coherence.scattered = true;
-            return count >= fewest_near &&
-                   steps.move <= max_spread * static_cast<double>(radius) * most;
+            return count >= fewest_near && steps.move <= static_cast<double>(max_spread) *
+                                                             static_cast<double>(radius) * most;
         }
         if (steps.turn == 0.0) {
             coherence.parallel = steps.is_near(radius, most);
@@ -112,9 +113,8 @@ class CallerStream {
     /// The same, of rays that have nothing in common but near origins.
     static constexpr std::size_t fewest_near = 128;
     /// Mean steps from one ray to the next that count as small: of directions, and of origins in
-    /// radii of the scene. max_spread: of origins, for rays that have nothing else in common. Those
-    /// of random rays are larger than 1.
-    static constexpr double max_turn = 0.25, max_move = 0.05, max_spread = 0.5;
+    /// radii of the scene.
+    static constexpr double max_turn = 0.25, max_move = 0.05;
 
     static std::size_t least(std::size_t a, std::size_t b) { return a < b ? a : b; }
 

@@ -42,7 +42,7 @@ struct TakenRays {
             rays.origin[axis] = origin[axis].data();
             rays.direction[axis] = rays.exact_direction[axis] = direction[axis].data();
         }
-        return kernels_of(isa).stream.find_coherence(ray_count, rays, 1.0F, coherence);
+        return kernels_of(isa).stream.find_coherence(ray_count, rays, 1.0F, 0.5F, coherence);
     }
 };
 
