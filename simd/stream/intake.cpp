@@ -113,8 +113,8 @@ RayStream<Real> StreamIntake::take(const RayStream<Real>& rays, std::size_t firs
 
 /// Returns true if the first rays share a property that makes them faster.
 bool StreamIntake::finds_coherence(std::size_t count) {
-    // Lists pay for wider rays if their order in flight waits for memory. Steps of random rays are
-    // 1.1 radii.
+    // Rays in flight wait for memory in large scenes, so lists pay there for rays that are farther
+    // apart. Steps of random rays are 1.1 radii.
     const float max_spread = scene_.is_large() ? 0.5F : 0.2F;
     if (tracing_.precision != core::Precision::exact ||
         !kernels().find_coherence(count, taken_, scene_.radius(), max_spread, in_common_))

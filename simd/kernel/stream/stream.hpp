@@ -33,7 +33,8 @@ class CallerStream {
                                float max_spread, Coherence& coherence) {
         coherence = {};
         if (count < fewest) return false;
-        const Steps steps = steps_between(count, rays, max_move * static_cast<double>(radius));
+        const double short_move = max_move * static_cast<double>(radius);
+        const Steps steps = steps_between(count, rays, short_move);
         const double most = static_cast<double>(count - 1);
         if (ends_at_one_point(count, rays, coherence)) {
             coherence.scattered = steps.near < 0.5 * most;
@@ -41,11 +42,12 @@ class CallerStream {
         }
         if (!(steps.turn <= max_turn * most)) {
             coherence.loose = coherence.scattered = true;
-            return count >= fewest_near && steps.move <= static_cast<double>(max_spread) *
-                                                             static_cast<double>(radius) * most;
+            return count >= fewest_near &&
+                   steps.is_near(static_cast<double>(max_spread) * static_cast<double>(radius),
+                                 most);
         }
         if (steps.turn == 0.0) {
-            coherence.parallel = steps.is_near(radius, most);
+            coherence.parallel = steps.is_near(short_move, most);
             return coherence.parallel;
         }
         if (steps.move == 0.0) {
@@ -54,7 +56,7 @@ class CallerStream {
             return true;
         }
         coherence.loose = true;
-        return steps.is_near(radius, most);
+        return steps.is_near(short_move, most);
     }
 
     static void hand_over(const SceneView& scene, const UpperLimits& limits,
@@ -341,9 +343,8 @@ class CallerStream {
         double turn, move;
         double near; ///< number of short moves
 
-        bool is_near(float radius, double count) const {
-            return move <= max_move * static_cast<double>(radius) * count;
-        }
+        /// True if the mean move is at most `max_mean`.
+        bool is_near(double max_mean, double count) const { return move <= max_mean * count; }
     };
     static Steps steps_between(std::size_t count, const StreamRays& rays, double short_move) {
         Number turn = zero<D>(), move = zero<D>(), near = zero<D>();
