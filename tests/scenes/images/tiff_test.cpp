@@ -35,6 +35,23 @@ TEST_CASE("an output file without an encoder refuses the ending .tif") {
 
 #include <tiffio.h>
 
+namespace {
+
+/// Opens a file for an image of 8 bits in red, green and blue.
+TIFF* open_rgb(const std::string& name, const char* mode, int width, int height) {
+    TIFF* const tiff = TIFFOpen(name.c_str(), mode);
+    REQUIRE(tiff != nullptr);
+    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
+    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
+    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
+    TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
+    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+    TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+    return tiff;
+}
+
+} // namespace
+
 TEST_CASE("a TIFF is turned by its orientation") {
     const TemporaryDirectory directory;
     // Pixel k has the code k. The file's rows are 0 1 2 and 3 4 5.
@@ -43,14 +60,7 @@ TEST_CASE("a TIFF is turned by its orientation") {
                               {5, 2, 4, 1, 3, 0}, {2, 5, 1, 4, 0, 3}};
     for (int orientation = 1; orientation <= 8; ++orientation) {
         const std::string name = (directory.path() / "a.tif").string();
-        TIFF* const tiff = TIFFOpen(name.c_str(), "w");
-        REQUIRE(tiff != nullptr);
-        TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 3);
-        TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 2);
-        TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
-        TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
-        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
-        TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+        TIFF* const tiff = open_rgb(name, "w", 3, 2);
         TIFFSetField(tiff, TIFFTAG_ORIENTATION, orientation);
         for (std::uint32_t y = 0; y < 2; ++y) {
             std::uint8_t row[9];
@@ -133,14 +143,7 @@ namespace {
 std::string tiff_with(const TemporaryDirectory& directory, std::uint32_t tag, int value,
                       const char* mode = "w") {
     const std::string name = (directory.path() / "other.tif").string();
-    TIFF* const tiff = TIFFOpen(name.c_str(), mode);
-    REQUIRE(tiff != nullptr);
-    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 4);
-    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 3);
-    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
-    TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
-    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
-    TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+    TIFF* const tiff = open_rgb(name, mode, 4, 3);
     TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 3);
     if (tag != 0) TIFFSetField(tiff, tag, value);
     std::vector<std::uint8_t> row(64, 100);

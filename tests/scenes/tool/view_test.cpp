@@ -79,8 +79,9 @@ std::vector<std::uint8_t> pixels_of(const std::filesystem::path& ppm, std::size_
     return {content.end() - static_cast<std::ptrdiff_t>(count), content.end()};
 }
 
-Setup on_display(const std::string& name) {
+Setup on_display(const std::string& name, const std::filesystem::path& directory = ".") {
     Setup setup;
+    setup.directory = directory;
     setup.in_child = [name] {
         ::setenv("DISPLAY", name.c_str(), 1);
         ::setenv("SDL_VIDEODRIVER", "x11", 1);
@@ -115,11 +116,8 @@ TEST_CASE("a window shows the image of render and follows changes of the scene")
         WARN("skipped: Xvfb is missing");
         return;
     }
-    Process viewer({"view", "scene.json", "--size", "640x480"}, [&] {
-        Setup setup = on_display(display.name());
-        setup.directory = fixture.path();
-        return setup;
-    }());
+    Process viewer({"view", "scene.json", "--size", "640x480"},
+                   on_display(display.name(), fixture.path()));
     constexpr std::size_t size = std::size_t{3} * screen_width * screen_height;
     std::string scene = ball;
     for (const std::string color : {"[1, 0, 0]", "[0, 1, 0]"}) {
@@ -154,11 +152,7 @@ TEST_CASE("a window shows annotations over the image") {
         WARN("skipped: pango is missing");
         return;
     }
-    Process viewer(joined({"view"}, options), [&] {
-        Setup setup = on_display(display.name());
-        setup.directory = fixture.path();
-        return setup;
-    }());
+    Process viewer(joined({"view"}, options), on_display(display.name(), fixture.path()));
     const auto expected =
         pixels_of(fixture.output() / "a.ppm", std::size_t{3} * screen_width * screen_height);
     // The window blends codes, and files have rounded floats of them.
