@@ -3,6 +3,7 @@
 #include "scenes/files/errors.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/files/words.hpp"
+#include "scenes/formats/structure/drawing_options.hpp"
 #include "scenes/formats/structure/lines.hpp"
 
 #include <algorithm>
@@ -27,14 +28,23 @@ std::pair<std::string, std::string> two_parts(const std::string& option, const s
     refuse(option, must, text);
 }
 
-bool on_or_off_of(const std::string& option, const std::string& text) {
-    return choice_named<bool>(option, text, {{"on", true}, {"off", false}});
-}
-
 using Setter = std::function<void(Annotations&, const std::string&, const std::string&)>;
 
+/// Returns a setter that adds the words that `parse` reads to a list. `is_numbered`: messages name
+/// the option with the number of the words.
+template <class Words>
+Setter adder_to(std::vector<Words> Annotations::*list,
+                Words (*parse)(const std::string& option, const std::string& text),
+                bool is_numbered) {
+    return [=](Annotations& annotations, const std::string& option, const std::string& text) {
+        std::vector<Words>& words = annotations.*list;
+        words.push_back(
+            parse(is_numbered ? option + "/" + std::to_string(words.size()) : option, text));
+    };
+}
+
 const std::vector<std::pair<std::string_view, Setter>>& setters() {
-    static const std::vector<std::pair<std::string_view, Setter>> all = {
+    static const std::vector<std::pair<std::string_view, Setter>> known_setters = {
         {"legend",
          [](Annotations& a, const std::string& option, const std::string& text) {
              if (!on_or_off_of(option, text)) return;
@@ -56,24 +66,10 @@ const std::vector<std::pair<std::string_view, Setter>>& setters() {
              if (text != "off")
                  a.axes = choice_named(option, text == "on" ? "auto" : text, named_axes());
          }},
-        {"label",
-         [](Annotations& a, const std::string& option, const std::string& text) {
-             a.labels.push_back(label_words_of(option, text));
-         }},
-        {"labels",
-         [](Annotations& a, const std::string& option, const std::string& text) {
-             a.labels.push_back(
-                 label_words_of(option + "/" + std::to_string(a.labels.size()), text));
-         }},
-        {"distance",
-         [](Annotations& a, const std::string& option, const std::string& text) {
-             a.distances.push_back(distance_words_of(option, text));
-         }},
-        {"distances",
-         [](Annotations& a, const std::string& option, const std::string& text) {
-             a.distances.push_back(
-                 distance_words_of(option + "/" + std::to_string(a.distances.size()), text));
-         }},
+        {"label", adder_to(&Annotations::labels, label_words_of, false)},
+        {"labels", adder_to(&Annotations::labels, label_words_of, true)},
+        {"distance", adder_to(&Annotations::distances, distance_words_of, false)},
+        {"distances", adder_to(&Annotations::distances, distance_words_of, true)},
         {"font",
          [](Annotations& a, const std::string&, const std::string& text) { a.font = text; }},
         {"font-size",
@@ -84,7 +80,7 @@ const std::vector<std::pair<std::string_view, Setter>>& setters() {
              a.font_size = pixels_of_points(static_cast<double>(size), 0.0);
          }},
     };
-    return all;
+    return known_setters;
 }
 
 } // namespace

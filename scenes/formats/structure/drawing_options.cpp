@@ -12,6 +12,10 @@
 
 namespace raylane::scenes {
 
+bool on_or_off_of(const std::string& option, const std::string& text) {
+    return choice_named<bool>(option, text, {{"on", true}, {"off", false}});
+}
+
 namespace {
 
 using SetOption =
@@ -30,9 +34,6 @@ SetOption setter_of(T Drawing::*member, const Parse& parse) {
     return [=](Drawing& drawing, const std::string& option, const std::string& text) {
         drawing.*member = parse(option, text);
     };
-}
-bool on_or_off_of(const std::string& option, const std::string& text) {
-    return choice_named<bool>(option, text, {{"on", true}, {"off", false}});
 }
 SetOption setter_of_ellipsoids(Ellipsoids look) {
     return [=](Drawing& drawing, const std::string& option, const std::string& text) {

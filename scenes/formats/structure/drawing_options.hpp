@@ -25,6 +25,8 @@ Drawing drawing_with(const DrawingOptions& options);
 /// Sets one option of a drawing. Throws BadInput in the same cases.
 void set_option(Drawing& drawing, const std::string& name, const std::string& text);
 
+/// The value of a flag. Throws BadInput.
+bool on_or_off_of(const std::string& option, const std::string& text);
 /// The names of the palettes and of the finishes, each with its value.
 std::vector<std::pair<std::string_view, std::string>> named_palettes();
 std::vector<std::pair<std::string_view, Finish>> named_finishes();
