@@ -3,7 +3,7 @@
 # `step SECONDS NAME` begins a step and ends the previous one; `step` alone ends the last one. A step that
 # fails ends the run at once. A step that took more than twice its budget fails the run at its end: budgets
 # are for two idle cores without a compiler cache (in the bare root: with one), and other machines differ. A step
-# that has called `skipped` is marked.
+# that has called `skipped` is marked. After `fails`, the run goes on, and fails at its end.
 
 cd "$(dirname "$0")/.."
 steps=$(mktemp)
@@ -17,24 +17,27 @@ step() {
         took=$((now - began))
         late=
         [ "$took" -le $((2 * budget)) ] || late="  more than twice its budget"
-        printf '%5d s of %5d  %s%s%s\n' "$took" "$budget" "$name" "$skipped" "$late" | tee -a "$steps"
+        printf '%5d s of %5d  %s%s%s\n' "$took" "$budget" "$name" "$(cat "$results/mark")" "$late" | tee -a "$steps"
     fi
     if [ $# -eq 0 ]; then
         total=$(($(date +%s) - started))
         printf '\n'
         cat "$steps"
         printf '%5d s in all\n' "$total"
-        ! grep -q 'more than twice its budget$' "$steps" || exit 1
+        ! grep -q '  \(failed\|more than twice its budget\)$' "$steps" || exit 1
         return
     fi
     budget=$1
     name=$2
     began=$now
-    skipped=
+    : >"$results/mark"
     printf '\n== %s\n' "$name"
 }
 skipped() { # why
-    skipped="  skipped: $1"
+    printf '  skipped: %s' "$1" >"$results/mark"
+}
+fails() {
+    printf '  failed' >>"$results/mark"
 }
 may_skip() { # command...: exit code 77 if it cannot run here
     "$@" || { [ $? -eq 77 ] && skipped "it cannot run here"; }

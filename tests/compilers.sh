@@ -7,13 +7,16 @@
 #   tests/compilers.sh clang++-19/23 ...      these compilers, each with its standard
 #   FILES='scenes/*' tests/compilers.sh       these sources only
 #   TESTS=ON tests/compilers.sh               tests, too
+#   STANDARDS=23 tests/compilers.sh           one standard
 set -eu
 cd "$(dirname "$0")/.."
 
 if [ $# -eq 0 ]; then
     for compiler in g++-12 g++-13 g++-14 g++-15 clang++-14 clang++-15 clang++-16 clang++-17 clang++-18 clang++-19; do
         command -v "$compiler" >/dev/null || continue
-        set -- "$@" "$compiler/20" "$compiler/23"
+        for standard in ${STANDARDS-20 23}; do
+            set -- "$@" "$compiler/$standard"
+        done
     done
 fi
 [ $# -gt 0 ] || { echo "no compiler of the list is here"; exit 1; }
