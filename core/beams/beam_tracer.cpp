@@ -36,9 +36,10 @@ double width_of(const EllipsoidOf<double>& ellipsoid) {
     return 2.0 *
            std::min({length(ellipsoid.axis_u), length(ellipsoid.axis_v), length(ellipsoid.axis_w)});
 }
+// The middle one of three sides, as a quadric may be flat: a face of a solid.
 double width_of(const QuadricOf<double>& quadric) {
     const Vec3d size = quadric.upper - quadric.lower;
-    return std::min({size.x, size.y, size.z});
+    return std::max(std::min(size.x, size.y), std::min(std::max(size.x, size.y), size.z));
 }
 
 } // namespace

@@ -118,6 +118,22 @@ TEST_CASE("a beam recognises hidden shapes and thin shapes") {
     CHECK(asked == std::vector<ShapeId>{speck});
 }
 
+TEST_CASE("a flat face of a solid is not thin") {
+    Builder builder;
+    builder.settings.width = builder.settings.height = 16;
+    builder.settings.quality = 40.0F;
+    builder.camera.from = {0, 0, 10};
+    builder.camera.field_of_view = 20.0F;
+    const MaterialIndex grey = builder.add_material(matte(0.5F));
+    Solid half{Made::by_intersection};
+    half.parts = {of_shape(SphereOf<double>{{0, 0, 0}, 1}),
+                  of_shape(PlaneOf<double>{{0, 0, 0.5}, {0, 0, 1}})};
+    builder.add_solid(half, grey);
+    const Scene scene = builder.finish();
+    BeamTracer beams(scene, scene.settings());
+    CHECK_FALSE(beams.shows_thin({7, 8, 1}));
+}
+
 TEST_CASE("sampling stops at a speck that is too small to matter") {
     Builder builder;
     builder.settings.width = builder.settings.height = 16;
