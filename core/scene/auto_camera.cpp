@@ -35,6 +35,44 @@ void include_shape(const Shape& shape, Frame& frame) {
     }
 }
 
+/// Returns true if a solid is a union, or what at most three half-spaces, which enclose nothing,
+/// leave of one. Every extreme point of such a solid is on a part that rays cross.
+bool is_union_in_open_space(const Solids& solids, Solids::Index root) {
+    int intersections = 0, planes = 0;
+    for (Solids::Index index = root; index < solids.node(root).end; ++index) {
+        const Solids::Node& node = solids.node(index);
+        if (node.op == Solids::Op::all)
+            ++intersections;
+        else if (node.flat || node.kind == Kind::plane)
+            ++planes;
+        else if (node.reversed)
+            return false;
+    }
+    return intersections == 0 ||
+           (intersections == 1 && solids.node(root).op == Solids::Op::all && planes <= 3);
+}
+
+/// Finds bounded parts that contain a solid together, and sets them in `contain`. Returns whether
+/// there are any. `skips_hidden`: parts that rays do not cross do not matter.
+bool find_containing(const Solids& solids, Solids::Index index, bool skips_hidden,
+                     std::vector<char>& contain) {
+    const Solids::Node& node = solids.node(index);
+    if (node.op == Solids::Op::part) {
+        const bool is_bounded = !node.reversed && !node.flat && node.kind != Kind::plane &&
+                                node.kind != Kind::quadric && node.shape != no_shape;
+        contain[index] = is_bounded && node.traced ? 1 : 0;
+        return is_bounded && (node.traced || skips_hidden);
+    }
+    const bool is_union = node.op == Solids::Op::any;
+    bool is_contained = is_union;
+    solids.each_child(index, [&](Solids::Index child) {
+        is_contained = find_containing(solids, child, skips_hidden, contain);
+        return is_contained == is_union;
+    });
+    if (!is_contained) std::fill(contain.begin() + index, contain.begin() + node.end, 0);
+    return is_contained;
+}
+
 /// Returns the middle of all bounded shapes.
 Vec3d center_of(const Scene& scene) {
     Bounds scene_bounds;
@@ -94,20 +132,20 @@ Frame empty_frame(const Scene& scene, const AutoCamera& auto_camera, const Setti
 
 void include_shapes(const Scene& scene, Frame& frame) {
     const Solids& solids = scene.solids();
-    // All parts of a solid that is a mere union are visible as they are.
-    std::vector<char> is_whole(solids.nodes().size());
-    for (Solids::Index root = 0; root < is_whole.size(); root = solids.node(root).end) {
-        const auto parts = solids.nodes().subspan(root, solids.node(root).end - root);
-        if (std::none_of(parts.begin(), parts.end(), [](const Solids::Node& node) {
-                return node.op == Solids::Op::all || node.reversed;
-            }))
-            std::fill_n(is_whole.begin() + root, parts.size(), 1);
-        else
-            frame.include(solids.bounds(root));
+    Frame boxes = frame.cleared(), parts = frame.cleared();
+    std::vector<char> contain(solids.nodes().size());
+    for (Solids::Index root = 0; root < contain.size(); root = solids.node(root).end) {
+        boxes.include(solids.bounds(root));
+        if (!find_containing(solids, root, is_union_in_open_space(solids, root), contain))
+            parts.include(solids.bounds(root));
     }
     for_each_bounded_shape(scene, [&](const auto& shape, ShapeId id) {
-        if (!solids.has(id) || is_whole[solids.part_of(id)] != 0) include_shape(shape, frame);
+        if (!solids.has(id))
+            include_shape(shape, frame);
+        else if (contain[solids.part_of(id)] != 0)
+            include_shape(shape, parts);
     });
+    if (!boxes.empty() && !parts.empty()) frame.include_common(boxes, parts);
 }
 
 View staged(const Scene& scene, const AutoCamera& auto_camera, const Frame& frame) {

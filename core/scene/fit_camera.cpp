@@ -109,6 +109,28 @@ void Frame::include(const Bounds& bounds) {
     }
 }
 
+Frame Frame::cleared() const {
+    Frame frame = *this;
+    for (Reach* const reach :
+         {&frame.reach_[0], &frame.reach_[1], &frame.along_, &frame.extent_[0], &frame.extent_[1]})
+        *reach = {};
+    frame.empty_ = true;
+    return frame;
+}
+
+void Frame::include_common(const Frame& a, const Frame& b) {
+    empty_ = false;
+    const auto include = [](Reach& to, const Reach& of_a, const Reach& of_b) {
+        to.positive = std::max(to.positive, std::min(of_a.positive, of_b.positive));
+        to.negative = std::max(to.negative, std::min(of_a.negative, of_b.negative));
+    };
+    include(along_, a.along_, b.along_);
+    for (int i = 0; i < 2; ++i) {
+        include(reach_[i], a.reach_[i], b.reach_[i]);
+        include(extent_[i], a.extent_[i], b.extent_[i]);
+    }
+}
+
 Camera Frame::camera() const {
     Camera camera{.projection = fit_camera_.projection,
                   .up = convert<float>(up_),

@@ -49,6 +49,11 @@ class Frame {
     void include(const Bounds& bounds);
     bool empty() const { return empty_; }
 
+    /// Returns the frame without contents.
+    Frame cleared() const;
+    /// Includes contents of which each of two frames, which are not empty, contains all.
+    void include_common(const Frame& a, const Frame& b);
+
     /// Returns the camera that sees all contents as large as possible. Without contents, it looks
     /// at the origin.
     Camera camera() const;

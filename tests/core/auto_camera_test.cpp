@@ -117,6 +117,30 @@ TEST_CASE("an orbiting camera keeps its target and height and sees all balls") {
     CHECK(same(turned(front, {0, 3, 0}, 180.0).camera.from, {0, 0, -5}));
 }
 
+TEST_CASE("a cut union is as wide in the frame as its parts") {
+    const FitCamera tilted{.direction = {-1, -1, -1}};
+    const auto frame_of = [&](bool is_cut) {
+        SceneBuilder builder;
+        const MaterialIndex material = builder.add_material({});
+        Solid balls{.made = Made::by_union};
+        for (int i = 0; i < 20; ++i)
+            balls.parts.push_back(
+                {.shape = SphereOf<double>{{0.1 * i - 1.0, 1.0 - 0.1 * i, 0}, 1}});
+        Solid solid = balls;
+        if (is_cut)
+            solid = {.made = Made::by_intersection,
+                     .parts = {balls, {.shape = PlaneOf<double>{{0, 0, 0}, {1, 1, 1}}}}};
+        builder.add_solid(solid, material);
+        builder.auto_camera = {.fit_camera = tilted, .lights = true};
+        const Scene scene = std::move(builder).build();
+        Frame frame(tilted, 1.0);
+        include_shapes(scene, frame);
+        return frame;
+    };
+    const Frame whole = frame_of(false), cut = frame_of(true);
+    CHECK(cut.width() == Approx(whole.width()));
+}
+
 TEST_CASE("solids of solids are framed as wholes and discs as discs") {
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
