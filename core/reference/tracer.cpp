@@ -241,7 +241,7 @@ Vec3<Real> ReferenceTracer<Real>::own_color(const Surface& surface) const {
     const Hit<Real>& hit = surface.hit;
     const SurfacePlace place{hit.shape, hit.kind, hit.place, hit.face,
                              convert<double>(surface.point)};
-    if (pattern.kind == PatternKind::image) return convert<Real>(image_at(scene_, pattern, place));
+    if (pattern.is_on_surface()) return convert<Real>(color_on(scene_, pattern, place));
     const PatternPlace at = place_in_pattern(scene_, pattern, place);
     return color_at(pattern, convert<Real>(at.point), at.on_shape);
 }

@@ -6,7 +6,15 @@
 /// one of them has no default, so that a new enumerator does not compile until it is implemented.
 namespace raylane::core {
 
-enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, formula, image };
+enum class PatternKind : std::uint8_t {
+    solid,
+    checker,
+    stripes,
+    gradient,
+    formula,
+    image,
+    cutaway, ///< the colour of the part that a face of a solid cuts
+};
 
 /// Coordinates of the points of a pattern.
 enum class PatternSpace : std::uint8_t {

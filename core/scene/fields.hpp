@@ -19,8 +19,8 @@ namespace raylane::core::fields {
 /// The words of an enumeration, as in JSON. Python has _ in place of -.
 using Words = std::span<const char* const>;
 
-inline constexpr const char* pattern_words[] = {"solid",    "checker", "stripes",
-                                                "gradient", "formula", "image"};
+inline constexpr const char* pattern_words[] = {"solid",   "checker", "stripes", "gradient",
+                                                "formula", "image",   "cutaway"};
 inline constexpr const char* space_words[] = {"world", "object"};
 inline constexpr const char* wrap_words[] = {"repeat", "clamp"};
 inline constexpr const char* reflection_words[] = {"constant", "schlick", "dielectric"};

@@ -46,11 +46,17 @@ struct Pattern {
     /// Returns true if the pattern follows transforms of its objects.
     bool follows_objects() const {
         return kind == PatternKind::image ||
-               (kind != PatternKind::solid && space == PatternSpace::object);
+               (kind != PatternKind::solid && kind != PatternKind::cutaway &&
+                space == PatternSpace::object);
+    }
+    /// Returns true if color_on() finds the colour.
+    bool is_on_surface() const {
+        return kind == PatternKind::image || kind == PatternKind::cutaway;
     }
     /// Returns true if the colour depends on more than the point in space.
     bool needs_shape() const {
-        return follows_objects() || (kind == PatternKind::formula && formula.program().needs_shape);
+        return is_on_surface() || follows_objects() ||
+               (kind == PatternKind::formula && formula.program().needs_shape);
     }
 };
 

@@ -42,7 +42,8 @@ Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point,
                      second = convert<Real>(pattern.colors[1]);
     switch (pattern.kind) {
     case PatternKind::solid:
-    case PatternKind::image: // see color_in_image()
+    case PatternKind::image: // see color_on()
+    case PatternKind::cutaway:
         break;
     case PatternKind::checker: {
         int sum = 0;

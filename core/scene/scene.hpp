@@ -197,6 +197,7 @@ class SceneBuilder {
 
     /// Adds a material and returns the index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);
+    const Material& material(MaterialIndex index) const { return scene_.materials_[index]; }
     /// Throws InvalidValue, field "material", unless add_material returned this index.
     void require_material(MaterialIndex material) const;
     /// Adds a material that stands for one that renumber_materials() puts in its place.

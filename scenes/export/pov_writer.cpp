@@ -292,8 +292,11 @@ class PovWriter {
         switch (pattern.kind) {
         case core::PatternKind::formula:
         case core::PatternKind::image:
+        case core::PatternKind::cutaway:
             differences_.insert(pattern.kind == core::PatternKind::image ? "images on surfaces"
-                                                                         : "formula patterns");
+                                : pattern.kind == core::PatternKind::formula
+                                    ? "formula patterns"
+                                    : "which of several parts colors a cut");
             [[fallthrough]];
         case core::PatternKind::solid:
             color(pattern.colors[0]);
@@ -504,8 +507,16 @@ class PovWriter {
             write_solid(solid.parts[i], transparent || clips);
             if (clips && i != 0) file_ << " }";
         }
-        if (solid.material != core::no_material) write_use(solid.material);
+        if (!is_cutaway(solid.material)) {
+            if (solid.material != core::no_material) write_use(solid.material);
+        } else if (!solid.parts.empty()) {
+            file_ << " cutaway_textures"; // POV-Ray mixes those of several parts around a point
+        }
         file_ << " }";
+    }
+    bool is_cutaway(core::MaterialIndex material) const {
+        return material != core::no_material &&
+               scene_.materials()[material].pattern.kind == core::PatternKind::cutaway;
     }
 
     TextFile& file_;

@@ -61,8 +61,8 @@ MaterialView view_of(const core::Material& material) {
     view.axes = pattern.axes;
     view.size = static_cast<double>(pattern.size);
     if (pattern.kind == core::PatternKind::formula) view.formula = &pattern.formula.program();
-    view.has_image = pattern.kind == core::PatternKind::image;
-    view.in_object_space = pattern.follows_objects() && !view.has_image;
+    view.is_on_surface = pattern.is_on_surface();
+    view.in_object_space = pattern.follows_objects() && !view.is_on_surface;
     const core::Vec3d direction = core::normalized(core::convert<double>(pattern.direction));
     const core::Vec3d run = core::convert<double>(pattern.to) - core::convert<double>(pattern.from);
     for (int axis = 0; axis < 3; ++axis) {

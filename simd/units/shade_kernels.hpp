@@ -27,7 +27,7 @@ struct MaterialView {
     double run[3];       ///< gradient: from `from` to `to`, divided by its squared length
     const core::FormulaProgram* formula; ///< null for other patterns
     bool in_object_space;                ///< the pattern's points are HitPaths::pattern
-    bool has_image;                      ///< the colours are HitPaths::pattern
+    bool is_on_surface;                  ///< the colours are HitPaths::pattern
 };
 
 struct LightView {

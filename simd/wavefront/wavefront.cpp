@@ -4,7 +4,7 @@
 #include "core/optics/fog.hpp"
 #include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
-#include "core/scene/pattern_place.hpp"
+#include "core/reference/surface_color.hpp"
 #include "simd/query/as_core.hpp"
 #include "simd/wavefront/camera_view.hpp"
 #include "simd/wavefront/coherence.hpp"
@@ -325,8 +325,8 @@ void Wavefront::fill_patterns(HitPaths& hit_paths) {
                 shape.id, shape.kind, scene_.place_of(slot),
                 static_cast<core::Face>(hit_paths.hit[lane] & hit_face), point};
             core::PatternPlace at{};
-            if (pattern.kind == core::PatternKind::image)
-                at.point = core::image_at(scene_.scene(), pattern, surface);
+            if (pattern.is_on_surface())
+                at.point = core::color_on(scene_.scene(), pattern, surface);
             else
                 at = core::place_in_pattern(scene_.scene(), pattern, surface);
             for (int axis = 0; axis < 3; ++axis)

@@ -114,6 +114,21 @@ def test_images_on_surfaces(tmp_path):
         color_on_wall(raylane.Material(color=raylane.Pattern("image")))
 
 
+def test_faces_of_cuts_have_the_colours_of_the_parts():
+    def color_of_face(pattern):
+        builder = raylane.SceneBuilder()
+        red = builder.add_material(raylane.Material(color=(1, 0, 0), ambient=1, diffuse=0))
+        face = builder.add_material(raylane.Material(color=pattern, ambient=1, diffuse=0))
+        ball = raylane.Solid.sphere((0, 0, 0), 1, material=red)
+        builder.add_solid(ball & raylane.Solid.half_space((0, 0, 0.5), (0, 0, 1), material=face))
+        builder.add_light(position=(0, 0, 9))
+        builder.camera = raylane.Camera(position=(0, 0, 5))
+        return builder.build().render(width=1, height=1).rgb[0, 0]
+
+    assert color_of_face((0, 0, 1)) == pytest.approx([0, 0, 1])
+    assert color_of_face(raylane.Pattern("cutaway")) == pytest.approx([1, 0, 0])
+
+
 def test_patterns_follow_groups_and_copies():
     def image(add):
         builder = raylane.SceneBuilder()

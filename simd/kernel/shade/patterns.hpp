@@ -54,6 +54,7 @@ struct Patterns {
         }
         case core::PatternKind::formula: // see Formulas
         case core::PatternKind::image:   // see HitPaths::pattern
+        case core::PatternKind::cutaway:
             return first;
         }
         __builtin_unreachable();

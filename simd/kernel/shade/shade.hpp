@@ -85,7 +85,7 @@ struct Shading {
     static V own_color(const MaterialView& material, const Gather& gather, const HitPaths& paths,
                        const V& point, const Surfaces& surfaces, std::size_t i) {
         if (material.formula != nullptr) return load(surfaces.own, i);
-        if (material.has_image) return gather(paths.pattern);
+        if (material.is_on_surface) return gather(paths.pattern);
         const V at = material.in_object_space ? gather(paths.pattern) : point;
         return Patterns<Arch>::color_at(material, at);
     }

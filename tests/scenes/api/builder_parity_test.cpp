@@ -380,27 +380,27 @@ Case glasses() {
 }
 
 Case looks() {
-    return {"looks",
-            spheres_of({R"({"color": "#ff8000", "ambient": 0.2, "diffuse": 0.7, "specular": 0.3,
+    return {
+        "looks",
+        spheres_of({R"({"color": "#ff8000", "ambient": 0.2, "diffuse": 0.7, "specular": 0.3,
                          "exponent": 20, "reflectivity": 0.2, "opacity": 0.5})",
-                        R"({"reflection": "schlick", "transmission": 0.9, "index": 1.3,
+                    R"({"reflection": "schlick", "transmission": 0.9, "index": 1.3,
                          "absorption": [0.1, 0.2, 0.3]})",
-                        R"({"reflection": "dielectric", "visible": "outside"})",
-                        R"({"visible": "inside"})", R"({"visible": "both", "highlight": "blinn"})",
-                        R"({"pattern": {"type": "checker", "colors": ["#000000", "#ffffff"],
+                    R"({"reflection": "dielectric", "visible": "outside"})",
+                    R"({"visible": "inside"})", R"({"visible": "both", "highlight": "blinn"})",
+                    R"({"pattern": {"type": "checker", "colors": ["#000000", "#ffffff"],
                          "size": 0.3, "axes": "xyz", "upper_edges": "y"}})",
-                        R"({"pattern": {"type": "stripes", "colors": [[0, 0, 0], [1, 1, 1]],
+                    R"({"pattern": {"type": "stripes", "colors": [[0, 0, 0], [1, 1, 1]],
                          "width": 0.2, "direction": [1, 1, 0]}})",
-                        R"({"pattern": {"type": "gradient", "colors": [[0, 0, 0], [1, 1, 1]],
+                    R"({"pattern": {"type": "gradient", "colors": [[0, 0, 0], [1, 1, 1]],
                          "from": [0, -1, 0], "to": [0, 1, 0]}})",
-                        R"({"pattern": {"type": "formula", "color": ["x > 0 ? u : v", "y * y", 0.5],
+                    R"({"pattern": {"type": "formula", "color": ["x > 0 ? u : v", "y * y", 0.5],
                          "translate": [1, 0, 0]}})",
-                        R"({"pattern": {"type": "back-plane"}})",
-                        R"({"specular": 0.5, "highlight": "phong"})"}),
-            [](SceneBuilder& to) {
-                const Color black{}, white{1, 1, 1};
-                add_spheres(to,
-                            {{.pattern = {.colors = {color_from_srgb("#ff8000")}},
+                    R"({"pattern": {"type": "back-plane"}})", R"({"pattern": {"type": "cutaway"}})",
+                    R"({"specular": 0.5, "highlight": "phong"})"}),
+        [](SceneBuilder& to) {
+            const Color black{}, white{1, 1, 1};
+            add_spheres(to, {{.pattern = {.colors = {color_from_srgb("#ff8000")}},
                               .ambient = 0.2F,
                               .diffuse = 0.7F,
                               .specular = 0.3F,
@@ -435,8 +435,9 @@ Case looks() {
                                                       "abs(sin(sqrt(y)))",
                                                       "x^2 + y^2 < 150 ? 0 : "
                                                       "abs(cos(y < 0 ? y : sqrt(y)))"}}},
+                             {.pattern = {.kind = PatternKind::cutaway}},
                              {.specular = 0.5F, .highlight = Highlight::phong}});
-            }};
+        }};
 }
 
 Case patterns_on_objects() {

@@ -204,6 +204,7 @@ TEST_CASE("each enumerator of the library equals core's of that name") {
     CHECK(same(PatternKind::gradient, core::PatternKind::gradient));
     CHECK(same(PatternKind::formula, core::PatternKind::formula));
     CHECK(same(PatternKind::image, core::PatternKind::image));
+    CHECK(same(PatternKind::cutaway, core::PatternKind::cutaway));
     CHECK(same(PatternSpace::object, core::PatternSpace::object));
     CHECK(same(ImageWrap::clamp, core::ImageWrap::clamp));
     CHECK(same(Highlight::phong, core::Highlight::phong));

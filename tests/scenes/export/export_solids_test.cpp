@@ -136,6 +136,17 @@ TEST_CASE("transparent unions are merges without inner walls in POV-Ray") {
     }
 }
 
+TEST_CASE("faces of cuts have the textures of the parts in POV-Ray") {
+    const std::string text =
+        for_povray(R"("clay": {}, "m": {}, "face": {"pattern": {"type": "cutaway"}})",
+                   R"({"type": "intersection", "material": "face", "objects": [
+                       {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"},
+                       {"type": "plane", "point": [0, 0, 0.5], "normal": [0, 0, 1],
+                        "material": "face"}]})")
+            .second;
+    CHECK(text.find(" cutaway_textures }") != std::string::npos);
+}
+
 TEST_CASE("fog fills panes and no glass for POV-Ray") {
     const auto fills = [](const std::string& material, const std::string& objects) {
         return for_povray(R"("clay": {}, "m": )" + material +

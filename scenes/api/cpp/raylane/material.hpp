@@ -20,7 +20,15 @@ struct Internals;
 
 namespace RAYLANE_API raylane {
 
-enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, formula, image };
+enum class PatternKind : std::uint8_t {
+    solid,
+    checker,
+    stripes,
+    gradient,
+    formula,
+    image,
+    cutaway, ///< on a face that cuts a solid, the colour of the part that it cuts there
+};
 
 /// Coordinates of the points of a pattern.
 enum class PatternSpace : std::uint8_t {
@@ -76,10 +84,14 @@ struct ChannelTexts {
     friend bool operator==(const ChannelTexts&, const ChannelTexts&) = default;
 };
 
-/// Colour as a function of the point in space, or an image on the surface.
+/// Colour as a function of the point in space, an image on the surface, or, for a part that cuts
+/// others of its solid, their colours. Where several are around a point, it is the sphere or capped
+/// cylinder with the smallest power (squared distance from the centre or the axis minus squared
+/// radius), and the first one of equals. A part whose colour depends on more than the point counts
+/// with the first of `colors`.
 struct Pattern {
     PatternKind kind = PatternKind::solid;
-    /// >= 0. solid: the first colour only. checker, stripes: alternating, with the first colour in
+    /// >= 0. solid, cutaway: the first colour only. checker, stripes: alternating, with the first colour in
     /// the cell that begins at the origin. gradient: the colours at `from` and at `to`. Others:
     /// unused.
     Color colors[2] = {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}};

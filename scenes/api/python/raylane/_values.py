@@ -31,9 +31,11 @@ _BLACK: Vector = (0.0, 0.0, 0.0)
 
 @dataclass
 class Pattern(Fields):
-    """A colour as a function of the point in space, or an image on the surface."""
+    """A colour as a function of the point in space, an image on the surface, or the colours of what a face cuts."""
 
-    kind: Literal["solid", "checker", "stripes", "gradient", "formula", "image"] = "solid"
+    kind: Literal["solid", "checker", "stripes", "gradient", "formula", "image", "cutaway"] = "solid"
+    """cutaway: on a face that cuts a solid, the colour of the part that it cuts there; of several, of the sphere or capped
+    cylinder with the smallest power (squared distance from the centre or the axis minus squared radius)."""
     colors: Tuple[Color, Color] = (_WHITE, _WHITE)
     """Linear RGB, >= 0. solid: the first only. checker, stripes: alternating. gradient: at ``start`` and at ``end``."""
     size: float = 1.0

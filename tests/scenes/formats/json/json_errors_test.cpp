@@ -240,7 +240,7 @@ TEST_CASE("unknown words are reported with the known ones") {
         {with(R"("lights": [{"type": "sun"}])"),
          R"(/lights/0/type: must be "point", "directional", "sky", "sphere", "disc", "rectangle" or "camera", got "sun")"},
         {pattern(R"("type": "chekcer")"),
-         R"(/materials/a~1b~0/pattern/type: must be "checker", "stripes", "gradient", "formula", "image" or "back-plane", got "chekcer", did you mean "checker"?)"},
+         R"(/materials/a~1b~0/pattern/type: must be "checker", "stripes", "gradient", "formula", "image", "cutaway" or "back-plane", got "chekcer", did you mean "checker"?)"},
         {pattern(R"("type": "checker", "colors": ["#000000", "#ffffff"], "size": 1, "axes": "zx")"),
          R"(/materials/a~1b~0/pattern/axes: must be "x", "y", "z", "xy", "xz", "yz" or "xyz", got "zx", did you mean "x"?)"},
         {material(R"("reflection": "constant")"),
