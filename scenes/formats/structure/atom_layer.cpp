@@ -23,11 +23,9 @@ constexpr float share_of_stick = 0.55F; // of each of several
 class LayerShapes {
   public:
     LayerShapes(const DrawnAtoms& atoms, const AtomLayer& layer, const std::string& file,
-                core::SceneBuilder& builder, SharedSolids& shared,
-                std::vector<AtomPair>* atoms_of_shape)
-        : atoms_(atoms), structure_(atoms.structure), layer_(layer), file_(file), builder_(builder),
-          palette_(builder, *layer.look.opacity, layer.look.finish),
-          atoms_of_shape_(atoms_of_shape), shared_(shared) {}
+                DrawnShapes& shapes)
+        : atoms_(atoms), structure_(atoms.structure), layer_(layer), file_(file), shapes_(shapes),
+          palette_(shapes.builder(), *layer.look.opacity, layer.look.finish) {}
 
     void add_all() {
         add_atoms();
@@ -42,7 +40,7 @@ class LayerShapes {
 
     template <class Shape>
     void add(const Shape& shape, MaterialIndex material, const AtomPair& atoms) {
-        add_drawn(shape, material, atoms, layer_, atoms_.cuts, builder_, shared_, atoms_of_shape_);
+        shapes_.add(shape, material, *layer_.look.style, *layer_.look.opacity, atoms);
     }
 
     void add_atoms() {
@@ -131,9 +129,7 @@ class LayerShapes {
             palette_.of(darker(color), [&] { return layer_.colors.meaning_of(atom) + ", octant"; });
         const core::Solid solid =
             without_octant(ellipsoid, atoms_.to_camera, material, ellipse_material(), of_cut);
-        builder_.add_solid(solid, material);
-        if (atoms_of_shape_ != nullptr)
-            atoms_of_shape_->insert(atoms_of_shape_->end(), core::count_parts(solid), {atom, atom});
+        shapes_.add_whole(solid, material, {atom, atom});
     }
 
     MaterialIndex ellipse_material() {
@@ -280,10 +276,8 @@ class LayerShapes {
     const Structure& structure_;
     const AtomLayer& layer_;
     const std::string& file_;
-    core::SceneBuilder& builder_;
+    DrawnShapes& shapes_;
     Palette palette_;
-    std::vector<AtomPair>* atoms_of_shape_;
-    SharedSolids& shared_;
     std::vector<AtomIndex> one_, another_;
     std::vector<std::size_t> ellipsoid_of_; // by atom: one above the index of its axes; 0: a ball
     std::vector<std::array<Vec3d, 3>> axes_;
@@ -296,31 +290,9 @@ bool AtomLayer::has(const DrawnAtoms& atoms, AtomIndex atom) const {
            (has_kind.empty() || has_kind[atoms.structure.kinds[atom]] != 0);
 }
 
-void SharedSolids::add_to(core::SceneBuilder& builder, std::span<const CutPlane> cuts,
-                          std::vector<AtomPair>* atoms_of_shape) {
-    const auto add = [&](One& one) {
-        if (one.solid.parts.size() == 1) one.solid = core::Solid(one.solid.parts[0]);
-        builder.add_solid(one.solid, one.solid.material);
-        if (atoms_of_shape != nullptr)
-            atoms_of_shape->insert(atoms_of_shape->end(), one.atoms.begin(), one.atoms.end());
-    };
-    for (auto& [key, one] : solids_)
-        add(one);
-    for (auto& [material, one] : cut_) {
-        if (one.solid.parts.size() == 1) one.solid = core::Solid(one.solid.parts[0]);
-        one.solid.material = material;
-        one.solid = cut_by(std::move(one.solid), cuts);
-        one.atoms.insert(one.atoms.end(), cuts.size(), no_atoms); // faces of several atoms
-        add(one);
-    }
-    solids_.clear();
-    cut_.clear();
-}
-
 void add_layer(const DrawnAtoms& atoms, const AtomLayer& layer, const std::string& file,
-               core::SceneBuilder& builder, SharedSolids& shared,
-               std::vector<AtomPair>* atoms_of_shape) {
-    LayerShapes(atoms, layer, file, builder, shared, atoms_of_shape).add_all();
+               DrawnShapes& shapes) {
+    LayerShapes(atoms, layer, file, shapes).add_all();
 }
 
 } // namespace raylane::scenes

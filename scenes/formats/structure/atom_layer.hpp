@@ -6,6 +6,7 @@
 #include "scenes/formats/structure/colors.hpp"
 #include "scenes/formats/structure/cut.hpp"
 #include "scenes/formats/structure/drawing.hpp"
+#include "scenes/formats/structure/drawn_shapes.hpp"
 #include "scenes/formats/structure/structure.hpp"
 
 #include <cstdint>
@@ -76,63 +77,9 @@ struct DrawnAtoms {
     }
 };
 
-/// Solids of several shapes of a drawing. Transparent shapes of one style and opacity are one
-/// solid, as a molecule has no walls inside. Opaque shapes of one material that planes cut are one,
-/// as faces that coincide are slow.
-class SharedSolids {
-  public:
-    /// Adds a part, which has a material.
-    void add(Style style, float opacity, core::Solid part, const AtomPair& atoms) {
-        One& one = solids_[{style, opacity}];
-        one.atoms.insert(one.atoms.end(), core::count_parts(part), atoms);
-        one.solid.parts.push_back(std::move(part));
-    }
-    /// Adds an opaque shape that planes cut.
-    void add_cut(core::Solid solid, const AtomPair& atoms) {
-        One& one = cut_[solid.material];
-        one.atoms.push_back(atoms);
-        one.solid.parts.push_back(std::move(solid));
-    }
-    /// Moves the solids into a builder. `cuts`: the planes. `atoms_of_shape`, unless null, receives
-    /// their atoms.
-    void add_to(core::SceneBuilder& builder, std::span<const CutPlane> cuts,
-                std::vector<AtomPair>* atoms_of_shape);
-
-  private:
-    struct One {
-        core::Solid solid{.made = core::Made::by_union};
-        std::vector<AtomPair> atoms;
-    };
-    std::map<std::pair<Style, float>, One> solids_;
-    std::map<core::MaterialIndex, One> cut_;
-};
-
-/// Adds the part of a shape that the cuts keep to a builder, or to `shared`.
-template <class Shape>
-void add_drawn(const Shape& shape, core::MaterialIndex material, const AtomPair& atoms,
-               const AtomLayer& layer, std::span<const CutPlane> cuts, core::SceneBuilder& builder,
-               SharedSolids& shared, std::vector<AtomPair>* atoms_of_shape) {
-    const auto through = planes_through(shape, cuts);
-    if (!through) return;
-    // Triangles enclose nothing by themselves, so they are not parts of solids.
-    if constexpr (!core::AnyTriangle<Shape>) {
-        core::Solid solid{.shape = core::to_doubles(shape), .material = material};
-        if (*layer.look.opacity < 1.0F)
-            return shared.add(
-                *layer.look.style, *layer.look.opacity,
-                through->empty() ? std::move(solid) : cut_by(std::move(solid), *through), atoms);
-        if (!through->empty()) return shared.add_cut(std::move(solid), atoms);
-    }
-    builder.add(shape, material);
-    if (atoms_of_shape != nullptr) atoms_of_shape->push_back(atoms);
-}
-
-/// Adds a layer's atoms and bonds to a builder, or to `shared`. A bond between two
-/// representations that show bonds has a half in the look of each. `file` is the name in messages.
-/// `atoms_of_shape`, unless null, receives the atoms of each shape. Throws BadInput if
-/// displacements are missing.
+/// Adds a layer's atoms and bonds. A bond between two representations that show bonds has a half in
+/// the look of each. `file` is the name in messages. Throws BadInput if displacements are missing.
 void add_layer(const DrawnAtoms& atoms, const AtomLayer& layer, const std::string& file,
-               core::SceneBuilder& builder, SharedSolids& shared,
-               std::vector<AtomPair>* atoms_of_shape);
+               DrawnShapes& shapes);
 
 } // namespace raylane::scenes

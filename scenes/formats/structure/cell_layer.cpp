@@ -15,23 +15,6 @@ Vec3d unit(const Vec3d& v) {
     return 1.0 / core::length(v) * v;
 }
 
-/// Adds shapes that are no atoms.
-class CellShapes {
-  public:
-    CellShapes(core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape)
-        : builder_(builder), atoms_of_shape_(atoms_of_shape) {}
-
-    template <class Shape>
-    void add(const Shape& shape, core::MaterialIndex material) {
-        builder_.add(shape, material);
-        if (atoms_of_shape_ != nullptr) atoms_of_shape_->push_back(no_atoms);
-    }
-
-  private:
-    core::SceneBuilder& builder_;
-    std::vector<AtomPair>* atoms_of_shape_;
-};
-
 /// Returns the positions of the corners of all cells that have a length along each edge.
 std::vector<Vec3d> corners_of(const DrawnAtoms& atoms) {
     const Cell& cell = atoms.structure.cell;
@@ -85,12 +68,11 @@ core::NamedView best_view_of_cell(const Cell& cell, const std::array<int, 3>& re
     return view_along_edge(cell, edge_names[shortest]);
 }
 
-void add_cell_edges(const DrawnAtoms& atoms, core::SceneBuilder& builder,
-                    std::vector<AtomPair>* atoms_of_shape) {
+void add_cell_edges(const DrawnAtoms& atoms, DrawnShapes& shapes) {
     constexpr double thickness = 0.002; // radius, of the extent
-    CellShapes shapes(builder, atoms_of_shape);
-    const core::MaterialIndex dark =
-        Palette(builder, 1.0F, atoms.finish).of(0x505050, [] { return std::string("cell"); });
+    const core::MaterialIndex dark = Palette(shapes.builder(), 1.0F, atoms.finish).of(0x505050, [] {
+        return std::string("cell");
+    });
     const Cell& cell = atoms.structure.cell;
     std::array<Vec3f, 3> edges;
     int flat = 0; // bits of edges without a length, as of a slab or a chain
@@ -105,16 +87,17 @@ void add_cell_edges(const DrawnAtoms& atoms, core::SceneBuilder& builder,
         const int corner = static_cast<int>(i % 8);
         if ((corner & flat) != 0) continue;
         const auto from = core::convert<float>(corners[i]);
-        shapes.add(core::Sphere{from, radius}, dark);
+        shapes.add_whole(core::Sphere{from, radius}, dark, no_atoms);
         for (int k = 0; k < 3; ++k)
             if (((corner | flat) >> k & 1) == 0)
-                shapes.add(core::CappedCylinder{from, edges[static_cast<std::size_t>(k)], radius},
-                           dark);
+                shapes.add_whole(
+                    core::CappedCylinder{from, edges[static_cast<std::size_t>(k)], radius}, dark,
+                    no_atoms);
     }
 }
 
 void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, double radius,
-              core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape) {
+              DrawnShapes& shapes) {
     constexpr double share = 0.13; // length, of the extent
     const Vec3d forward = unit(core::convert<double>(camera.direction));
     const Vec3d right = unit(core::cross(forward, core::convert<double>(camera.up)));
@@ -142,8 +125,7 @@ void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, double rad
     const Vec3d at = (across.least - radius - 0.35 * length - across_axes.most) * right +
                      (upward.least - upward_axes.least) * up +
                      (depth.least - radius) * forward; // before the depth cue pales colours
-    CellShapes shapes(builder, atoms_of_shape);
-    Palette palette(builder, 1.0F, atoms.finish);
+    Palette palette(shapes.builder(), 1.0F, atoms.finish);
     constexpr std::uint32_t colors[] = {0xC83C32, 0x3C9646, 0x325AC8};
     const auto thin = static_cast<float>(0.04 * length), wide = static_cast<float>(0.1 * length);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -151,12 +133,12 @@ void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, double rad
             colors[k], [&] { return std::string("axis ") + static_cast<char>('a' + k); });
         const auto base = core::convert<float>(at);
         const auto head = core::convert<float>(at + 0.68 * axes[k]);
-        shapes.add(core::CappedCylinder{base, head - base, thin}, material);
-        shapes.add(core::CappedCone{head, core::convert<float>(0.32 * axes[k]), wide, 0.0F},
-                   material);
+        shapes.add_whole(core::CappedCylinder{base, head - base, thin}, material, no_atoms);
+        shapes.add_whole(core::CappedCone{head, core::convert<float>(0.32 * axes[k]), wide, 0.0F},
+                         material, no_atoms);
     }
-    shapes.add(core::Sphere{core::convert<float>(at), 1.5F * thin},
-               palette.of(0x808080, [] { return std::string("axes"); }));
+    shapes.add_whole(core::Sphere{core::convert<float>(at), 1.5F * thin},
+                     palette.of(0x808080, [] { return std::string("axes"); }), no_atoms);
 }
 
 } // namespace raylane::scenes

@@ -24,13 +24,12 @@ core::NamedView view_along_edge(const Cell& cell, std::string_view name);
 core::NamedView best_view_of_cell(const Cell& cell, const std::array<int, 3>& repeat);
 
 /// Adds the edges of all cells, as thin as 0.2 % of the extent of all.
-void add_cell_edges(const DrawnAtoms& atoms, core::SceneBuilder& builder,
-                    std::vector<AtomPair>* atoms_of_shape);
+void add_cell_edges(const DrawnAtoms& atoms, DrawnShapes& shapes);
 
 /// Adds arrows along the edges a (red), b (green) and c (blue) of the cell, at the lower left of
 /// all atoms as the camera sees them; `radius`: that of the largest atom. Their materials have the
 /// names "axis a", "axis b" and "axis c".
 void add_axes(const DrawnAtoms& atoms, const core::FitCamera& camera, double radius,
-              core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape);
+              DrawnShapes& shapes);
 
 } // namespace raylane::scenes

@@ -20,15 +20,10 @@ ChainLook chain_look_of(const Look& look) {
 
 } // namespace
 
-std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
-                            core::SceneBuilder& builder, SharedSolids& shared,
-                            std::vector<AtomPair>* atoms_of_shape, bool is_only_look) {
+std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer, DrawnShapes& shapes,
+                            bool is_only_look) {
     const float opacity = *layer.look.opacity;
-    Palette palette(builder, opacity, layer.look.finish);
-    const auto add = [&]<class Shape>(const Shape& shape, core::MaterialIndex material,
-                                      const AtomPair& pair) {
-        add_drawn(shape, material, pair, layer, atoms.cuts, builder, shared, atoms_of_shape);
-    };
+    Palette palette(shapes.builder(), opacity, layer.look.finish);
     const ChainRemainder rest = add_chains(
         atoms.structure, chain_look_of(layer.look),
         [&](AtomIndex atom) { return atoms.representations[atom] == layer.representation; },
@@ -38,7 +33,8 @@ std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
             for (const core::Vec3f& image : atoms.images)
                 std::visit(
                     [&](const auto& piece) {
-                        add(moved(piece, image), material, {atom, atom});
+                        shapes.add(moved(piece, image), material, *layer.look.style, opacity,
+                                   {atom, atom});
                     },
                     shape);
         });

@@ -10,8 +10,7 @@ namespace raylane::scenes {
 /// residues that could not be drawn, or an empty text. `is_only_look`: no other look shows the
 /// residues that are not in chains, so the message names them. Throws BadInput if no chain has two
 /// residues of the layer.
-std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
-                            core::SceneBuilder& builder, SharedSolids& shared,
-                            std::vector<AtomPair>* atoms_of_shape, bool is_only_look);
+std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer, DrawnShapes& shapes,
+                            bool is_only_look);
 
 } // namespace raylane::scenes

@@ -1,5 +1,6 @@
 #include "scenes/formats/structure/cut.hpp"
 
+#include "core/shapes/shapes.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/structure/lines.hpp"
 
@@ -70,6 +71,24 @@ std::pair<double, double> range_along(const core::Vec3d& normal, const core::Bou
         most += std::max(a, b);
     }
     return {least, most};
+}
+
+std::optional<std::vector<CutPlane>> planes_through(const core::Bounds& bounds,
+                                                    std::span<const CutPlane> planes) {
+    std::vector<CutPlane> through;
+    for (const CutPlane& plane : planes) {
+        const auto [least, most] = range_along(plane.normal, bounds);
+        if (least > plane.offset) return std::nullopt;
+        if (most > plane.offset) through.push_back(plane);
+    }
+    return through;
+}
+
+bool keep_middle(const core::Bounds& bounds, std::span<const CutPlane> planes) {
+    return std::all_of(planes.begin(), planes.end(), [&](const CutPlane& plane) {
+        const auto [least, most] = range_along(plane.normal, bounds);
+        return least + most <= 2.0 * plane.offset;
+    });
 }
 
 core::Solid cut_by(core::Solid solid, std::span<const CutPlane> planes) {

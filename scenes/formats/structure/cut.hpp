@@ -1,12 +1,12 @@
 #pragma once
 
-#include "core/shapes/shapes.hpp"
+#include "core/shapes/bounds.hpp"
 #include "core/solids/solid.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Cuts through atoms. Cut shapes are solids, whose faces on the plane have their material.
@@ -27,22 +27,11 @@ std::pair<double, double> range_along(const core::Vec3d& normal, const core::Bou
 /// Returns the part of a solid that all planes keep. Its faces on them have the solid's material.
 core::Solid cut_by(core::Solid solid, std::span<const CutPlane> planes);
 
-/// Returns the planes that cross a shape, or nothing if one of them removes it. Triangles enclose
-/// nothing, so they are kept or removed whole, by their middles.
-template <class Shape>
-std::optional<std::vector<CutPlane>> planes_through(const Shape& shape,
-                                                    std::span<const CutPlane> planes) {
-    std::vector<CutPlane> through;
-    for (const CutPlane& plane : planes) {
-        const auto [least, most] = range_along(plane.normal, core::bounds_of(shape));
-        if (least > plane.offset) return std::nullopt;
-        if (most <= plane.offset) continue;
-        if constexpr (!core::AnyTriangle<Shape>)
-            through.push_back(plane);
-        else if (least + most > 2.0 * plane.offset)
-            return std::nullopt;
-    }
-    return through;
-}
+/// Returns the planes that cross a box, or nothing if one of them removes it.
+std::optional<std::vector<CutPlane>> planes_through(const core::Bounds& bounds,
+                                                    std::span<const CutPlane> planes);
+
+/// Returns true if all planes keep the middle of a box.
+bool keep_middle(const core::Bounds& bounds, std::span<const CutPlane> planes);
 
 } // namespace raylane::scenes

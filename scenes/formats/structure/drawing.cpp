@@ -96,39 +96,38 @@ class SceneFromAtoms {
         find_cuts();
         report_unmatched();
         builder_.reserve(count_ * atoms_.images.size());
-        add_layers();
+        DrawnShapes shapes(builder_, atoms_.cuts, atoms_of_shape_);
+        add_layers(shapes);
         if (!atoms_.cuts.empty() && builder_.shape_count() == 0)
             throw BadInput(emptying_option(), "", "must leave a part of the atoms, got none");
         find_places();
         find_atoms_in_chains();
         if (drawing_.show_cell) {
             require_cell("--cell", "to show");
-            add_cell_edges(atoms_, builder_, atoms_of_shape_);
+            add_cell_edges(atoms_, shapes);
         }
         if (drawing_.show_axes) {
             require_cell("--axes", "whose edges they show");
-            add_axes(atoms_, camera_, largest_radius(), builder_, atoms_of_shape_);
+            add_axes(atoms_, camera_, largest_radius(), shapes);
         }
         set_up_view();
         return scale_;
     }
 
   private:
-    void add_layers() {
-        SharedSolids shared;
+    void add_layers(DrawnShapes& shapes) {
         for (const AtomLayer& layer : layers_) {
             if (layer.look.style == Style::polyhedra) {
-                if (add_polyhedra_layer(atoms_, layer, builder_, atoms_of_shape_) == 0)
+                if (add_polyhedra_layer(atoms_, layer, shapes) == 0)
                     remark("polyhedra are missing: they need an atom with 4 to 64 bonds");
             } else if (shows_chains(*layer.look.style)) {
-                remark(add_chain_layer(atoms_, layer, builder_, shared, atoms_of_shape_,
-                                       !shows_atoms(layer.representation)));
+                remark(add_chain_layer(atoms_, layer, shapes, !shows_atoms(layer.representation)));
             } else {
-                add_layer(atoms_, layer, file_, builder_, shared, atoms_of_shape_);
+                add_layer(atoms_, layer, file_, shapes);
             }
         }
-        shared.add_to(builder_, atoms_.cuts, atoms_of_shape_);
-        if (drawing_.hydrogen_bonds) add_hydrogen_bonds(atoms_, builder_, atoms_of_shape_);
+        if (drawing_.hydrogen_bonds) add_hydrogen_bonds(atoms_, shapes);
+        shapes.finish();
     }
 
     /// Returns the option whose planes leave nothing, or both if neither does so alone.
@@ -140,7 +139,8 @@ class SceneFromAtoms {
             for (const AtomLayer& layer : layers_)
                 atoms_.for_each([&](AtomIndex atom, const Vec3f& at) {
                     if (is_empty && layer.has(atoms_, atom))
-                        is_empty = !planes_through(core::Sphere{at, layer.radii.of(atom)}, planes);
+                        is_empty = !planes_through(
+                            core::bounds_of(core::Sphere{at, layer.radii.of(atom)}), planes);
                 });
             return is_empty;
         };

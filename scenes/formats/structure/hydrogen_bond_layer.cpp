@@ -146,12 +146,12 @@ std::vector<std::pair<Vec3d, Vec3d>> dashes_of(const Vec3d& from, const Vec3d& t
     return dashes;
 }
 
-void add_hydrogen_bonds(const DrawnAtoms& atoms, core::SceneBuilder& builder,
-                        std::vector<AtomPair>* atoms_of_shape) {
+void add_hydrogen_bonds(const DrawnAtoms& atoms, DrawnShapes& shapes) {
     constexpr float radius = 0.045F;
-    const core::MaterialIndex material = Palette(builder, 1.0F, atoms.finish).of(0x4A90C8, [] {
-        return std::string("hydrogen bond");
-    });
+    const core::MaterialIndex material =
+        Palette(shapes.builder(), 1.0F, atoms.finish).of(0x4A90C8, [] {
+            return std::string("hydrogen bond");
+        });
     const Structure& structure = atoms.all();
     for (const auto& [a, b] : find_hydrogen_bonds(structure, atoms.bonds)) {
         const AtomPair pair = {atoms.original(a), atoms.original(b)};
@@ -160,10 +160,9 @@ void add_hydrogen_bonds(const DrawnAtoms& atoms, core::SceneBuilder& builder,
             continue;
         for (const auto& [from, to] : dashes_of(core::convert<double>(structure.positions[a]),
                                                 core::convert<double>(structure.positions[b]))) {
-            builder.add(core::CappedCylinder{core::convert<float>(from),
-                                             core::convert<float>(to - from), radius},
-                        material);
-            if (atoms_of_shape != nullptr) atoms_of_shape->push_back(pair);
+            shapes.add(core::CappedCylinder{core::convert<float>(from),
+                                            core::convert<float>(to - from), radius},
+                       material, Style::licorice, 1.0F, pair);
         }
     }
 }

@@ -30,7 +30,6 @@ std::vector<std::pair<core::Vec3d, core::Vec3d>> dashes_of(const core::Vec3d& fr
                                                            const core::Vec3d& to);
 
 /// Adds the hydrogen bonds of all visible atoms as dashed lines.
-void add_hydrogen_bonds(const DrawnAtoms& atoms, core::SceneBuilder& builder,
-                        std::vector<AtomPair>* atoms_of_shape);
+void add_hydrogen_bonds(const DrawnAtoms& atoms, DrawnShapes& shapes);
 
 } // namespace raylane::scenes

@@ -52,6 +52,19 @@ void sort_around(std::span<const Vec3d> points, const Vec3d& normal, Face& face)
     face = std::move(around);
 }
 
+/// Returns a polyhedron as the intersection of the half-spaces behind its faces.
+core::Solid solid_of(std::span<const Vec3d> points, const std::vector<Face>& faces,
+                     core::MaterialIndex material) {
+    core::Solid solid{.made = core::Made::by_intersection, .material = material};
+    for (const Face& face : faces) {
+        const Vec3d& corner = points[face[0]];
+        const Vec3d normal = core::cross(points[face[1]] - corner, points[face[2]] - corner);
+        solid.parts.push_back(core::of_shape(core::PlaneOf<double>{corner, normal}));
+        solid.parts.back().material = material;
+    }
+    return solid;
+}
+
 } // namespace
 
 std::vector<std::vector<std::size_t>> hull_of(std::span<const Vec3d> points) {
@@ -86,9 +99,11 @@ std::vector<std::vector<std::size_t>> hull_of(std::span<const Vec3d> points) {
 }
 
 std::size_t add_polyhedra_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
-                                core::SceneBuilder& builder,
-                                std::vector<AtomPair>* atoms_of_shape) {
-    Palette faces(builder, *layer.look.opacity, atoms.finish), edges(builder, 1.0F, atoms.finish);
+                                DrawnShapes& shapes) {
+    const Style style = *layer.look.style;
+    const float opacity = *layer.look.opacity;
+    Palette faces(shapes.builder(), opacity, atoms.finish),
+        edges(shapes.builder(), 1.0F, atoms.finish);
     const Structure& structure = atoms.all();
     std::vector<std::vector<Vec3d>> neighbours(atoms.complete);
     for (const Bond& bond : atoms.bonds)
@@ -100,28 +115,35 @@ std::size_t add_polyhedra_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
         const std::vector<Vec3d>& points = neighbours[i];
         if (points.size() < min_neighbours || points.size() > max_neighbours) continue;
         ++count;
+        core::Bounds bounds;
+        for (const Vec3d& point : points)
+            core::include_point(bounds, point);
+        const auto through = planes_through(bounds, shapes.cuts());
+        if (!through) continue;
         const AtomIndex atom = atoms.original(i);
-        const auto add = [&](const auto& shape, core::MaterialIndex material) {
-            builder.add(shape, material);
-            if (atoms_of_shape != nullptr) atoms_of_shape->push_back({atom, atom});
-        };
         const auto name = [&] { return layer.colors.meaning_of(atom); };
         const std::uint32_t color = layer.colors.of(atom);
         const core::MaterialIndex of_face = faces.of(color, name);
         const core::MaterialIndex of_edge = edges.of(darker(color), name);
         std::set<std::pair<std::size_t, std::size_t>> done;
         std::vector<char> has_corner(points.size());
-        for (const Face& face : hull_of(points)) {
+        const std::vector<Face> hull = hull_of(points);
+        if (!through->empty())
+            shapes.add_whole(cut_by(solid_of(points, hull, of_face), *through), of_face,
+                             {atom, atom});
+        for (const Face& face : hull) {
             const auto at = [&](std::size_t corner) {
                 return core::convert<float>(points[face[corner % face.size()]]);
             };
-            for (std::size_t k = 1; k + 1 < face.size(); ++k)
-                add(core::Triangle{at(0), at(k), at(k + 1)}, of_face);
+            for (std::size_t k = 1; through->empty() && k + 1 < face.size(); ++k)
+                shapes.add_whole(core::Triangle{at(0), at(k), at(k + 1)}, of_face, {atom, atom});
             for (std::size_t k = 0; k < face.size(); ++k) {
                 if (std::exchange(has_corner[face[k]], 1) == 0)
-                    add(core::Sphere{at(k), edge_radius}, of_edge);
+                    shapes.add(core::Sphere{at(k), edge_radius}, of_edge, style, 1.0F,
+                               {atom, atom});
                 if (done.insert(std::minmax(face[k], face[(k + 1) % face.size()])).second)
-                    add(core::CappedCylinder{at(k), at(k + 1) - at(k), edge_radius}, of_edge);
+                    shapes.add(core::CappedCylinder{at(k), at(k + 1) - at(k), edge_radius}, of_edge,
+                               style, 1.0F, {atom, atom});
             }
         }
     }

@@ -444,6 +444,22 @@ TEST_CASE("polyhedra have the colour of their centre, and the opacity of their l
     CHECK(polyhedra_of("--polyhedra", "Ti Zr orange").kinds.size() == 2);
 }
 
+TEST_CASE("planes cut polyhedra and their edges") {
+    const Drawn halved = drawn(perovskite, [](Drawing& d) {
+        d.polyhedra = {"Ti"};
+        d.cuts = {cut_plane_of("--cut", "z<2")}; // the middle is at 1.95
+    });
+    CHECK(halved.all<raylane::core::Triangle>().empty());
+    const raylane::core::Solids& solids = halved.scene.solids();
+    int count = 0;
+    for (raylane::core::Solids::Index solid = 0; solid < solids.nodes().size();
+         solid = solids.node(solid).end) {
+        ++count;
+        CHECK(solids.bounds(solid).upper.z == Approx(2.0));
+    }
+    CHECK(count == 2); // the octahedron, and its edges with the atoms in the plane
+}
+
 TEST_CASE("axes are arrows along the edges, left of the atoms") {
     const Drawn crystal = drawn(salt, [](Drawing& d) { d.show_axes = true; });
     const auto arrows = crystal.all<raylane::core::CappedCone>();

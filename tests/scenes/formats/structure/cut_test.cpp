@@ -1,5 +1,8 @@
+#include "core/reference/surface_color.hpp"
+#include "core/scene/transfer.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/scene_file.hpp"
+#include "scenes/formats/structure/elements.hpp"
 #include "simd/stream/stream_tracer.hpp"
 #include "tests/scenes/files/message_of.hpp"
 #include "tests/support/catch.hpp"
@@ -49,6 +52,28 @@ TEST_CASE("a cut closes spheres by its plane exactly") {
     CHECK(height_at(scene, 1.6, 0.0) == Approx(1.2)); // the rest of the sphere
     CHECK(scene.shape_count() == 3);                  // two spheres of a colour and their plane
     CHECK(cut({"z<7"}).solids().any() == false);
+}
+
+TEST_CASE("a face of a cut has the colours of the atoms around each point") {
+    for (const std::string text : {"2\n\nHe 0 0 0\nNe 2 0 0\n", "2\n\nNe 2 0 0\nHe 0 0 0\n"}) {
+        LoadOptions options;
+        options.drawing.style = Style::spheres;
+        options.drawing.radius = "1.5";
+        options.drawing.cuts = {cut_plane_of("--cut", "z<0.25")};
+        core::Scene scene = parse_scene("a.xyz", text, options);
+        CHECK(scene.shape_count() == 3); // a plane for both
+        const auto color = [&](double x) {
+            const core::ShapeId plane = 2;
+            const core::Solids::Node& node = scene.solids().node(scene.solids().part_of(plane));
+            return core::color_on(scene, scene.material_of(plane).pattern,
+                                  {plane, node.kind, node.place, core::body, {x, 0.0, 0.25}});
+        };
+        const auto of = [](Element number) {
+            return core::convert<double>(core::color_from_srgb(data_of(number).color));
+        };
+        CHECK(color(0.99) == of(2));
+        CHECK(color(1.01) == of(10));
+    }
 }
 
 TEST_CASE("several cuts leave the part that all keep") {
