@@ -123,7 +123,7 @@ class FirstSurfaces {
         const Answers<D> alone = (on_surface & inward) | (~on_surface & runs_inside(solver, rays));
         line.inside = (either & ~enters) | (~either & alone.answer);
         doubt = doubt | ~(is_known(found.first) & is_known(found.second) & (either | alone.known)) |
-                (both & ~(found.second.entering.answer ^ found.first.entering.answer));
+                (both & ~differ(found.second.entering.answer, found.first.entering.answer));
         if constexpr (std::is_base_of_v<QuadricNumbers<C>, Solver>)
             if (node.is_part) clip(QuadricNumbers<C>(Reader{node.numbers}), line, doubt);
     }

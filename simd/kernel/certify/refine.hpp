@@ -148,7 +148,7 @@ class Refine {
         for (std::size_t lane = 0; lane < packet.count; ++lane)
             entering |= ((found_.hit[packet.rays[lane]] & hit_entering) != 0 ? 1U : 0U) << lane;
         const M is_first =
-            first.exists.answer & ~(first.entering.answer ^ Lanes<D>::from_bits(entering));
+            first.exists.answer & ~differ(first.entering.answer, Lanes<D>::from_bits(entering));
         const auto chosen_of = [&](const Floats<C>& a, const Floats<C>& b) {
             return Floats<C>(select(is_first, a.value, b.value),
                              select(is_first, a.error, b.error));

@@ -91,6 +91,13 @@ using Floats = typename Registers<Arch>::Floats;
 template <class Arch>
 using Mask = typename Registers<Arch>::Mask;
 
+/// Returns the lanes in which two masks differ. With AVX-512, xsimd 8.1's operator ^ of masks is an
+/// or.
+template <class AnyMask>
+AnyMask differ(const AnyMask& a, const AnyMask& b) {
+    return (a & ~b) | (~a & b);
+}
+
 /// Returns the same bits as lanes of another type of the same size.
 template <class To, class From, class Arch>
 xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& from) {

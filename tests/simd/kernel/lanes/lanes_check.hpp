@@ -87,6 +87,8 @@ struct LanesCheck {
                   [](Number p, Number q) { return !(p < q) && p == p ? p : q; });
             check(select((x < y) | ~(y == y), x, y),
                   [](Number p, Number q) { return p < q || q != q ? p : q; });
+            check(select(differ(x < y, y == y), x, y),
+                  [](Number p, Number q) { return (p < q) != (q == q) ? p : q; });
             // Only for SSE does xsimd 8.1 say that NaN is unequal.
             check(select((x != y) & (x == x) & (y == y), x, y),
                   [](Number p, Number q) { return p == p && q == q && p != q ? p : q; });
@@ -126,6 +128,11 @@ struct LanesCheck {
             failures += D::bits(D::round_alike(x, y)) == alike ? 0 : 1;
             const std::uint32_t wanted = random() & full_mask;
             failures += D::bits(D::from_bits(wanted)) == wanted ? 0 : 1;
+            const std::uint32_t others = random() & full_mask;
+            failures +=
+                D::bits(differ(D::from_bits(wanted), D::from_bits(others))) == (wanted ^ others)
+                    ? 0
+                    : 1;
 
             D::product_error(x, y, x * y).store_unaligned(lanes);
             for (std::size_t i = 0; i < F::size; ++i)
