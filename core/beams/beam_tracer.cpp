@@ -8,7 +8,12 @@ namespace raylane::core {
 
 namespace {
 
-// Width of a shape where it is narrowest, in units of length, roughly.
+double middle_of(double a, double b, double c) {
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+// Width of a shape where it is narrowest, in units of length, roughly. Flat shapes, such as faces
+// of solids, show their broad side.
 double width_of(const SphereOf<double>& sphere) {
     return 2.0 * sphere.radius;
 }
@@ -22,7 +27,7 @@ double width_of(const Triangle& triangle) {
     return length(cross(ab, ac)) / longest;
 }
 double width_of(const BoxOf<double>& box) {
-    return std::min({length(box.edge_u), length(box.edge_v), length(box.edge_w)});
+    return middle_of(length(box.edge_u), length(box.edge_v), length(box.edge_w));
 }
 template <Ends ends>
 double width_of(const CylinderOf<double, ends>& cylinder) {
@@ -34,12 +39,11 @@ double width_of(const ConeOf<double, ends>& cone) {
 }
 double width_of(const EllipsoidOf<double>& ellipsoid) {
     return 2.0 *
-           std::min({length(ellipsoid.axis_u), length(ellipsoid.axis_v), length(ellipsoid.axis_w)});
+           middle_of(length(ellipsoid.axis_u), length(ellipsoid.axis_v), length(ellipsoid.axis_w));
 }
-// The middle one of three sides, as a quadric may be flat: a face of a solid.
 double width_of(const QuadricOf<double>& quadric) {
     const Vec3d size = quadric.upper - quadric.lower;
-    return std::max(std::min(size.x, size.y), std::min(std::max(size.x, size.y), size.z));
+    return middle_of(size.x, size.y, size.z);
 }
 
 } // namespace

@@ -118,7 +118,8 @@ class SphereMover {
     bool keeps_merged() const {
         return std::all_of(
             shapes_.merged.begin(), shapes_.merged.end(), [&](const MergedShape& sphere) {
-                return std::memcmp(at(sphere.id), at(sphere.first), 3 * sizeof(Number)) == 0;
+                const Number *const one = at(sphere.id), *const other = at(sphere.first);
+                return std::memcmp(one, other, 3 * sizeof *one) == 0; // NOLINT: compares bits
             });
     }
 

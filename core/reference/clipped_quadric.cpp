@@ -67,7 +67,7 @@ struct Interval {
 class RootIsolation {
   public:
     /// Isolates the roots of a polynomial that is not 0.
-    RootIsolation(const Polynomial& polynomial, int max_depth) : whole_(polynomial) {
+    RootIsolation(Polynomial polynomial, int max_depth) : whole_(std::move(polynomial)) {
         trim(whole_);
         if (whole_.size() < 2) return;
         if (whole_[0].sign() == 0) roots_.push_back({0.0, 0.0});
@@ -179,10 +179,9 @@ void remove_factors(Dual<Dyadic>& dual) {
 /// The distance at a root of N, of points that are `beside` from a face or an edge of the box.
 class StationaryDistance : public QuadricDistance {
   public:
-    StationaryDistance(const Dual<Dyadic>& dual, const Vec3<Dyadic>& point,
-                       const Dyadic& beside_squared, const Interval& root, const Dyadic& tolerance,
-                       int max_bits)
-        : QuadricDistance(dual, point, max_bits), beside_squared_(beside_squared) {
+    StationaryDistance(const Dual<Dyadic>& dual, const Vec3<Dyadic>& point, Dyadic beside_squared,
+                       const Interval& root, const Dyadic& tolerance, int max_bits)
+        : QuadricDistance(dual, point, max_bits), beside_squared_(std::move(beside_squared)) {
         tolerance_ = tolerance;
         low_ = root.low;
         high_ = root.high;
@@ -232,9 +231,8 @@ class StationarySearch {
   public:
     /// `tolerance`: the most by which a point may be outside of the box.
     StationarySearch(const QuadricOf<double>& quadric, const FormAbout<Dyadic>& form,
-                     const Vec3<Dyadic>& point, const Dyadic& tolerance, int max_depth,
-                     int max_bits)
-        : form_(form), point_(point), tolerance_(tolerance), max_depth_(max_depth),
+                     const Vec3<Dyadic>& point, Dyadic tolerance, int max_depth, int max_bits)
+        : form_(form), point_(point), tolerance_(std::move(tolerance)), max_depth_(max_depth),
           max_bits_(max_bits) {
         for (int axis = 0; axis < 3; ++axis) {
             const double limits[] = {quadric.lower[axis], quadric.upper[axis]};

@@ -128,7 +128,7 @@ void add(SceneBuilder& builder, const Sphereflake& flake, MaterialIndex material
     if (flake.up == Vec3f(0.0F))
         throw InvalidValue("up", "must not be the zero vector, got [0, 0, 0]");
     require_positive("radius", flake.radius);
-    double least = static_cast<double>(flake.radius);
+    auto least = static_cast<double>(flake.radius);
     for (int level = 0; level < flake.depth; ++level)
         least /= 3.0;
     if (static_cast<float>(least) == 0.0F)

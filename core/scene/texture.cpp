@@ -122,8 +122,8 @@ Between pixels_around(double coordinate, double end, int count, ImageWrap wrap) 
 Vec3d color_in_image(const Pattern& pattern, const ShapeCoordinates& on_shape, bool is_round) {
     const Texture& image = pattern.image;
     constexpr double no_end = std::numeric_limits<double>::infinity();
-    const double width = static_cast<double>(pattern.width);
-    const double height = static_cast<double>(pattern.height);
+    const auto width = static_cast<double>(pattern.width);
+    const auto height = static_cast<double>(pattern.height);
     const Between x = pixels_around(on_shape.u / width, no_end, image.width(), pattern.wrap);
     // Rows are counted from below.
     const Between y = pixels_around(on_shape.v / height, is_round ? 1.0 / height : no_end,

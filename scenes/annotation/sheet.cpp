@@ -98,7 +98,7 @@ class SvgWriter {
     }
     void add(const SheetRamp& ramp) {
         const std::string name = "ramp-" + std::to_string(++ramps_);
-        text_ += "<linearGradient" + with("id", name) + " x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">";
+        text_ += "<linearGradient" + with("id", name) + R"( x1="0" y1="1" x2="0" y2="0">)";
         for (std::size_t i = 0; i < ramp.colors.size(); ++i)
             text_ +=
                 "<stop" +
@@ -117,7 +117,7 @@ class SvgWriter {
             with("text-anchor", std::string(anchors[static_cast<std::size_t>(text.anchor)])) +
             with("fill", color_text(text.color)) + with("stroke", color_text(text.halo)) +
             with("stroke-width", halo_width * text.size) +
-            " stroke-linejoin=\"round\" paint-order=\"stroke\">" + escaped(text.text) + "</text>\n";
+            R"( stroke-linejoin="round" paint-order="stroke">)" + escaped(text.text) + "</text>\n";
     }
 
     const Sheet& sheet_;

@@ -120,14 +120,14 @@ raylane_status raylane_set_settings(raylane_builder* builder, const raylane_sett
 }
 
 #define RAYLANE_ADD(shapes, shape, Shape, c_shape)                                                 \
-    raylane_status raylane_add_##shapes(raylane_builder* builder, const raylane_##c_shape* shapes, \
+    raylane_status raylane_add_##shapes(raylane_builder* builder, const raylane_##c_shape* values, \
                                         size_t count, uint32_t material, uint32_t* first) {        \
-        return add<Shape>(builder, shapes, count, material, first);                                \
+        return add<Shape>(builder, values, count, material, first);                                \
     }                                                                                              \
     raylane_status raylane_add_##shapes##_doubles(                                                 \
-        raylane_builder* builder, const raylane_double_##c_shape* shapes, size_t count,            \
+        raylane_builder* builder, const raylane_double_##c_shape* values, size_t count,            \
         uint32_t material, uint32_t* first) {                                                      \
-        return add<Shape##Of<double>>(builder, shapes, count, material, first);                    \
+        return add<Shape##Of<double>>(builder, values, count, material, first);                    \
     }
 RAYLANE_C_SHAPES(RAYLANE_ADD)
 #undef RAYLANE_ADD

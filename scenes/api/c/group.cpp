@@ -98,9 +98,9 @@ size_t raylane_group_size(const raylane_group* group) {
 
 #define RAYLANE_ADD(shapes, shape, Shape, c_shape)                                                 \
     raylane_status raylane_group_add_##shapes(raylane_group* group,                                \
-                                              const raylane_double_##c_shape* shapes,              \
+                                              const raylane_double_##c_shape* values,              \
                                               size_t count, uint32_t material) {                   \
-        return add<Shape##Of<double>>(group, shapes, count, material);                             \
+        return add<Shape##Of<double>>(group, values, count, material);                             \
     }
 RAYLANE_C_SHAPES(RAYLANE_ADD)
 #undef RAYLANE_ADD
