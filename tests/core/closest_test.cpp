@@ -68,21 +68,24 @@ void check(const TestScene& expected_scene, const Vec3d& point, const Closest& g
                     return oracle::closest_of(shape, point);
             },
             any));
+    const oracle::Place from = oracle::place(point);
     std::size_t best = 0;
     for (std::size_t i = 1; i < each.size(); ++i) {
-        const Number &a = each[i][0].distance, &b = each[best][0].distance;
-        if (a < b - oracle::digits_lost() * (a + b)) best = i;
+        const OnSurface &a = each[i][0], &b = each[best][0];
+        if (a.distance + oracle::distance_error(a, from) <
+            b.distance - oracle::distance_error(b, from))
+            best = i;
     }
     const oracle::OnSurfaces& wanted = each[best];
-    const Number scale = oracle::size_of(oracle::place(point)) + oracle::size_of(wanted[0].point);
+    const Number scale = oracle::size_of(from) + oracle::size_of(wanted[0].point);
     CAPTURE(point.x, point.y, point.z, best, got.shape, got.distance, int(got.face));
     CHECK(got.shape == best);
     CHECK((got.distance == 0.0) == (wanted[0].distance == 0));
-    CHECK(is_nearest(got.distance, wanted[0].distance, Number(0)));
+    CHECK(is_nearest(got.distance, wanted[0].distance, scale));
     CHECK(int(got.face) == int(wanted[0].face));
     CAPTURE(got.point.x, got.point.y, got.point.z);
     if (wanted[0].is_one_of_many) {
-        const Number off = oracle::distance(oracle::place(got.point), oracle::place(point));
+        const Number off = oracle::distance(oracle::place(got.point), from);
         CHECK(abs(off - wanted[0].distance) <= 4e-16 * scale);
         return;
     }
@@ -181,6 +184,35 @@ TEST_CASE("the closest of many shapes is that of 100 digits") {
                 check(shapes, point, searcher.find(point, infinity<double>));
             }
         }
+}
+
+TEST_CASE("a distance halfway between two doubles is rounded to the even one") {
+    const auto check_one = [](const auto& shape, const Vec3d& point, double even) {
+        const TestScene shapes{{shape}};
+        const Scene scene = shapes.scene();
+        const Closest closest = ClosestSearcher(scene).find(point, infinity<double>);
+        CHECK(closest.distance == even);
+        check(shapes, point, closest);
+    };
+    // Normal and axis have the length 3, so that the distance is a third of a sum.
+    check_one(PlaneOf<double>{Vec3d(-2, 3, 0), Vec3d(-2, 1, 2)},
+              Vec3d(0x1.bd443ebe6d298p+3, -0x1.e0a0497c836bfp+3, -0x1.fa6b0dcc689a2p+3),
+              0x1.b2aa7b185d288p+4);
+    check_one(CylinderOf<double, Ends::capped>{Vec3d(1, -2, 2), Vec3d(-2, -2, 1), 5.0},
+              Vec3d(-0x1.b74dc5f1bd23ep-3, -0x1.5694b0a876f98p+1, 0x1.009b8082076f2p+2),
+              0x1.11ce989ddd06ep+0);
+}
+
+TEST_CASE("a cap in a plane and the plane tie next to them") {
+    const TestScene shapes{
+        {CylinderOf<double, Ends::capped>{Vec3d(-1, 3, 3), Vec3d(-2, -2, -2), 3.0},
+         PlaneOf<double>{Vec3d(1, -1, -1), Vec3d(1, 1, 1)}}};
+    const Scene scene = shapes.scene();
+    const Vec3d point(-0x1.3cc1c8e00b1c5p+1, 0x1.4cd46f4aed4d1p+1, -0x1.20254cd5c461dp+0);
+    const Closest closest = ClosestSearcher(scene).find(point, infinity<double>);
+    CHECK(closest.shape == 0);
+    CHECK(closest.face == top_cap);
+    check(shapes, point, closest);
 }
 
 TEST_CASE("a limit of the distance compares with the answer") {

@@ -59,6 +59,12 @@ inline Number digits_lost() {
     return Number("1e-85");
 }
 
+/// Returns more than the rounding error of a distance from a point, which grows with the
+/// coordinates, however small the distance is.
+inline Number distance_error(const OnSurface& one, const Place& from) {
+    return digits_lost() * (one.distance + size_of(one.point) + size_of(from));
+}
+
 inline void add(OnSurfaces& to, const Place& point, const Place& from, int face = 0) {
     to.push_back({point, size_of(point - from), static_cast<core::Face>(face)});
 }
@@ -291,7 +297,7 @@ OnSurfaces closest_of(const Shape& shape, const core::Vec3d& from) {
     Number least = surfaces[0].distance;
     for (const OnSurface& one : surfaces)
         least = std::min(least, one.distance);
-    const Number most = least + digits_lost() * (least + size_of(surfaces[0].point) + size_of(p));
+    const Number most = least + distance_error(surfaces[0], p);
     std::erase_if(surfaces, [&](const OnSurface& one) { return one.distance > most; });
     std::stable_sort(surfaces.begin(), surfaces.end(),
                      [](const OnSurface& a, const OnSurface& b) { return a.face < b.face; });
