@@ -14,7 +14,9 @@
 #include "scenes/api/cpp/translate.hpp"
 #include "simd/threads/threads.hpp"
 
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <utility>
@@ -58,6 +60,28 @@ ShapesOf<Shape> shapes_of(const core::Scene& scene) {
     return shapes;
 }
 
+/// Returns the bounds that a hierarchy over all shapes has, those of copies included. It takes the
+/// bounds of floats, which are rounded otherwise, for the shapes of a kind that are all in floats.
+core::Bounds bounds_of_all(const core::Scene& scene) {
+    struct OfKind {
+        core::Bounds of_floats, of_doubles;
+        bool has_doubles = false;
+    };
+    std::array<OfKind, core::kind_count> kinds;
+    core::for_each_bounded_shape(scene, [&]<class Shape>(const Shape& shape, ShapeId) {
+        using InFloat = core::InFloat<Shape>;
+        OfKind& kind = kinds[static_cast<std::size_t>(core::kind_of<InFloat>)];
+        kind.has_doubles = kind.has_doubles || !core::is_in_floats(shape);
+        kind.of_doubles.include(core::padded(core::bounds_of(shape)));
+        if (!kind.has_doubles)
+            kind.of_floats.include(core::padded(core::bounds_of(core::to_floats(shape))));
+    });
+    core::Bounds bounds;
+    for (const OfKind& kind : kinds)
+        bounds.include(kind.has_doubles ? kind.of_doubles : kind.of_floats);
+    return bounds;
+}
+
 /// Throws InvalidValue, field "auto_camera/...".
 core::AutoCamera core_auto_camera(const AutoCamera& camera) {
     core::FitCamera fit_camera{.projection = static_cast<core::Projection>(camera.projection),
@@ -86,11 +110,8 @@ std::size_t Scene::material_count() const {
 }
 
 Bounds Scene::bounds() const {
-    core::Bounds bounds = scene_->hierarchy().bounds;
-    if (scene_->copies() != nullptr)
-        core::for_each_bounded_shape(*scene_, [&](const auto& shape, ShapeId) {
-            bounds.include(core::padded(core::bounds_of(shape)));
-        });
+    const core::Bounds bounds =
+        scene_->copies() != nullptr ? bounds_of_all(*scene_) : scene_->hierarchy().bounds;
     return {converted<Vec3>(bounds.lower), converted<Vec3>(bounds.upper)};
 }
 

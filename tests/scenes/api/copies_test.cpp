@@ -240,6 +240,7 @@ void expect_same_answers(const Contents& contents, int count, Random& random) {
     REQUIRE(spheres.id == expected.id);
     REQUIRE(spheres.material == expected.material);
     REQUIRE(kept.bounds().lower == shapes.bounds().lower);
+    REQUIRE(kept.bounds().upper == shapes.bounds().upper);
     const Tracer of_kept(kept), of_shapes(shapes);
     Rays rays = hard_rays(shapes, count, random);
     expect_same(of_kept, of_shapes, rays.span());
@@ -270,6 +271,31 @@ TEST_CASE("rays at kept copies have the answers of rays at shapes") {
         expect_same_answers(any_contents(random, 5, 60, 100), 2000, random);
         expect_same_answers(any_contents(random, 1, 200, 0), 1000, random);
         expect_same_answers(any_contents(random, 400, 3, 30), 1000, random);
+    }
+}
+
+TEST_CASE("bounds of scenes with kept copies have the bits of those with shapes") {
+    Random random(41);
+    for (int round = 0; round < 400; ++round) {
+        Contents contents;
+        contents.materials = {{}, {}};
+        // A sphere in doubles has other bounds than one in floats, and so has each sphere beside.
+        const double radius = round % 2 == 0 ? 1.0 : 1.0 + 0x1p-40;
+        Group group;
+        if (round % 4 < 2)
+            group.add(SphereOf<double>{{0, 0, 0}, radius}, 0);
+        else
+            group.add(CappedCylinderOf<double>{{0, 0, 0}, {0, 0, radius}, radius}, 0);
+        contents.groups = {group};
+        contents.placements = {{Placement{}, Placement{.translate = {0.5, 0.5, 0.5}}}};
+        for (int ball = 0; ball < 3; ++ball) {
+            const core::Vec3f center = ray_sets::rounded(random.cube(9));
+            contents.balls.push_back({{center.x, center.y, center.z}, 1});
+        }
+        const Bounds kept = contents.built(true).bounds(), shapes = contents.built(false).bounds();
+        CAPTURE(round);
+        REQUIRE(kept.lower == shapes.lower);
+        REQUIRE(kept.upper == shapes.upper);
     }
 }
 
