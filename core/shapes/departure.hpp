@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <type_traits>
 
 /// Rays that start on a shape: the side to which they go, and checks of the starts that callers
 /// give.
@@ -68,6 +70,46 @@ double tolerance_of(const Shape& shape, const Vec3d& origin, double share_of_siz
     return share_of_size * size + 0x1p-18 * coordinate;
 }
 
+inline std::optional<int> sign_of(const Bounded<double>& number) {
+    if (!(number.magnitude() > number.error)) return {};
+    return number.value > 0.0 ? 1 : -1;
+}
+inline std::optional<int> sign_of(const Dyadic& number) {
+    return number.sign();
+}
+
+/// Returns the side of a ray from the apex of a cone, or nothing if errors leave it open: the cone
+/// is around the ray if the ray goes towards the base, and faster so than it goes away from the
+/// axis.
+template <class Shape, class Real>
+std::optional<int> side_from_apex(const Shape& cone, const ScaledAxialRay<Real>& axial,
+                                  const ScaledWidth<Real>& width) {
+    const std::optional<int> along = sign_of(dot(apex_direction<Real>(cone), axial.direction));
+    if (!along) return {};
+    if (*along >= 0) return 1;
+    const Real across = axial.axis_squared * squared_length(axial.direction) -
+                        axial.height_direction * axial.height_direction;
+    return sign_of(axial.axis_squared * across - width.direction * width.direction);
+}
+
+/// Returns side_of_departure(), or nothing if the errors of these numbers leave it open.
+template <class Real, class Shape>
+std::optional<int> side_in(const Shape& shape, const Ray<double>& given, Face face) {
+    const Ray<Real> ray{convert<Real>(given.origin), convert<Real>(given.direction)};
+    if constexpr (kind_of<Shape> == Kind::box && !std::is_same_v<Real, Dyadic>)
+        return sign_of(dot(outward_direction(shape, ray.origin, face), ray.direction)); // faster
+    if constexpr (requires { shape.base_radius; }) {
+        // At the apex the normal is 0. Beyond it, where rounding may have moved the origin, the
+        // normal of the cone's form points to the inside.
+        const ScaledAxialRay<Real> axial(shape.base, shape.axis, ray);
+        const ScaledWidth<Real> width(shape.base_radius, shape.top_radius, axial);
+        const std::optional<int> before_apex = face == body ? sign_of(width.origin) : 1;
+        if (!before_apex) return {};
+        if (*before_apex <= 0) return side_from_apex(shape, axial, width);
+    }
+    return sign_of(dot(normal_along(shape, ray, face).v, ray.direction));
+}
+
 } // namespace detail
 
 /// Returns true if the origin of a ray that leaves a face may be a point of it that was rounded,
@@ -90,20 +132,12 @@ bool may_start_on(const Shape& shape, const Vec3d& origin, Face face, double sha
 }
 
 /// Returns the side of a face to which a ray goes that starts on it, as real arithmetic decides for
-/// the normal at its origin: -1 inside (behind), 1 outside, 0 along the surface.
+/// the normal at its origin: -1 inside (behind), 1 outside, 0 along the surface. From the apex of
+/// a cone and from beyond it, the side is that of a ray from the apex.
 template <class Shape>
 int side_of_departure(const Shape& shape, const Ray<double>& ray, Face face) {
-    using Real = Bounded<double>;
-    const Ray<Real> bounded{convert<Real>(ray.origin), convert<Real>(ray.direction)};
-    Vec3<Real> normal;
-    if constexpr (kind_of<Shape> == Kind::box)
-        normal = outward_direction(shape, bounded.origin, face); // the same, in less time
-    else
-        normal = normal_along(shape, bounded, face).v;
-    const Real along = dot(normal, bounded.direction);
-    if (along.magnitude() > along.error) return along.value > 0.0 ? 1 : -1;
-    const ExactRay exact{convert<Dyadic>(ray.origin), convert<Dyadic>(ray.direction)};
-    return dot(normal_along(shape, exact, face).v, exact.direction).sign();
+    const std::optional<int> side = detail::side_in<Bounded<double>>(shape, ray, face);
+    return side ? *side : *detail::side_in<Dyadic>(shape, ray, face);
 }
 
 /// Returns side_of_departure() of a ray that may_start_on() a shape, if both are decided by few
@@ -162,10 +196,11 @@ int clear_side_of_departure(const Shape& shape, const Ray<double>& ray, Face fac
     return 0;
 }
 
-/// Returns true if a ray goes away from a face, or to its inside, at an angle that rounding does
-/// not explain. Near a tip, or on a tiny shape, the normal is another one just beside the origin.
+/// Returns the side of a face to which a ray goes at an angle that rounding of its origin does not
+/// explain: -1 inside, 1 outside, 0 if rounding does. Near a tip, or on a tiny shape, the normal is
+/// another one just beside the origin.
 template <class Shape>
-bool departs_clearly(const Shape& shape, const Ray<double>& ray, Face face, double share_of_size) {
+int certain_side(const Shape& shape, const Ray<double>& ray, Face face, double share_of_size) {
     const Vec3d along = ray.direction / largest_component(ray.direction);
     const auto sine_at = [&](const Vec3d& point) {
         const Vec3d normal = outward_direction(shape, point, face);
@@ -180,7 +215,7 @@ bool departs_clearly(const Shape& shape, const Ray<double>& ray, Face face, doub
             beside[axis] += step;
             is_clear = is_clear && std::copysign(1.0, sine) * sine_at(beside) > least;
         }
-    return is_clear;
+    return !is_clear ? 0 : sine > 0.0 ? 1 : -1;
 }
 
 } // namespace raylane::core

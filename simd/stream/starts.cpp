@@ -47,7 +47,7 @@ bool goes_inside(const Shape& shape, const GivenStart& start) {
     const int side = core::side_of_departure(shape, start.ray, start.face);
     if (start.inward == nullptr) return side < 0;
     if (side == (inward ? 1 : -1) &&
-        core::departs_clearly(shape, start.ray, start.face, start.rounding))
+        core::certain_side(shape, start.ray, start.face, start.rounding) == side)
         throw core::InvalidValue(
             "origin_inward", *start.inward != 0 ? "must be 0 for a direction to the outside, got 1"
                                                 : "must be 1 for a direction to the inside, got 0");

@@ -259,3 +259,29 @@ TEMPLATE_TEST_CASE("a departure that few operations decide is the one of all dig
     CHECK(tangents > 0);
     CHECK(off > 0);
 }
+
+TEMPLATE_TEST_CASE("a ray from a cone's tip goes inside where the cone is around it", "", OpenCone,
+                   CappedCone) {
+    const Vec3d tip(1, 2, 3);
+    for (const double length : {0.125, 1.0, 8.0}) { // flat, right-angled, sharp
+        InDouble<TestType> cone{Vec3d(1, 2, 3 - length), Vec3d(0, 0, length), 1.0, 0.0};
+        InDouble<TestType> turned{tip, Vec3d(0, 0, -length), 0.0, 1.0};
+        for (const auto& shape : {cone, turned})
+            for (const double beyond : {0.0, 1e-9}) {
+                const auto side = [&](const Vec3d& direction) {
+                    return side_of_departure(
+                        shape, Ray<double>{tip + Vec3d(0, 0, beyond), direction}, body);
+                };
+                CAPTURE(length, beyond);
+                CHECK(side(Vec3d(0, 0, 1)) == 1);
+                CHECK(side(Vec3d(0, 0, -1)) == -1);
+                CHECK(side(Vec3d(1, 0, 0)) == 1);
+                CHECK(side(Vec3d(0.5, 0, -length)) == -1);
+                CHECK(side(Vec3d(0, 1, -length)) == 0);
+                CHECK(side(Vec3d(0, 1 + 0x1p-52, -length)) == 1);
+                CHECK(side(Vec3d(0, -1 + 0x1p-53, -length)) == -1);
+                CHECK(side(Vec3d(2, 0, -length)) == 1);
+                CHECK(side(Vec3d(0.5, 0, length)) == 1);
+            }
+    }
+}

@@ -271,6 +271,61 @@ TEST_CASE("onward rays are not refused next to a tip or on a tiny shape") {
     }
 }
 
+TEST_CASE("onward rays leave the tip of a flat cone to the outside") {
+    // Rounding moves each origin beyond the apex, where the normal of the cone's form points to the
+    // inside.
+    struct Departure {
+        CappedCone cone;
+        Vec3 origin, direction;
+    };
+    const Departure departures[] = {
+        {{{-0x1.63785ap+2F, 0x1.d69598p+2F, -0x1.9db796p+2F},
+          {-0x1.5f3f6cp-3F, 0x1.a1795cp-11F, -0x1.4e720ap-1F},
+          0x1.570e78p+1F,
+          0},
+         {-0x1.6e7256p+2F, 0x1.d6a2a4p+2F, -0x1.c785d8p+2F},
+         {-0x1.e82c0cp+4F, -0x1.25ae12p+2F, -0x1.fb850cp+2F}},
+        {{{0x1.b97336p+2F, 0x1.1e5ef8p+3F, 0x1.9fdc6ep+2F},
+          {0x1.5d3d5ep-5F, -0x1.1495bep-11F, 0x1.303474p-5F},
+          0x1.dc1054p-2F,
+          0},
+         {0x1.bc2db2p+2F, 0x1.1e5aa6p+3F, 0x1.a23cd6p+2F},
+         {0x1.b0f832p-1F, 0x1.069544p-1F, 0x1.2ed3f8p-3F}},
+        {{{-0x1.bf99b6p+0F, -0x1.1fac0ap+1F, 0x1.15604cp+3F},
+          {0x1.65995cp-7F, 0x1.d22472p-7F, 0x1.9bfd5cp-7F},
+          0x1.bc202cp-2F,
+          0},
+         {-0x1.bcce88p+0F, -0x1.1dd9e6p+1F, 0x1.15c74cp+3F},
+         {0x1.62aa24p+9F, 0x1.28671ap+8F, 0}},
+    };
+    for (const Departure& departure : departures) {
+        SceneBuilder builder;
+        builder.add(departure.cone, builder.add_material({}));
+        const Tracer tracer(builder.build());
+        const Vec3& from = departure.origin;
+        const Vec3& to = departure.direction;
+        for (const int inward : {-1, 0, 2})
+            CHECK(refusal(tracer, from, to, 0, 0, inward) == "none|");
+    }
+}
+
+TEST_CASE("a ray from a cone's apex leaves the cone by its base if it goes inside") {
+    SceneBuilder builder;
+    builder.add(CappedCone{{1, 2, 1}, {0, 0, 2}, 1, 0}, builder.add_material({}));
+    const Tracer tracer(builder.build());
+    for (const bool inside : {true, false}) {
+        Rays rays;
+        rays.add({1, 2, 3}, {inside ? 0.25F : 1.25F, 0, -2});
+        RaySpan from = rays.span();
+        const std::vector<ShapeId> shape = {0};
+        from.origin_shape = shape;
+        Hits hits(1);
+        tracer.intersect(from, hits.span());
+        CHECK(hits.is_none(0) == !inside);
+        if (inside) CHECK(hits.t[0] == 1.0F);
+    }
+}
+
 TEST_CASE("limits of rays in double compare with t as it is answered, also if that is a float") {
     const Heap setup = heap();
     const Tracer tracer(setup.scene);
