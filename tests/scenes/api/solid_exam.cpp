@@ -41,9 +41,12 @@ std::string word(core::ShapeId shape, double t, bool entering) {
     return text.str();
 }
 
-/// Returns the t of a hit, which is never 0, for the t of a crossing.
-float in_float(double t) {
-    return std::max(static_cast<float>(t), std::numeric_limits<float>::denorm_min());
+/// Returns true if a number rounds to the double t of a crossing and to this float, which is never
+/// 0. If t is halfway between two floats, the number may round to either.
+bool rounds_to(double t, float hit) {
+    const auto nearest = static_cast<float>(t);
+    return hit == std::max(nearest, std::numeric_limits<float>::denorm_min()) ||
+           static_cast<double>(nearest) + static_cast<double>(hit) == 2.0 * t;
 }
 
 /// Checks that hits, and single crossings, are the first of all crossings.
@@ -60,7 +63,7 @@ void check_firsts(const Tracer& tracer, const RaySpan& rays, const CrossingRows&
         const bool is_hit =
             rows.first[i + 1] == k
                 ? hits.is_none(i)
-                : rows.shape_id[k] == hits.shape[i] && in_float(rows.t[k]) == hits.t[i] &&
+                : rows.shape_id[k] == hits.shape[i] && rounds_to(rows.t[k], hits.t[i]) &&
                       rows.entering[k] == hits.entering[i] && rows.normal_x[k] == hits.nx[i] &&
                       rows.normal_y[k] == hits.ny[i] && rows.normal_z[k] == hits.nz[i];
         if (!is_hit) wrong.blame(wrong.firsts, "the hit of ray " + std::to_string(i));

@@ -236,6 +236,23 @@ TEST_CASE("solids of any parts are crossed as in real arithmetic") {
     check(wrong, lattice);
 }
 
+TEST_CASE("a hit with a solid has the float nearest to the true t, not to its double") {
+    // The true t is 2^-60 beside the middle of two floats, to which its double rounds.
+    const double middle = 0x1.924925p+0;
+    const Expression box{Op::part,
+                         core::BoxOf<double>{{-1, -1, middle}, {2, 0, 0}, {0, 2, 0}, {0, 0, 1}}};
+    const Expression ball{Op::part, core::SphereOf<double>{{0, 0, 0}, 9.0}};
+    const Expression solid{Op::intersect, {}, {box, ball}};
+    std::vector<core::Ray<float>> rays;
+    for (const float off : {-0x1p-60F, 0.0F, 0x1p-60F})
+        rays.push_back({{0, 0, off}, {0, 0, 1}});
+    const std::optional<Scene> scene = scene_of(solid);
+    REQUIRE(scene);
+    SolidTally wrong;
+    ask(solid, *scene, rays, wrong);
+    check(wrong, false);
+}
+
 TEST_CASE("a crowd that is cut is crossed as in real arithmetic") {
     const bool lattice = GENERATE(true, false);
     Random random(seed(23));
