@@ -263,7 +263,7 @@ void expect_same_answers(const Contents& contents, int count, Random& random) {
 } // namespace
 
 TEST_CASE("rays at kept copies have the answers of rays at shapes") {
-    Random random(17);
+    Random random(tests::seed(17));
     const int rounds = tests::rounds(4, 1, 30);
     for (int round = 0; round < rounds; ++round) {
         INFO(round);
