@@ -56,7 +56,8 @@ struct BasicRaySpan {
     std::span<const std::uint8_t> origin_face{}; ///< HitSpan::face of that hit; empty: 0
     /// 1 if the ray goes to the inside (back) of that surface: it is transmitted after a hit with
     /// `entering` 1, or reflected after one with `entering` 0. 0: to the outside. 2, or empty: the
-    /// direction decides, by the exact normal at the origin; a tangent goes to the outside.
+    /// direction decides, by the exact normal at the origin; a tangent goes to the outside. From a
+    /// cone's apex, a ray goes inside if the cone is around it.
     std::span<const std::uint8_t> origin_inward{};
 };
 using RaySpan = BasicRaySpan<float>;

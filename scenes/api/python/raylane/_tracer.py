@@ -37,7 +37,7 @@ class Leaving(Fields):
     of the hit, arrays that broadcast with the rays; ``NO_SHAPE`` for a ray that starts on no surface. ``inward``: true
     if the ray goes to the inside of that surface, that is, it is transmitted after an entering hit, or reflected after
     one that is not entering. None, or the number 2 for a ray: the direction decides, by the exact normal at the origin;
-    a tangent goes to the outside.
+    a tangent goes to the outside. From a cone's apex, a ray goes inside if the cone is around it.
 
     Queries raise :class:`InvalidValue`, with the field ``leaving.shape_id/7`` for the ray with the flat index 7, if an
     origin is farther from the shape than rounding explains: 2^-6 of the shape's size for float32, 2^-10 for float64,
