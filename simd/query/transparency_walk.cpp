@@ -28,6 +28,10 @@ TransparencyWalk::TransparencyWalk(const SceneData& scene, const Tracing& tracin
     searcher_ = std::make_unique<core::Searcher<double>>(scene.scene(), core::Search::hierarchy,
                                                          tracing.precision);
     onward_ = std::make_unique<Query>(scene, tracing, Asked::points);
+    const core::Solids& solids = scene.scene().solids();
+    if (std::any_of(solids.nodes().begin(), solids.nodes().end(),
+                    [](const core::Solids::Node& node) { return node.counts; }))
+        skipper_ = std::make_unique<UnionSkipper>(scene, tracing);
 }
 
 void TransparencyWalk::take_from(Arena& arena, std::size_t capacity) {
@@ -36,6 +40,7 @@ void TransparencyWalk::take_from(Arena& arena, std::size_t capacity) {
     points_.reserve(64);
     if (onward_ == nullptr) return;
     onward_->take_from(arena, capacity);
+    if (skipper_ != nullptr) skipper_->take_from(arena, capacity);
     onward_paths_.take_from(arena, capacity, false);
     passed_ = arena.take<double>(capacity);
     ways_.resize(capacity);
@@ -78,6 +83,8 @@ void TransparencyWalk::go_on(const Paths& paths, const Coherence* coherence,
     // Rays that go on no longer start at one point.
     if (coherence != nullptr && !coherence->converging && !coherence->parallel)
         coherence = &neighbours;
+    if (skipper_ != nullptr)
+        skipper_->skip(onward_paths_, {ways_.data(), onward_paths_.count}, passed_);
     for (int passed = 1; onward_paths_.count != 0; ++passed) {
         if (passed == longest_walk) {
             at_contacts_.insert(at_contacts_.end(), onward_paths_.sample,

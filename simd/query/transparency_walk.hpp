@@ -3,6 +3,7 @@
 #include "core/reference/search.hpp"
 #include "simd/query/cut_faces.hpp"
 #include "simd/query/query.hpp"
+#include "simd/query/union_skipper.hpp"
 
 #include <memory>
 #include <vector>
@@ -49,6 +50,7 @@ class TransparencyWalk {
     // Search behind invisible surfaces; null if rays pass no surface.
     std::unique_ptr<Query> onward_;
     std::unique_ptr<core::Searcher<double>> searcher_; // for surfaces too close to start between
+    std::unique_ptr<UnionSkipper> skipper_;            // null without unions of many
     Paths onward_paths_{};                             // `sample` is the lane
     double* passed_ = nullptr;
 };
