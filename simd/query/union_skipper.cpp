@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace raylane::simd {
 
@@ -20,13 +19,12 @@ constexpr std::size_t max_pairs = std::size_t{1} << 16;
 } // namespace
 
 UnionSkipper::UnionSkipper(const SceneData& scene, const Tracing& tracing)
-    : scene_(scene), tracing_(tracing), search_(scene, tracing), listed_ray_(max_pairs),
-      listed_slot_(max_pairs) {}
+    : scene_(scene), tracing_(tracing), search_(scene, tracing), pairs_(scene, tracing) {}
 
 void UnionSkipper::take_from(Arena& arena, std::size_t capacity) {
     search_.take_from(arena, capacity);
     t_limit_ = arena.take<float>(capacity);
-    first_of_ray_.resize(capacity + 1);
+    pairs_.reserve(capacity);
 }
 
 /// Returns true if a ray is inside of a union that nothing cuts.
@@ -45,7 +43,7 @@ void UnionSkipper::skip(const Paths& paths, std::span<core::WayInUnion> ways, do
         some = std::min(some, paths.count - begin);
         while (!list_pairs(begin, begin + some, ways))
             some /= 2;
-        cross_pairs(paths);
+        pairs_.cross(paths.origin, paths.direction, paths.direction, /*with_normals=*/false);
         skip_some(paths, begin, begin + some, ways, passed);
     }
 }
@@ -58,49 +56,8 @@ bool UnionSkipper::list_pairs(std::size_t begin, std::size_t end,
         t_limit_[lane] = begin <= lane && lane < end && is_inside(ways[lane])
                              ? std::numeric_limits<float>::max()
                              : -1.0F;
-    PairList list{};
-    do {
-        if (list.count > max_pairs && end - begin > 1) return false;
-        if (list.count > listed_ray_.size()) {
-            listed_ray_.resize(list.count);
-            listed_slot_.resize(list.count);
-        }
-        list = {listed_ray_.data(), listed_slot_.data(), listed_ray_.size(), 0};
-        search_.list_all(t_limit_, list);
-    } while (list.count > list.room);
-
-    std::fill(first_of_ray_.begin(), first_of_ray_.end(), 0U);
-    for (std::size_t k = 0; k < list.count; ++k)
-        ++first_of_ray_[list.ray[k] + 1];
-    std::partial_sum(first_of_ray_.begin(), first_of_ray_.end(), first_of_ray_.begin());
-    ray_.resize(list.count);
-    slot_.resize(list.count);
-    for (std::size_t k = 0; k < list.count; ++k) {
-        const std::uint32_t to = first_of_ray_[list.ray[k]]++;
-        ray_[to] = list.ray[k];
-        slot_[to] = list.slot[k];
-    }
-    std::copy_backward(first_of_ray_.begin(), first_of_ray_.end() - 1, first_of_ray_.end());
-    first_of_ray_[0] = 0;
-    return true;
-}
-
-void UnionSkipper::cross_pairs(const Paths& paths) {
-    for (std::vector<double>* const column : {&high_, &low_, &error_})
-        column->resize(2 * slot_.size());
-    bits_.resize(2 * slot_.size());
-    const double* const* const from = paths.origin;
-    const double* const* const along = paths.direction;
-    tracing_.method().refine.cross_all(scene_.view_with_copies(), {slot_.size(),
-                                                                   {from[0], from[1], from[2]},
-                                                                   {along[0], along[1], along[2]},
-                                                                   {along[0], along[1], along[2]},
-                                                                   ray_.data(),
-                                                                   slot_.data(),
-                                                                   high_.data(),
-                                                                   low_.data(),
-                                                                   error_.data(),
-                                                                   bits_.data()});
+    constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
+    return pairs_.list(search_, t_limit_, end - begin > 1 ? max_pairs : any, [](PairList&) {});
 }
 
 void UnionSkipper::skip_some(const Paths& paths, std::size_t begin, std::size_t end,
@@ -121,12 +78,12 @@ bool UnionSkipper::find_events(const Paths& paths, std::size_t lane, const core:
     events_.clear();
     first_other_ = core::infinity<double>;
     if (!add_return(paths, lane, way)) return false;
-    for (std::size_t pair = first_of_ray_[lane]; pair < first_of_ray_[lane + 1]; ++pair)
+    for (std::size_t pair = pairs_.first_of_ray[lane]; pair < pairs_.first_of_ray[lane + 1]; ++pair)
         for (std::size_t k = 2 * pair; k < 2 * pair + 2; ++k) {
-            if ((bits_[k] & hit_none) != 0) continue;
-            if ((bits_[k] & hit_doubtful) != 0) return false;
-            add(high_[k], std::abs(low_[k]) + error_[k], (bits_[k] & hit_entering) != 0,
-                scene_.record_of(slot_[pair]).id, way);
+            if ((pairs_.bits[k] & hit_none) != 0) continue;
+            if ((pairs_.bits[k] & hit_doubtful) != 0) return false;
+            add(pairs_.high[k], pairs_.off_by(k), (pairs_.bits[k] & hit_entering) != 0,
+                scene_.record_of(pairs_.slot[pair]).id, way);
         }
     return true;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/reference/solid_surfaces.hpp"
-#include "simd/query/search.hpp"
+#include "simd/query/pair_crossings.hpp"
 
 #include <span>
 #include <vector>
@@ -32,7 +32,6 @@ class UnionSkipper {
     void skip_some(const Paths& paths, std::size_t begin, std::size_t end,
                    std::span<core::WayInUnion> ways, double* passed);
     bool list_pairs(std::size_t begin, std::size_t end, std::span<const core::WayInUnion> ways);
-    void cross_pairs(const Paths& paths);
     bool find_events(const Paths& paths, std::size_t lane, const core::WayInUnion& way);
     bool add_return(const Paths& paths, std::size_t lane, const core::WayInUnion& way);
     void add(double t, double error, bool entering, core::ShapeId shape,
@@ -43,8 +42,7 @@ class UnionSkipper {
     Tracing tracing_;
     CandidateSearch search_;
     float* t_limit_ = nullptr;
-    std::vector<std::uint32_t> listed_ray_, listed_slot_, ray_, slot_, first_of_ray_, bits_;
-    std::vector<double> high_, low_, error_;
+    PairCrossings pairs_;
     std::vector<Event> events_; ///< of a ray, with the parts of its union
     double first_other_ = 0.0;  ///< lower bound of its crossings with other shapes
 };

@@ -44,15 +44,14 @@ RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const Shape
     : scene_(scene), tracing_{tracing.kernels, core::Precision::exact},
       solid_surfaces_(scene.scene()), lengths_(scene.scene()),
       searcher_(scene.scene(), core::Search::hierarchy),
-      intake_(scene, tracing_, shapes, at_a_time), search_(scene, tracing_) {
+      intake_(scene, tracing_, shapes, at_a_time), search_(scene, tracing_),
+      pairs_(scene, tracing_) {
+    pairs_.reserve(at_a_time);
     arena_ = arena_for([&](Arena& arena) {
         intake_.take_from(arena);
         search_.take_from(arena, at_a_time);
         t_limit_ = arena.take<float>(at_a_time);
     });
-    first_of_ray_.resize(at_a_time + 1);
-    listed_ray_.resize(std::size_t{16} * at_a_time);
-    listed_slot_.resize(listed_ray_.size());
 }
 
 /// Calls visit(first, lane) for each ray, once the crossings of the ray with all shapes that it may
@@ -70,7 +69,8 @@ std::size_t RowWorker::for_each_ray(const RayStream<Real>& rays, bool with_norma
             some = std::min(some, count - begin);
             while (!list_pairs(begin, begin + some))
                 some /= 2;
-            cross_pairs(with_normals);
+            const Paths& paths = intake_.paths();
+            pairs_.cross(paths.origin, paths.exact_direction, paths.direction, with_normals);
             for (std::size_t lane = begin; lane < begin + some; ++lane)
                 visit(first, lane);
         }
@@ -94,14 +94,7 @@ bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
                 : std::max(static_cast<float>(std::min(left, max_of_floats)) * candidate_tolerance,
                            std::numeric_limits<float>::min());
     }
-    PairList list{};
-    do {
-        if (list.count > max_pairs && end - begin > 1) return false;
-        if (list.count > listed_ray_.size()) {
-            listed_ray_.resize(list.count + list.count / 4);
-            listed_slot_.resize(listed_ray_.size());
-        }
-        list = {listed_ray_.data(), listed_slot_.data(), listed_ray_.size(), 0};
+    const auto add_own = [&](PairList& list) {
         // Filters do not see the shape on which a ray starts.
         for (std::size_t lane = begin; lane < end; ++lane) {
             if ((paths.origin_bits[lane] & origin_may_return) == 0 || !intake_.is_ray(lane))
@@ -112,51 +105,9 @@ bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
             }
             ++list.count;
         }
-        search_.list_all(t_limit_, list);
-    } while (list.count > list.room);
-
-    // Counts the pairs of each ray, finds where they begin, then moves each pair to its place.
-    std::fill(first_of_ray_.begin(), first_of_ray_.end(), 0U);
-    for (std::size_t k = 0; k < list.count; ++k)
-        ++first_of_ray_[list.ray[k]];
-    std::exclusive_scan(first_of_ray_.begin(), first_of_ray_.end(), first_of_ray_.begin(), 0U);
-    ray_.resize(list.count);
-    slot_.resize(list.count);
-    for (std::size_t k = 0; k < list.count; ++k) {
-        const std::uint32_t to = first_of_ray_[list.ray[k]]++;
-        ray_[to] = list.ray[k];
-        slot_[to] = list.slot[k];
-    }
-    std::copy_backward(first_of_ray_.begin(), first_of_ray_.end() - 1, first_of_ray_.end());
-    first_of_ray_[0] = 0;
-    return true;
-}
-
-void RowWorker::cross_pairs(bool with_normals) {
-    for (std::vector<double>* const column : {&high_, &low_, &error_})
-        column->resize(2 * slot_.size());
-    bits_.resize(2 * slot_.size());
-    float* normal[3] = {};
-    for (int axis = 0; with_normals && axis < 3; ++axis) {
-        normal_[axis].resize(2 * slot_.size());
-        normal[axis] = normal_[axis].data();
-    }
-    const Paths& paths = intake_.paths();
-    const double* const* const from = paths.origin;
-    const double* const* const along = paths.exact_direction;
-    const double* const* const unit = paths.direction;
-    tracing_.method().refine.cross_all(scene_.view_with_copies(),
-                                       {slot_.size(),
-                                        {from[0], from[1], from[2]},
-                                        {along[0], along[1], along[2]},
-                                        {unit[0], unit[1], unit[2]},
-                                        ray_.data(),
-                                        slot_.data(),
-                                        high_.data(),
-                                        low_.data(),
-                                        error_.data(),
-                                        bits_.data(),
-                                        {normal[0], normal[1], normal[2]}});
+    };
+    constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
+    return pairs_.list(search_, t_limit_, end - begin > 1 ? max_pairs : any, add_own);
 }
 
 /// Sorts the crossings of a ray that count into keys_ and returns true if the results of
@@ -171,21 +122,25 @@ bool RowWorker::sort_at_once(const RayStream<Real>& rays, std::size_t lane, cons
     const double unit = intake_.taken().unit[lane];
     const Limits limits = limits_of(rays, lane);
     keys_.clear();
-    for (std::uint32_t k = 2 * first_of_ray_[lane]; k < 2 * first_of_ray_[lane + 1]; ++k) {
-        if ((bits_[k] & hit_none) != 0) continue;
-        if ((bits_[k] & hit_doubtful) != 0 ||
-            !core::rounds_surely(core::DoubleDouble(high_[k], low_[k]), error_[k]) ||
-            !std::isnormal(high_[k] * unit))
+    for (std::uint32_t k = 2 * pairs_.first_of_ray[lane]; k < 2 * pairs_.first_of_ray[lane + 1];
+         ++k) {
+        if ((pairs_.bits[k] & hit_none) != 0) continue;
+        if ((pairs_.bits[k] & hit_doubtful) != 0 ||
+            !core::rounds_surely(core::DoubleDouble(pairs_.high[k], pairs_.low[k]),
+                                 pairs_.error[k]) ||
+            !std::isnormal(pairs_.high[k] * unit))
             return false;
         if (!counts(k)) continue;
-        const Within within = is_within<Real>(limits, high_[k] * unit, off_by(k) * unit);
+        const Within within =
+            is_within<Real>(limits, pairs_.high[k] * unit, pairs_.off_by(k) * unit);
         if (within == Within::unknown) return false;
-        if (within == Within::yes) keys_.push_back({high_[k], k});
+        if (within == Within::yes) keys_.push_back({pairs_.high[k], k});
     }
     std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) { return a.t < b.t; });
     for (std::size_t i = 1; i < keys_.size(); ++i) {
         const std::uint32_t before = keys_[i - 1].crossing, k = keys_[i].crossing;
-        if (!(high_[before] + off_by(before) < high_[k] - off_by(k))) return false;
+        if (!(pairs_.high[before] + pairs_.off_by(before) < pairs_.high[k] - pairs_.off_by(k)))
+            return false;
     }
     counters_.order.by_bounds += keys_.empty() ? 0 : keys_.size() - 1;
     return true;
@@ -205,11 +160,11 @@ void RowWorker::add_keys(const RayStream<Real>& rays, std::size_t lane,
         column->resize(begin + count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t k = keys_[i].crossing;
-        const SceneData::ShapeRecord shape = scene_.record_of(slot_[k / 2]);
-        rows.t[begin + i] = high_[k] * unit;
+        const SceneData::ShapeRecord shape = scene_.record_of(pairs_.slot[k / 2]);
+        rows.t[begin + i] = pairs_.high[k] * unit;
         rows.shape[begin + i] = shape.id;
-        rows.entering[begin + i] = shape.is_entered(bits_[k]) ? 1 : 0;
-        rows.face[begin + i] = static_cast<std::uint8_t>(bits_[k] & hit_face);
+        rows.entering[begin + i] = shape.is_entered(pairs_.bits[k]) ? 1 : 0;
+        rows.face[begin + i] = static_cast<std::uint8_t>(pairs_.bits[k] & hit_face);
     }
     for (std::size_t i = 0; wanted.normals && i < count; ++i)
         push_back(normal_of(rays, lane, keys_[i].crossing), rows.normal);
@@ -217,7 +172,7 @@ void RowWorker::add_keys(const RayStream<Real>& rays, std::size_t lane,
     const LoneRay ray = intake_.lone(rays, lane, lane);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t k = keys_[i].crossing;
-        const core::SharpHit hit(hit_at(k), {high_[k], low_[k]}, error_[k]);
+        const core::SharpHit hit(hit_at(k), {pairs_.high[k], pairs_.low[k]}, pairs_.error[k]);
         push_back(ray.double_normal_of(scene_.scene(), hit), rows.normal_double);
     }
 }
@@ -225,7 +180,7 @@ void RowWorker::add_keys(const RayStream<Real>& rays, std::size_t lane,
 /// Returns the normal of a crossing, on the outside of its solid.
 template <class Real>
 core::Vec3f RowWorker::normal_of(const RayStream<Real>& rays, std::size_t lane, std::size_t k) {
-    core::Vec3f normal(normal_[0][k], normal_[1][k], normal_[2][k]);
+    core::Vec3f normal(pairs_.normal[0][k], pairs_.normal[1][k], pairs_.normal[2][k]);
     const core::Hit<double> hit = hit_at(k);
     if (std::isnan(normal.x) || std::isnan(normal.y) || std::isnan(normal.z))
         normal = core::rounded_normal(scene_.scene(), intake_.lone(rays, lane, lane).leaving(), hit,
@@ -233,28 +188,24 @@ core::Vec3f RowWorker::normal_of(const RayStream<Real>& rays, std::size_t lane, 
     return hit.reversed ? core::Vec3f(0.0F) - normal : normal; // no -0
 }
 
-/// Returns a bound on the difference between a crossing's exact t and `high_`.
-double RowWorker::off_by(std::size_t k) const {
-    return (std::abs(low_[k]) + error_[k]) * (1.0 + 0x1p-50);
-}
-
 core::Crossing<double> RowWorker::crossing_at(std::size_t k, const core::DoubleDouble& t) const {
-    return {t.high, static_cast<core::Face>(bits_[k] & hit_face), (bits_[k] & hit_entering) != 0,
-            (error_[k] + std::abs(t.low)) * (1.0 + 0x1p-50)};
+    return {t.high, static_cast<core::Face>(pairs_.bits[k] & hit_face),
+            (pairs_.bits[k] & hit_entering) != 0,
+            (pairs_.error[k] + std::abs(t.low)) * (1.0 + 0x1p-50)};
 }
 
 core::Hit<double> RowWorker::hit_at(std::size_t k) const {
-    const SceneData::ShapeRecord shape = scene_.record_of(slot_[k / 2]);
-    return {crossing_at(k, {high_[k], low_[k]}), shape.id, shape.kind,
-            scene_.place_of(slot_[k / 2]), shape.reversed};
+    const SceneData::ShapeRecord shape = scene_.record_of(pairs_.slot[k / 2]);
+    return {crossing_at(k, {pairs_.high[k], pairs_.low[k]}), shape.id, shape.kind,
+            scene_.place_of(pairs_.slot[k / 2]), shape.reversed};
 }
 
 /// Returns true if a crossing is on a visible surface.
 template <class Real>
 bool RowWorker::is_seen(const RayStream<Real>& rays, std::size_t lane, std::size_t k) {
-    const SceneData::ShapeRecord shape = scene_.record_of(slot_[k / 2]);
+    const SceneData::ShapeRecord shape = scene_.record_of(pairs_.slot[k / 2]);
     const core::Scene& scene = scene_.scene();
-    if (!scene.materials()[shape.material].is_seen(shape.is_entered(bits_[k]))) return false;
+    if (!scene.materials()[shape.material].is_seen(shape.is_entered(pairs_.bits[k]))) return false;
     if (!scene.solids().has(shape.id)) return true;
     const LoneRay ray = intake_.lone(rays, lane, lane);
     return solid_surfaces_.is_surface(ray.leaving(), hit_at(k));
@@ -274,14 +225,16 @@ void RowWorker::find(const LoneRay& ray, std::size_t lane, const Counts& wanted)
         });
         return sort(ray);
     }
-    for (std::size_t pair = first_of_ray_[lane]; pair < first_of_ray_[lane + 1]; ++pair) {
-        const SceneData::ShapeRecord shape = scene_.record_of(slot_[pair]);
-        const core::Place place = scene_.place_of(slot_[pair]);
+    for (std::size_t pair = pairs_.first_of_ray[lane]; pair < pairs_.first_of_ray[lane + 1];
+         ++pair) {
+        const SceneData::ShapeRecord shape = scene_.record_of(pairs_.slot[pair]);
+        const core::Place place = scene_.place_of(pairs_.slot[pair]);
         const auto hit_of = [&](const core::Crossing<double>& crossing) {
             return core::Hit<double>(crossing, shape.id, shape.kind, place, shape.reversed);
         };
         const core::Start start = ray.origins.start_on(shape.id);
-        if (start.on_surface || ((bits_[2 * pair] | bits_[2 * pair + 1]) & hit_doubtful) != 0) {
+        if (start.on_surface ||
+            ((pairs_.bits[2 * pair] | pairs_.bits[2 * pair + 1]) & hit_doubtful) != 0) {
             core::with_table(scene_.scene().shapes(), shape.kind, [&](const auto& table) {
                 for (const core::Crossing<double>& crossing :
                      core::solve(table.get(place), ray.ray, start, counters_.widened)) {
@@ -293,10 +246,11 @@ void RowWorker::find(const LoneRay& ray, std::size_t lane, const Counts& wanted)
             continue;
         }
         for (std::size_t k = 2 * pair; k < 2 * pair + 2; ++k) {
-            if ((bits_[k] & hit_none) != 0) continue;
-            const core::DoubleDouble t = core::double_double::two_sum(high_[k], low_[k]);
+            if ((pairs_.bits[k] & hit_none) != 0) continue;
+            const core::DoubleDouble t =
+                core::double_double::two_sum(pairs_.high[k], pairs_.low[k]);
             const core::Hit<double> hit = hit_of(crossing_at(k, t));
-            if (counts(hit)) crossed_.push_back({hit, t, error_[k]});
+            if (counts(hit)) crossed_.push_back({hit, t, pairs_.error[k]});
         }
     }
     sort(ray);
@@ -449,20 +403,21 @@ bool RowWorker::add_lengths_at_once(const RayStream<Real>& lines, const LoneRay&
                                     std::size_t lane, core::Bodies bodies) {
     if (scene_.scene().solids().any()) return false;
     const auto counts = [&](std::size_t k) {
-        return is_solid(scene_.record_of(slot_[k / 2]).kind);
+        return is_solid(scene_.record_of(pairs_.slot[k / 2]).kind);
     };
     if (!sort_at_once(lines, lane, counts)) return false;
     solid_crossings_.clear();
     for (const Key& key : keys_) {
         const std::uint32_t k = key.crossing;
-        const SceneData::ShapeRecord shape = scene_.record_of(slot_[k / 2]);
-        const bool enters = shape.is_entered(bits_[k]);
+        const SceneData::ShapeRecord shape = scene_.record_of(pairs_.slot[k / 2]);
+        const bool enters = shape.is_entered(pairs_.bits[k]);
         // A line enters a convex shape before it leaves it.
-        const bool from_inside = !enters && (bits_[k ^ 1] & hit_none) != 0;
-        solid_crossings_.push_back({bodies == core::Bodies::materials ? shape.medium : shape.id,
-                                    enters,
-                                    from_inside,
-                                    {core::double_double::two_sum(high_[k], low_[k]), error_[k]}});
+        const bool from_inside = !enters && (pairs_.bits[k ^ 1] & hit_none) != 0;
+        solid_crossings_.push_back(
+            {bodies == core::Bodies::materials ? shape.medium : shape.id,
+             enters,
+             from_inside,
+             {core::double_double::two_sum(pairs_.high[k], pairs_.low[k]), pairs_.error[k]}});
     }
     return lengths_.add_certain(ray.ray, solid_crossings_, std::ldexp(ray.t_min, -ray.exponent),
                                 std::ldexp(ray.t_max, -ray.exponent), lengths_found_);

@@ -3,7 +3,7 @@
 #include "core/reference/path_lengths.hpp"
 #include "core/reference/search.hpp"
 #include "core/reference/solid_surfaces.hpp"
-#include "simd/query/search.hpp"
+#include "simd/query/pair_crossings.hpp"
 #include "simd/stream/intake.hpp"
 #include "simd/stream/rows.hpp"
 #include "simd/threads/arena.hpp"
@@ -52,7 +52,6 @@ class RowWorker {
     template <class Real, class Visit>
     std::size_t for_each_row(const RayStream<Real>& rays, bool with_normals, const Visit& visit);
     bool list_pairs(std::size_t begin, std::size_t end);
-    void cross_pairs(bool with_normals);
     template <class Real, class Counts>
     bool sort_at_once(const RayStream<Real>& rays, std::size_t lane, const Counts& counts);
     template <class Real>
@@ -64,7 +63,6 @@ class RowWorker {
     template <class Real>
     core::Vec3f normal_of(const RayStream<Real>& rays, std::size_t lane, std::size_t k);
     core::Hit<double> hit_at(std::size_t k) const;
-    double off_by(std::size_t k) const;
     core::Crossing<double> crossing_at(std::size_t k, const core::DoubleDouble& t) const;
     template <class Real>
     bool is_seen(const RayStream<Real>& rays, std::size_t lane, std::size_t k);
@@ -91,12 +89,7 @@ class RowWorker {
     float* t_limit_ = nullptr;
     Arena arena_;
 
-    // Shapes that rays may cross: as listed, and then by ray, from each ray's first up to the next
-    // ray's.
-    std::vector<std::uint32_t> listed_ray_, listed_slot_, first_of_ray_, ray_, slot_;
-    std::vector<double> high_, low_, error_; // of their crossings
-    std::vector<std::uint32_t> bits_;
-    std::vector<float> normal_[3]; // if wanted
+    PairCrossings pairs_;
 
     struct Key {
         double t;
