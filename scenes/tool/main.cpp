@@ -20,6 +20,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -127,12 +128,28 @@ void be_the_first_to_fail() {
     ::_exit(std::current_exception() ? complain_about_exception() : refused);
 }
 
+constexpr std::size_t stack_bytes = std::size_t{1} << 20;
+
+[[gnu::noinline]] void touch_stack() {
+    [[maybe_unused]] volatile char stack[stack_bytes];
+    for (std::size_t i = 0; i < stack_bytes; i += 4096)
+        stack[i] = 0;
+}
+
+/// Takes memory for the stack of the main thread. A limit that refused it later would end the
+/// program by a signal, without a message.
+void take_stack() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur >= 2 * stack_bytes) touch_stack();
+}
+
 } // namespace
 
 } // namespace raylane::scenes
 
 int main(int argc, char** argv) {
     using namespace raylane;
+    scenes::take_stack();
     scenes::hold_places_of_streams();
     scenes::catch_signals();
     std::set_terminate(scenes::end_by_terminate);
