@@ -4,12 +4,11 @@
 
 namespace raylane::core {
 
-/// Returns the colour of a pattern that is_on_surface(): an image, or that of the part that a face
-/// cuts there. The latter is the part of the solid with the point inside and the smallest power:
-/// for spheres the squared distance from the centre minus the squared radius, for capped cylinders
-/// the same of the axis, for others 0. Of equal powers, the first part counts. Outside of all
-/// parts, and where the part's own pattern depends on more than the point, the colour is the first
-/// one of the pattern.
+/// Returns the colour of a pattern that is_on_surface(): of an image, or of the part that a face
+/// cuts there. The part has the point inside, and the smallest power of such parts: the squared
+/// distance from a sphere's centre or a capped cylinder's axis minus the squared radius, and 0 for
+/// other shapes. If powers are equal, the first part counts. The colour is the first one of the
+/// pattern outside of all parts, and for a part whose pattern depends on more than the point.
 Vec3d color_on(const Scene& scene, const Pattern& pattern, const SurfacePlace& surface);
 
 } // namespace raylane::core

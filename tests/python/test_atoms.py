@@ -315,12 +315,12 @@ def test_options_have_the_words_of_the_command_line(tmp_path):
 
 def test_looks_cuts_backgrounds_and_views_have_the_words_of_the_command_line(tmp_path):
     atoms = lambda **options: raylane.from_atoms(*PEROVSKITE, cell_edges=False, style="spheres", **options)
-    assert atoms(cut="z<-1").shape_count == 7  # four Sr, an O, and faces
+    assert atoms(cut="z<-1").shape_count == 6  # four Sr, an O, and a face
     cuts = ["z<-1", "x < -1"]
     counts = {atoms(cut=cut).shape_count for cut in (cuts, tuple(cuts), [(0, 0, 1, -1), (1, 0, 0, -1)])}
     assert len(counts) == 1 and 0 not in counts
     planes = ((0, 0, 1, -1), [0, 0, 1, -1], np.array([0, 0, 1, -1.0]), "0,0,1,-1")
-    assert {atoms(cut=plane).shape_count for plane in planes} == {7}
+    assert {atoms(cut=plane).shape_count for plane in planes} == {6}
     slabs = ((-1, 1), [-1, 1], np.array([-1, 1]), "-1:1", "-1 1", "-1,1")
     assert len({atoms(view="c", slab=slab).shape_count for slab in slabs}) == 1
     for background in ((0.25, 0.5, 1), [0.25, 0.5, 1.0], np.array([0.25, 0.5, 1]), "0.25,0.5,1"):

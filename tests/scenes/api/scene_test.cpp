@@ -392,8 +392,8 @@ TEST_CASE("a number that matches no enumerator is refused") {
     const auto material = [&](const Material& wrong) {
         return message([&] { builder.add_material(wrong); });
     };
-    CHECK(material({.pattern = {.kind = static_cast<PatternKind>(6)}}) ==
-          "pattern/kind: must be one of its enumerators, 0 to 5, got 6");
+    CHECK(material({.pattern = {.kind = static_cast<PatternKind>(7)}}) ==
+          "pattern/kind: must be one of its enumerators, 0 to 6, got 7");
     CHECK(material({.highlight = static_cast<Highlight>(2)}).starts_with("highlight: must be"));
     CHECK(material({.reflection = static_cast<Reflection>(3)}).starts_with("reflection: must be"));
     CHECK(material({.visible = static_cast<Visible>(255)}).starts_with("visible: must be"));

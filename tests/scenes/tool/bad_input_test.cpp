@@ -171,9 +171,10 @@ TEST_CASE("an invalid shape gives an error of one line") {
          with_objects(
              R"({"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "caly"})"),
          R"(/objects/0/material: must be the name of a material, got "caly", did you mean "clay"?)"},
-        in_scene("unknown pattern", R"("materials": {"a": {"pattern": {"type": "chekcer"}}})",
-                 R"(/materials/a/pattern/type: must be "checker", "stripes", "gradient", )"
-                 R"("formula", "image" or "back-plane", got "chekcer", did you mean "checker"?)"),
+        in_scene(
+            "unknown pattern", R"("materials": {"a": {"pattern": {"type": "chekcer"}}})",
+            R"(/materials/a/pattern/type: must be "checker", "stripes", "gradient", )"
+            R"("formula", "image", "cutaway" or "back-plane", got "chekcer", did you mean "checker"?)"),
         in_scene(
             "mistake in a formula",
             R"~("materials": {"a": {"pattern": {"type": "formula", "color": ["x", "2 * sine(x)", "0"]}}})~",

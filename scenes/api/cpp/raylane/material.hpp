@@ -84,11 +84,11 @@ struct ChannelTexts {
     friend bool operator==(const ChannelTexts&, const ChannelTexts&) = default;
 };
 
-/// Colour as a function of the point in space, an image on the surface, or, for a part that cuts
-/// others of its solid, their colours. Where several are around a point, it is the sphere or capped
-/// cylinder with the smallest power (squared distance from the centre or the axis minus squared
-/// radius), and the first one of equals. A part whose colour depends on more than the point counts
-/// with the first of `colors`.
+/// Colour as a function of the point in space, or an image on the surface. A part that cuts others
+/// of its solid can have their colours (cutaway). If several parts are around a point, the sphere
+/// or capped cylinder with the smallest power gives the colour, and the first one of equals. The
+/// power is the squared distance from the centre or the axis minus the squared radius. A part whose
+/// colour depends on more than the point gives the first of `colors`.
 struct Pattern {
     PatternKind kind = PatternKind::solid;
     /// >= 0. solid, cutaway: the first colour only. checker, stripes: alternating, with the first colour in

@@ -31,7 +31,7 @@ _BLACK: Vector = (0.0, 0.0, 0.0)
 
 @dataclass
 class Pattern(Fields):
-    """A colour as a function of the point in space, an image on the surface, or the colours of what a face cuts."""
+    """A colour as a function of the point in space, an image on the surface, or the colours of the parts that a face cuts."""
 
     kind: Literal["solid", "checker", "stripes", "gradient", "formula", "image", "cutaway"] = "solid"
     """cutaway: on a face that cuts a solid, the colour of the part that it cuts there; of several, of the sphere or capped
