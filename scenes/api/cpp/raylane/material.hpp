@@ -91,9 +91,9 @@ struct ChannelTexts {
 /// colour depends on more than the point gives the first of `colors`.
 struct Pattern {
     PatternKind kind = PatternKind::solid;
-    /// >= 0. solid, cutaway: the first colour only. checker, stripes: alternating, with the first colour in
-    /// the cell that begins at the origin. gradient: the colours at `from` and at `to`. Others:
-    /// unused.
+    /// >= 0. solid, cutaway: the first colour only. checker, stripes: alternating, with the first
+    /// colour in the cell that begins at the origin. gradient: the colours at `from` and at `to`.
+    /// Others: unused.
     Color colors[2] = {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}};
     /// > 0. checker: edge length of a cell; stripes: width of a band. A point nearer to an edge
     /// than 2^-29 of this size belongs to the cell that begins there, or, for an upper edge in
