@@ -76,7 +76,6 @@ void UnionSkipper::skip_some(const Paths& paths, std::size_t begin, std::size_t 
 /// Collects the crossings of a ray. Returns false if one is in doubt.
 bool UnionSkipper::find_events(const Paths& paths, std::size_t lane, const core::WayInUnion& way) {
     events_.clear();
-    first_other_ = core::infinity<double>;
     if (!add_return(paths, lane, way)) return false;
     for (std::size_t pair = pairs_.first_of_ray[lane]; pair < pairs_.first_of_ray[lane + 1]; ++pair)
         for (std::size_t k = 2 * pair; k < 2 * pair + 2; ++k) {
@@ -98,12 +97,14 @@ bool UnionSkipper::add_return(const Paths& paths, std::size_t lane, const core::
     return core::with_table(
         scene_.scene().shapes(), scene_.record_of(slot).kind, [&](const auto& table) {
             std::uint64_t widened = 0;
+            bool leaves = !start.inward;
             for (const core::Crossing<double>& crossing :
                  core::solve(table.get(scene_.place_of(slot)), ray, start, widened)) {
-                if (!std::isfinite(crossing.error)) return false;
-                if (crossing.t > 0.0) add(crossing.t, crossing.error, crossing.entering, id, way);
+                if (!std::isfinite(crossing.error) || !(crossing.t > crossing.error)) return false;
+                leaves = leaves || !crossing.entering;
+                add(crossing.t, crossing.error, crossing.entering, id, way);
             }
-            return true;
+            return leaves;
         });
 }
 
@@ -111,40 +112,45 @@ void UnionSkipper::add(double t, double error, bool entering, core::ShapeId shap
                        const core::WayInUnion& way) {
     const double off = error * (1.0 + 0x1p-50) + 0x1p-50 * t;
     const core::Solids& solids = scene_.scene().solids();
-    if (solids.has(shape) && solids.node(solids.part_of(shape)).parent == way.counted)
-        events_.push_back({t - off, t + off, entering});
-    else
-        first_other_ = std::min(first_other_, t - off);
+    const bool is_part =
+        solids.has(shape) && solids.node(solids.part_of(shape)).parent == way.counted;
+    events_.push_back({t - off, t + off, is_part, entering});
 }
 
-/// Returns a t between the last crossing that is certainly hidden and the next one, or 0. Sets the
-/// number of parts around that place.
+/// Returns a t between the last crossing that is certainly hidden and the next one, or 0 unless
+/// three such places in a row are far apart for doubles. Sets the number of parts around the place.
 double UnionSkipper::find_place(const Paths& paths, std::size_t lane, core::WayInUnion& way) {
     std::sort(events_.begin(), events_.end(),
               [](const Event& a, const Event& b) { return a.low < b.low; });
     int inside = way.inside;
-    double last = 0.0, next = core::infinity<double>;
+    double last = 0.0;
     for (std::size_t i = 0, end = 0; i < events_.size(); i = end) {
         // Crossings whose order is not certain.
         double high = events_[i].high;
         int entered = 0, left = 0;
+        bool has_others = false;
         for (end = i; end < events_.size() && events_[end].low <= high; ++end) {
             high = std::max(high, events_[end].high);
+            has_others = has_others || !events_[end].is_part;
             ++(events_[end].entering ? entered : left);
         }
-        next = std::min(events_[i].low, first_other_);
-        if (first_other_ <= high || inside - left <= 0) break;
-        inside += entered - left;
-        last = high;
-        next = first_other_;
+        if (!has_others && inside - left > 0) {
+            inside += entered - left;
+            last = high;
+            continue;
+        }
+        // Near a contact, the walk from crossing to crossing finds the surfaces.
+        const double next = events_[i].low;
+        const double after = end < events_.size() ? events_[end].low : core::infinity<double>;
+        double size = high;
+        for (int axis = 0; axis < 3; ++axis)
+            size = std::max(size, std::abs(paths.origin[axis][lane]));
+        const double far = 0x1p-40 * size;
+        if (!(last > 0.0) || end - i > 1 || !(next - last > far) || !(after - high > far)) break;
+        way.inside = inside;
+        return 0.5 * last + 0.5 * next;
     }
-    double size = last;
-    for (int axis = 0; axis < 3; ++axis)
-        size = std::max(size, std::abs(paths.origin[axis][lane]));
-    if (!(last > 0.0) || !(next < core::infinity<double>) || !(next - last > 0x1p-40 * size))
-        return 0.0;
-    way.inside = inside;
-    return 0.5 * last + 0.5 * next;
+    return 0.0;
 }
 
 } // namespace raylane::simd

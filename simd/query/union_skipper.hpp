@@ -25,6 +25,7 @@ class UnionSkipper {
   private:
     struct Event {
         double low, high; ///< bounds of t
+        bool is_part;     ///< of the union
         bool entering;
     };
 
@@ -43,8 +44,7 @@ class UnionSkipper {
     CandidateSearch search_;
     float* t_limit_ = nullptr;
     PairCrossings pairs_;
-    std::vector<Event> events_; ///< of a ray, with the parts of its union
-    double first_other_ = 0.0;  ///< lower bound of its crossings with other shapes
+    std::vector<Event> events_; ///< of a ray
 };
 
 } // namespace raylane::simd
