@@ -31,7 +31,40 @@ double power_inside(const Shape& shape, const Vec3d& point) {
     return power <= 0.0 ? power : outside;
 }
 
+/// Returns false if a solid is certainly not around a point.
+bool may_be_around(const Scene& scene, Solids::Index index, const Vec3d& point) {
+    const Solids& solids = scene.solids();
+    const Solids::Node& node = solids.node(index);
+    if (node.op == Solids::Op::part) {
+        const Value inside = with_table(scene.shapes(), node.kind, [&](const auto& table) {
+            return inside_of(table.get(node.place), convert<Bounded<double>>(point));
+        });
+        return inside != (node.reversed ? Value::yes : Value::no);
+    }
+    const bool of_all = node.op == Solids::Op::all;
+    bool is_around = of_all;
+    solids.each_child(index, [&](Solids::Index child) {
+        is_around = may_be_around(scene, child, point);
+        return is_around == of_all;
+    });
+    return is_around;
+}
+
+/// Returns true if a part may fill its surroundings at a point: the intersections that it is a part
+/// of, but `own` is not, may be around the point.
+bool may_count(const Scene& scene, Solids::Index part, Solids::Index own, const Vec3d& point) {
+    const Solids& solids = scene.solids();
+    for (Solids::Index above = solids.node(part).parent; above != Solids::none;
+         above = solids.node(above).parent) {
+        if (above < own && own < solids.node(above).end) return true;
+        if (solids.node(above).op == Solids::Op::all && !may_be_around(scene, above, point))
+            return false;
+    }
+    return true;
+}
+
 /// Returns the part of a surface's solid around the surface's point that is first by its power.
+/// Parts with a cutaway pattern, and those without a surface, have no colour to give.
 ShapeId part_around(const Scene& scene, const SurfacePlace& surface) {
     const Solids& solids = scene.solids();
     const Solids::Index own = solids.part_of(surface.shape);
@@ -41,9 +74,13 @@ ShapeId part_around(const Scene& scene, const SurfacePlace& surface) {
     double least = 0.0;
     const auto look = [&](Solids::Index index, const auto& shape) {
         const Solids::Node& part = solids.node(index);
-        if (index == own || part.reversed) return;
+        if (index == own || part.reversed || part.shape == no_shape ||
+            scene.material_of(part.shape).pattern.kind == PatternKind::cutaway)
+            return;
         const double power = power_inside(shape, surface.point);
-        if (power > least || (power == least && first <= part.shape)) return;
+        if (power > least || (power == least && first <= part.shape) ||
+            !may_count(scene, index, own, surface.point))
+            return;
         first = part.shape;
         least = power;
     };

@@ -6,6 +6,7 @@
 #include "core/optics/fog.hpp"
 #include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
+#include "core/reference/surface_color.hpp"
 #include "core/scene/pattern.hpp"
 #include "core/scene/pattern_place.hpp"
 #include "core/shapes/shapes.hpp"

@@ -509,6 +509,8 @@ class PovWriter {
         }
         if (!is_cutaway(solid.material)) {
             if (solid.material != core::no_material) write_use(solid.material);
+            for (const core::Solid& part : solid.parts)
+                if (is_cutaway(part.material)) differences_.insert("colors of cut faces");
         } else if (!solid.parts.empty()) {
             file_ << " cutaway_textures"; // POV-Ray mixes those of several parts around a point
         }

@@ -110,6 +110,38 @@ TEST_CASE("faces of few and of many parts have the same colours") {
     tests::check_engines_agree(many);
 }
 
+TEST_CASE("parts that cut, that have no surface or that others remove give no colour") {
+    const auto color = [](const auto& add) {
+        TestScene builder;
+        Material of_face = luminous(Color(0.25F));
+        of_face.pattern.kind = PatternKind::cutaway;
+        const Solid plane = builder.part(PlaneOf<double>{{0, 0, 0}, {0, 0, 1}}, of_face);
+        const Solid ball = builder.part(SphereOf<double>{{0, 0, 0}, 1}, luminous(red));
+        const Solid large = builder.part(SphereOf<double>{{0, 0, 0}, 5}, of_face);
+        const Solid blue_ball = builder.part(SphereOf<double>{{0, 0, 0}, 4}, luminous(blue));
+        const Solid far_ball = builder.part(SphereOf<double>{{50, 0, 0}, 1}, luminous(green));
+        builder.add_solid(add(plane, ball, large, blue_ball, far_ball), plane.material);
+        const Scene scene = builder.finish();
+        for (ShapeId id = 0; id < scene.shape_count(); ++id)
+            if (scene.solids().has(id) && scene.solids().node(scene.solids().part_of(id)).flat)
+                return color_at(scene, id, 0.1, 0.2);
+        return Vec3d(-1.0);
+    };
+    using S = const Solid&;
+    CHECK(color([](S plane, S ball, S large, S, S) {
+              return Solid{.made = Made::by_intersection, .parts = {ball, plane, large}};
+          }) == convert<double>(red));
+    CHECK(color([](S plane, S ball, S large, S, S) {
+              const Solid clipped{.made = Made::by_clip, .parts = {ball, large}};
+              return Solid{.made = Made::by_intersection, .parts = {clipped, plane}};
+          }) == convert<double>(red));
+    CHECK(color([](S plane, S ball, S, S blue_ball, S far_ball) {
+              const Solid nothing{.made = Made::by_intersection, .parts = {blue_ball, far_ball}};
+              const Solid both{.made = Made::by_union, .parts = {nothing, ball}};
+              return Solid{.made = Made::by_intersection, .parts = {both, plane}};
+          }) == convert<double>(red));
+}
+
 TEST_CASE("a cutaway pattern is the first colour on a shape that is no part") {
     TestScene builder;
     Material material = luminous(green);

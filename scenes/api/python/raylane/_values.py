@@ -35,7 +35,8 @@ class Pattern(Fields):
 
     kind: Literal["solid", "checker", "stripes", "gradient", "formula", "image", "cutaway"] = "solid"
     """cutaway: on a face that cuts a solid, the colour of the part that it cuts there; of several, of the sphere or capped
-    cylinder with the smallest power (squared distance from the centre or the axis minus squared radius)."""
+    cylinder with the smallest power (squared distance from the centre or the axis minus squared radius), and of the
+    first one of equals. A part whose colour depends on more than the point gives the first of ``colors``."""
     colors: Tuple[Color, Color] = (_WHITE, _WHITE)
     """Linear RGB, >= 0. solid: the first only. checker, stripes: alternating. gradient: at ``start`` and at ``end``."""
     size: float = 1.0
