@@ -35,8 +35,9 @@ void include_shape(const Shape& shape, Frame& frame) {
     }
 }
 
-/// Returns true if a solid is a union, or what at most three half-spaces, which enclose nothing,
-/// leave of one. Every extreme point of such a solid is on a part that rays cross.
+/// Returns true for a union, also if up to three half-spaces cut it, which enclose nothing by
+/// themselves. Parts of it that rays do not cross then matter nowhere. Also returns true for an
+/// intersection of shapes.
 bool is_union_in_open_space(const Solids& solids, Solids::Index root) {
     int intersections = 0, planes = 0;
     for (Solids::Index index = root; index < solids.node(root).end; ++index) {
@@ -145,7 +146,7 @@ void include_shapes(const Scene& scene, Frame& frame) {
         else if (contain[solids.part_of(id)] != 0)
             include_shape(shape, parts);
     });
-    if (!boxes.empty() && !parts.empty()) frame.include_common(boxes, parts);
+    if (!boxes.empty()) frame.include_common(boxes, parts.empty() ? boxes : parts);
 }
 
 View staged(const Scene& scene, const AutoCamera& auto_camera, const Frame& frame) {

@@ -124,12 +124,15 @@ class LayerShapes {
 
     void add_without_octant(AtomIndex atom, const core::Ellipsoid& ellipsoid,
                             MaterialIndex material) {
+        const auto through = planes_through(core::bounds_of(ellipsoid), shapes_.cuts());
+        if (!through) return;
         const std::uint32_t color = layer_.colors.of(atom);
         const MaterialIndex of_cut =
             palette_.of(darker(color), [&] { return layer_.colors.meaning_of(atom) + ", octant"; });
         const core::Solid solid =
             without_octant(ellipsoid, atoms_.to_camera, material, ellipse_material(), of_cut);
-        shapes_.add_whole(solid, material, {atom, atom});
+        shapes_.add_whole(through->empty() ? solid : cut_by(solid, *through), material,
+                          {atom, atom});
     }
 
     MaterialIndex ellipse_material() {

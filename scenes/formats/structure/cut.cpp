@@ -84,6 +84,12 @@ std::optional<std::vector<CutPlane>> planes_through(const core::Bounds& bounds,
     return through;
 }
 
+bool keep_point(const core::Vec3d& point, std::span<const CutPlane> planes) {
+    return std::all_of(planes.begin(), planes.end(), [&](const CutPlane& plane) {
+        return core::dot(plane.normal, point) <= plane.offset;
+    });
+}
+
 bool keep_middle(const core::Bounds& bounds, std::span<const CutPlane> planes) {
     return std::all_of(planes.begin(), planes.end(), [&](const CutPlane& plane) {
         const auto [least, most] = range_along(plane.normal, bounds);

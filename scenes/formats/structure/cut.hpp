@@ -31,6 +31,9 @@ core::Solid cut_by(core::Solid solid, std::span<const CutPlane> planes);
 std::optional<std::vector<CutPlane>> planes_through(const core::Bounds& bounds,
                                                     std::span<const CutPlane> planes);
 
+/// Returns true if all planes keep a point.
+bool keep_point(const core::Vec3d& point, std::span<const CutPlane> planes);
+
 /// Returns true if all planes keep the middle of a box.
 bool keep_middle(const core::Bounds& bounds, std::span<const CutPlane> planes);
 

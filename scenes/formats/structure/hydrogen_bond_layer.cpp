@@ -158,6 +158,10 @@ void add_hydrogen_bonds(const DrawnAtoms& atoms, DrawnShapes& shapes) {
         if (atoms.representations[pair[0]] == DrawnAtoms::hidden ||
             atoms.representations[pair[1]] == DrawnAtoms::hidden)
             continue;
+        const auto is_kept = [&](AtomIndex atom) {
+            return keep_point(core::convert<double>(structure.positions[atom]), shapes.cuts());
+        };
+        if (!is_kept(a) || !is_kept(b)) continue;
         for (const auto& [from, to] : dashes_of(core::convert<double>(structure.positions[a]),
                                                 core::convert<double>(structure.positions[b]))) {
             shapes.add(core::CappedCylinder{core::convert<float>(from),

@@ -29,7 +29,7 @@ std::vector<std::pair<AtomIndex, AtomIndex>> find_hydrogen_bonds(const Structure
 std::vector<std::pair<core::Vec3d, core::Vec3d>> dashes_of(const core::Vec3d& from,
                                                            const core::Vec3d& to);
 
-/// Adds the hydrogen bonds of all visible atoms as dashed lines.
+/// Adds the hydrogen bonds of all visible atoms as dashed lines, if no plane cuts an end off.
 void add_hydrogen_bonds(const DrawnAtoms& atoms, DrawnShapes& shapes);
 
 } // namespace raylane::scenes

@@ -14,8 +14,8 @@ namespace raylane::scenes {
 std::vector<std::vector<std::size_t>> hull_of(std::span<const core::Vec3d> points);
 
 /// Adds the polyhedra around a layer's atoms: the convex hulls of the atoms bonded to each, if
-/// these are 4 to 64, in the colour of the atom, with dark edges. Those that planes cut are solids
-/// with closed faces. Returns the number of polyhedra.
+/// these are 4 to 64, in the colour of the atom, with dark edges. Those that planes cut have
+/// faces on the planes. Returns the number of polyhedra.
 std::size_t add_polyhedra_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
                                 DrawnShapes& shapes);
 

@@ -444,20 +444,46 @@ TEST_CASE("polyhedra have the colour of their centre, and the opacity of their l
     CHECK(polyhedra_of("--polyhedra", "Ti Zr orange").kinds.size() == 2);
 }
 
-TEST_CASE("planes cut polyhedra and their edges") {
-    const Drawn halved = drawn(perovskite, [](Drawing& d) {
-        d.polyhedra = {"Ti"};
-        d.cuts = {cut_plane_of("--cut", "z<2")}; // the middle is at 1.95
-    });
-    CHECK(halved.all<raylane::core::Triangle>().empty());
-    const raylane::core::Solids& solids = halved.scene.solids();
-    int count = 0;
-    for (raylane::core::Solids::Index solid = 0; solid < solids.nodes().size();
-         solid = solids.node(solid).end) {
-        ++count;
-        CHECK(solids.bounds(solid).upper.z == Approx(2.0));
+/// Returns the volume that the triangles of polyhedra enclose, from their orientation.
+double volume_of(const Drawn& crystal) {
+    double volume = 0.0;
+    for (const auto& triangle : crystal.all<raylane::core::Triangle>()) {
+        CHECK(triangle.a.z <= 2.0);
+        volume +=
+            raylane::core::dot(triangle.a, raylane::core::cross(triangle.b, triangle.c)) / 6.0;
     }
-    CHECK(count == 2); // the octahedron, and its edges with the atoms in the plane
+    return volume;
+}
+
+TEST_CASE("planes cut polyhedra, with closed faces") {
+    const auto cut = [](const std::vector<std::string>& planes) {
+        return drawn(perovskite, [&](Drawing& d) {
+            d.polyhedra = {"Ti"};
+            for (const std::string& plane : planes)
+                d.cuts.push_back(cut_plane_of("--cut", plane));
+        });
+    };
+    // An octahedron with corners 1.95 from its centre at (1.95, 1.95, 1.95).
+    const double whole = 4.0 / 3.0 * 1.95 * 1.95 * 1.95;
+    CHECK(volume_of(cut({"z<2", "z<1.95"})) == Approx(0.5 * whole)); // through four corners
+    CHECK(volume_of(cut({"z<1.95", "x<1.95"})) == Approx(0.25 * whole));
+    const double tip = 1.9 / 1.95; // of the part above z = 2, which is like one half
+    CHECK(volume_of(cut({"z<2"})) == Approx(whole * (1.0 - 0.5 * tip * tip * tip)));
+    CHECK(volume_of(cut({"z<0"})) == 0.0); // touches a corner
+}
+
+TEST_CASE("a cut polyhedron in a plane stays in it") {
+    const std::string square = "5\n\nPt 0 0 0\nCl 2.3 0 0\nCl -2.3 0 0\nCl 0 2.3 0\nCl 0 -2.3 0\n";
+    const Drawn half = drawn(square, [](Drawing& d) {
+        d.polyhedra = {"Pt"};
+        d.cuts = {cut_plane_of("--cut", "1,1,0,0.2")};
+    });
+    CHECK_FALSE(half.all<raylane::core::Triangle>().empty());
+    for (const auto& triangle : half.all<raylane::core::Triangle>())
+        for (const auto& corner : {triangle.a, triangle.b, triangle.c}) {
+            CHECK(corner.z == 0.0);
+            CHECK(corner.x + corner.y <= 0.2 + 1e-6);
+        }
 }
 
 TEST_CASE("axes are arrows along the edges, left of the atoms") {
@@ -548,4 +574,9 @@ TEST_CASE("the octant that faces the camera is cut out") {
     const auto scene = draw_structure(atom, drawing, "a");
     CHECK(scene.solids().any());
     CHECK(scene.shape_count() == 7);
+    drawing.cuts = {cut_plane_of("--cut", "x<1")};
+    CHECK(draw_structure(atom, drawing, "a").shape_count() == 8);
+    drawing.cuts = {cut_plane_of("--cut", "x<0")};
+    CHECK(message_of<BadInput>([&] { draw_structure(atom, drawing, "a"); }) ==
+          "--cut: must leave a part of the atoms, got none");
 }

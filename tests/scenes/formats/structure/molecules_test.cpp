@@ -281,7 +281,10 @@ TEST_CASE("hydrogen bonds are dashed lines of visible atoms") {
     Drawing drawing{.style = Style::spheres};
     CHECK(count(drawing) == 0);
     drawing.hydrogen_bonds = true;
-    CHECK(count(drawing) == 6); // of 1.94 angstrom
+    CHECK(count(drawing) == 6);                      // of 1.94 angstrom
+    drawing.cuts = {cut_plane_of("--cut", "x<2.8")}; // through a ball whose middle it removes
+    CHECK(count(drawing) == 0);
+    drawing.cuts.clear();
     drawing.hide = {"index 4"};
     CHECK(count(drawing) == 0);
 }
