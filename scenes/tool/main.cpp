@@ -20,6 +20,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <utility>
@@ -140,7 +141,13 @@ constexpr std::size_t stack_bytes = std::size_t{1} << 20;
 /// program by a signal, without a message.
 void take_stack() {
     rlimit limit{};
-    if (getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur >= 2 * stack_bytes) touch_stack();
+    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur < 2 * stack_bytes) return;
+    constexpr std::size_t margin = std::size_t{1} << 16;
+    void* const trial =
+        mmap(nullptr, stack_bytes + margin, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (trial == MAP_FAILED) return; // the next request fails, with a message
+    munmap(trial, stack_bytes + margin);
+    touch_stack();
 }
 
 } // namespace

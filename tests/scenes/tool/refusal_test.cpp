@@ -200,8 +200,8 @@ TEST_CASE("memory that is refused gives an error of one line and leaves no file"
     // the first to notice.
     std::vector<rlim_t> limits = {100 << 20, 200 << 20};
     // The stack of the main thread is refused in a narrow range of limits, somewhere here.
-    for (rlim_t kilobytes = 38000; kilobytes < 44000;
-         kilobytes += raylane::tests::is_full() ? 4 : 16)
+    for (rlim_t kilobytes = 30000; kilobytes < 44000;
+         kilobytes += raylane::tests::is_full() ? 4 : 24)
         limits.push_back(kilobytes << 10);
     for (const rlim_t limit : limits) {
         INFO(limit);
