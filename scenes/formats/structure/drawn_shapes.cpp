@@ -1,6 +1,7 @@
 #include "scenes/formats/structure/drawn_shapes.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace raylane::scenes {
 
@@ -24,10 +25,9 @@ MaterialIndex DrawnShapes::material_of_faces(const std::vector<Part>& parts) {
 void DrawnShapes::add_union(std::vector<Part>& parts) {
     Solid all{.made = core::Made::by_union};
     std::vector<AtomPair> atoms;
-    bool is_cut = false;
-    const MaterialIndex of_faces = material_of_faces(parts);
+    const bool is_cut = std::any_of(parts.begin(), parts.end(), std::mem_fn(&Part::is_cut));
+    const MaterialIndex of_faces = is_cut ? material_of_faces(parts) : core::no_material;
     for (Part& part : parts) {
-        is_cut = is_cut || part.is_cut;
         all.parts.push_back(std::move(part.solid));
         atoms.push_back(part.atoms);
     }

@@ -87,6 +87,14 @@ TEST_CASE("transparent atoms are cut as one solid") {
     CHECK(height_at(cut({"z<1.25"}, 0.5F), 0.0, 0.0) == 1.25);
 }
 
+TEST_CASE("transparent atoms that no plane cuts have no material for faces") {
+    LoadOptions options;
+    options.drawing.style = Style::spheres;
+    options.drawing.opacity = 0.5F;
+    const core::Scene scene = parse_scene("a.xyz", "2\n\nHe 0 0 0\nNe 2 0 0\n", options);
+    CHECK(scene.materials().size() == 2);
+}
+
 TEST_CASE("a slab is across the view from the middle of the atoms") {
     LoadOptions options;
     options.drawing.style = Style::spheres;
