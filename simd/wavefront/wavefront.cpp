@@ -105,7 +105,8 @@ EngineCounters Wavefront::counters() const {
 core::CameraRays<double>::InPixel Wavefront::in_pixel(const Samples& pixel_samples,
                                                       int number) const {
     if (to_quality_) {
-        if (number < 0) return cells_[static_cast<std::size_t>(number + common_samples_)];
+        const int common = number + common_samples_;
+        if (number < 0) return cells_[static_cast<std::size_t>(common)];
         const core::SamplePoint place =
             core::place_in_pixel({pixel_samples.x, pixel_samples.y, number});
         return camera_rays_.filtered({static_cast<double>(place.x), static_cast<double>(place.y)});

@@ -51,9 +51,9 @@ raylane_status raylane_scene_shape(const raylane_scene* scene, uint32_t shape_id
 
 #define RAYLANE_SHAPES_OF(shapes, shape, Shape, c_shape)                                           \
     raylane_status raylane_scene_##shapes(const raylane_scene* scene, uint32_t* ids,               \
-                                          uint32_t* materials, raylane_double_##c_shape* shapes,   \
+                                          uint32_t* materials, raylane_double_##c_shape* values,   \
                                           size_t size, size_t* count) {                            \
-        return shapes_of<Shape##Of>(scene, ids, materials, shapes, size, count);                   \
+        return shapes_of<Shape##Of>(scene, ids, materials, values, size, count);                   \
     }
 RAYLANE_C_SHAPES(RAYLANE_SHAPES_OF)
 #undef RAYLANE_SHAPES_OF

@@ -32,10 +32,10 @@ raylane_status solid_made(const Make& make, std::uint32_t material,
 } // namespace
 
 #define RAYLANE_SOLID_OF(shapes, shape, Shape, c_shape)                                            \
-    raylane_status raylane_solid_##shape(const raylane_double_##c_shape* shape, uint32_t material, \
+    raylane_status raylane_solid_##shape(const raylane_double_##c_shape* value, uint32_t material, \
                                          raylane_solid** solid) {                                  \
         return handle_of("solid", solid, [&] {                                                     \
-            return Solid(std::bit_cast<Shape##Of<double>>(checked("shape", shape)), material);     \
+            return Solid(std::bit_cast<Shape##Of<double>>(checked("shape", value)), material);     \
         });                                                                                        \
     }
 RAYLANE_C_SHAPES(RAYLANE_SOLID_OF)

@@ -180,7 +180,8 @@ void save(const Scene& scene, const std::filesystem::path& path, const OnRemark&
     const std::filesystem::path file = file_named(path);
     std::vector<std::string> differences =
         with_file_errors([&] { return scenes::export_scene(file, library::Internals::of(scene)); });
-    if (library::Internals::annotations_of(scene) != nullptr) differences.push_back("annotations");
+    if (library::Internals::annotations_of(scene) != nullptr)
+        differences.emplace_back("annotations");
     if (on_remark)
         for (const std::string& what : differences)
             on_remark(file.string() +

@@ -47,7 +47,7 @@ AutoCamera named_view(std::string_view name) {
 Color color_from_srgb(std::string_view text) {
     const auto color = core::color_from_srgb(text);
     if (!color)
-        throw InvalidValue("color", "must be \"#rrggbb\", got \"" + std::string(text) + '"');
+        throw InvalidValue("color", R"(must be "#rrggbb", got ")" + std::string(text) + '"');
     return converted<Color>(*color);
 }
 

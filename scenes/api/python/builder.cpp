@@ -55,6 +55,12 @@ struct Shared {
 using SharedBuilder = Shared<SceneBuilder>;
 using SharedGroup = Shared<Group>;
 
+std::unique_ptr<SharedGroup> shared(Group group) {
+    auto made = std::make_unique<SharedGroup>();
+    made->to = std::move(group);
+    return made;
+}
+
 /// Returns the index of a material; None: no material.
 MaterialIndex material_or_none(const py::object& material) {
     return material.is_none() ? no_material : one_material(material);
@@ -368,16 +374,13 @@ void bind_builder(py::module_& module) {
         .def("of",
              [](SharedGroup& shared_group, const py::object& material) {
                  const MaterialIndex index = one_material(material);
-                 return shared_group.change([&](const Group& shapes) {
-                     return std::unique_ptr<SharedGroup>(new SharedGroup{shapes.of(index)});
-                 });
+                 return shared_group.change(
+                     [&](const Group& shapes) { return shared(shapes.of(index)); });
              })
         .def("transformed",
              [](SharedGroup& shared_group, const Transform& transform) {
-                 return shared_group.change([&](const Group& shapes) {
-                     return std::unique_ptr<SharedGroup>(
-                         new SharedGroup{shapes.transformed(transform)});
-                 });
+                 return shared_group.change(
+                     [&](const Group& shapes) { return shared(shapes.transformed(transform)); });
              })
         .def("solid", [](SharedGroup& shared_group) {
             return shared_group.change([](const Group& shapes) { return solid_of(shapes); });

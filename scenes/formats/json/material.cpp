@@ -39,9 +39,11 @@ core::FormulaTexts coordinates_before(const JsonValue& pattern) {
             if (factor == 0.0) continue;
             std::string part(1, "xyz"[axis]);
             if (origin[axis] != 0.0)
-                part = "(" + part + (origin[axis] < 0.0 ? " + " : " - ") +
-                       text_of(std::abs(origin[axis])) + ")";
-            if (factor != 1.0) part = text_of(factor) + " * " + part;
+                part.insert(0, "(")
+                    .append(origin[axis] < 0.0 ? " + " : " - ")
+                    .append(text_of(std::abs(origin[axis])))
+                    .append(")");
+            if (factor != 1.0) part.insert(0, text_of(factor) + " * ");
             texts[row] += (texts[row].empty() ? "" : " + ") + part;
         }
         if (texts[row] == std::string(1, "xyz"[row])) texts[row].clear(); // not moved

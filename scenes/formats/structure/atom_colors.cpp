@@ -77,7 +77,7 @@ void AtomColors::color_by_residue(bool by_chain) {
         const auto place = static_cast<std::size_t>(
             std::lower_bound(distinct.begin(), distinct.end(), name) - distinct.begin());
         of_residue_.push_back(color_of_one(place, distinct.size()));
-        if (by_chain) name = "chain " + name;
+        if (by_chain) name.insert(0, "chain ");
     }
 }
 

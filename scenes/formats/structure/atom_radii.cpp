@@ -3,6 +3,7 @@
 #include "scenes/formats/structure/kind_table.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace raylane::scenes {
 
@@ -32,8 +33,9 @@ bool has_sticks(Style style) {
 }
 
 AtomRadii::AtomRadii(const Structure& structure, const Look& look, float usual,
-                     const std::vector<char>& is_metallic, std::vector<std::string>& unmatched)
-    : structure_(structure), style_(*look.style), usual_(usual), is_metallic_(is_metallic),
+                     std::vector<char> is_metallic, std::vector<std::string>& unmatched)
+    : structure_(structure), style_(*look.style), usual_(usual),
+      is_metallic_(std::move(is_metallic)),
       radius_(by_kind(structure, look.radius, 0.0F, unmatched)),
       scale_(by_kind(structure, look.scale, 1.0F, unmatched)) {}
 

@@ -19,7 +19,7 @@ class AtomRadii {
     /// element, for Style::touching, see find_bonds(). `unmatched` receives a message, for
     /// `option`, for each kind of `look` that no atom has.
     AtomRadii(const Structure& structure, const Look& look, float usual,
-              const std::vector<char>& is_metallic, std::vector<std::string>& unmatched);
+              std::vector<char> is_metallic, std::vector<std::string>& unmatched);
 
     /// Returns the radius of an atom's ball.
     float of(AtomIndex atom) const;

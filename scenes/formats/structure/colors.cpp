@@ -129,6 +129,7 @@ std::uint32_t darker(std::uint32_t srgb) {
 
 std::vector<std::string_view> palette_names() {
     std::vector<std::string_view> names;
+    names.reserve(std::size(ramps));
     for (const Ramp& ramp : ramps)
         names.push_back(ramp.name);
     return names;
@@ -146,6 +147,7 @@ std::optional<std::uint32_t> color_named(std::string_view word) {
 
 std::vector<std::string_view> color_names() {
     std::vector<std::string_view> names;
+    names.reserve(std::size(named_colors));
     for (const NamedColor& color : named_colors)
         names.push_back(color.name);
     return names;

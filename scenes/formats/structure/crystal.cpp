@@ -53,7 +53,7 @@ std::optional<Cluster> cluster_of(const Structure& structure, const Rows& rows) 
     const auto reach = static_cast<double>(longest_bond(structure));
     const std::size_t count = structure.size();
     Cells cells{};
-    double images = static_cast<double>(count);
+    auto images = static_cast<double>(count);
     const double max_images = 30.0 * images + 20'000.0; // 27 each in all but tiny or flat cells
     for (std::size_t k = 0; k < 3; ++k) {
         if (!structure.cell.periodic[k]) continue;

@@ -162,9 +162,14 @@ Drawing drawing_with(const DrawingOptions& options) {
     for (const auto& [name, text] : options)
         if (name.ends_with("probability")) {
             const std::string dashes = name.starts_with("--") ? "--" : "";
-            throw BadInput(name, "",
-                           "goes with " + dashes + "ellipsoids, " + dashes + "ellipses or " +
-                               dashes + "octants");
+            std::string expectation = "goes with ";
+            expectation.append(dashes)
+                .append("ellipsoids, ")
+                .append(dashes)
+                .append("ellipses or ")
+                .append(dashes)
+                .append("octants");
+            throw BadInput(name, "", expectation);
         }
     return drawing;
 }

@@ -140,6 +140,7 @@ std::vector<std::pair<Vec3d, Vec3d>> dashes_of(const Vec3d& from, const Vec3d& t
     if (!(size > 0.0 && size < 1e3)) return {};
     const int pairs = std::max(2, static_cast<int>(std::lround(size / (2.0 * usual_dash))));
     std::vector<std::pair<Vec3d, Vec3d>> dashes;
+    dashes.reserve(static_cast<std::size_t>(pairs));
     for (int k = 0; k < pairs; ++k)
         dashes.emplace_back(from + (k + 0.25) / pairs * (to - from),
                             from + (k + 0.75) / pairs * (to - from));

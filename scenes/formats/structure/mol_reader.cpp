@@ -145,11 +145,11 @@ class MolReader : public FrameReader {
     bool next_v3000() {
         text_.clear();
         for (;;) {
-            require_line("\"M  END\"");
+            require_line(R"("M  END")");
             std::string_view line = trimmed(lines_.text());
             if (line == "M  END") return false;
             if (!line.starts_with("M  V30 "))
-                lines_.fail("must begin with \"M  V30\", got \"" + printable(line) + '"');
+                lines_.fail(R"(must begin with "M  V30", got ")" + printable(line) + '"');
             text_ += trimmed(line.substr(7));
             if (!text_.ends_with('-')) return true;
             text_.back() = ' ';

@@ -315,9 +315,9 @@ class Verifier {
     std::vector<std::size_t> choose() const {
         if (!is_exact() || settings_.quality == 0.0F) return choose_each();
         constexpr int side = core::RegionSamples::square_size;
+        constexpr std::size_t area = std::size_t{side} * side;
         constexpr std::size_t share = 4; // of the pixels of a square
-        const std::size_t squares =
-            (share * static_cast<std::size_t>(count_) + side * side - 1) / (side * side);
+        const std::size_t squares = (share * static_cast<std::size_t>(count_) + area - 1) / area;
         std::vector<std::size_t> pixels = all_pixels();
         const auto square_of = [&](std::size_t pixel) {
             return std::pair(x_of(pixel) / side, y_of(pixel) / side);

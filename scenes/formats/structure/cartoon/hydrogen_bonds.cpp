@@ -19,6 +19,7 @@ std::vector<std::pair<AtomIndex, AtomIndex>> near_pairs(const std::vector<Peptid
     constexpr double reach = 9.0;
     constexpr std::size_t crowd = 1000; // in 27 cells of 9 angstrom; 150 in proteins
     std::vector<core::Vec3f> places;
+    places.reserve(residues.size());
     for (const PeptideAtoms& residue : residues)
         places.push_back(core::convert<float>(residue.ca));
     std::vector<AtomIndex> atoms(residues.size());

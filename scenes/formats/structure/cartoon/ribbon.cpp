@@ -109,7 +109,7 @@ class RibbonMesh {
     }
 
     std::size_t residue_at(double s) const {
-        return std::min(static_cast<std::size_t>(s + 0.5), path_.size() - 1);
+        return std::min(static_cast<std::size_t>(std::floor(s + 0.5)), path_.size() - 1);
     }
     AtomIndex atom_at(double s) const { return path_[residue_at(s)].atom; }
     bool is_drawn_at(double s) const { return is_drawn_(atom_at(s)); }
