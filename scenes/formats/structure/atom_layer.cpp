@@ -17,7 +17,7 @@ using core::MaterialIndex;
 using core::Vec3d;
 using core::Vec3f;
 
-constexpr double apart = 0.13;          // distance of a double bond's sticks from its line
+constexpr double sticks_apart = 0.13;   // distance of a double bond's sticks from its line
 constexpr float share_of_stick = 0.55F; // of each of several
 
 class LayerShapes {
@@ -160,12 +160,12 @@ class LayerShapes {
             }
             const Vec3d side = beside(structure, bond, a, b);
             if (sticks == Bond::aromatic) {
-                add_stick(bond, a - apart * side, b - apart * side, share_of_stick);
-                add_dashes(bond, a + apart * side, b + apart * side);
+                add_stick(bond, a - sticks_apart * side, b - sticks_apart * side, share_of_stick);
+                add_dashes(bond, a + sticks_apart * side, b + sticks_apart * side);
                 continue;
             }
             for (int k = 0; k < sticks; ++k) {
-                const double by = (k - 0.5 * (sticks - 1)) * 2.0 * apart / (sticks - 1);
+                const double by = (k - 0.5 * (sticks - 1)) * 2.0 * sticks_apart / (sticks - 1);
                 add_stick(bond, a + by * side, b + by * side, share_of_stick);
             }
         }

@@ -1,8 +1,9 @@
 #include "scenes/formats/structure/chain_layer.hpp"
 
-#include "core/shapes/triangle.hpp"
 #include "scenes/files/errors.hpp"
 #include "scenes/formats/structure/cartoon/cartoon.hpp"
+
+#include <type_traits>
 
 namespace raylane::scenes {
 
@@ -32,9 +33,12 @@ std::string add_chain_layer(const DrawnAtoms& atoms, const AtomLayer& layer, Dra
                 palette.of(layer.colors.of(atom), [&] { return layer.colors.meaning_of(atom); });
             for (const core::Vec3f& image : atoms.images)
                 std::visit(
-                    [&](const auto& piece) {
-                        shapes.add(moved(piece, image), material, *layer.look.style, opacity,
-                                   {atom, atom});
+                    [&]<class Piece>(const Piece& piece) {
+                        if constexpr (std::is_same_v<Piece, RibbonPiece>)
+                            shapes.add(moved(piece, image), material, {atom, atom});
+                        else
+                            shapes.add(moved(piece, image), material, *layer.look.style, opacity,
+                                       {atom, atom});
                     },
                     shape);
         });

@@ -1,5 +1,7 @@
 #include "scenes/formats/structure/drawn_shapes.hpp"
 
+#include "scenes/formats/polygon.hpp"
+
 #include <algorithm>
 #include <functional>
 
@@ -40,6 +42,26 @@ void DrawnShapes::add_union(std::vector<Part>& parts) {
     builder_.add_solid(all, all.material);
     if (atoms_of_shape_ != nullptr)
         atoms_of_shape_->insert(atoms_of_shape_->end(), atoms.begin(), atoms.end());
+}
+
+void DrawnShapes::add(std::span<const core::SmoothTriangle> surface, MaterialIndex material,
+                      const AtomPair& atoms) {
+    core::Bounds bounds;
+    for (const core::SmoothTriangle& triangle : surface)
+        bounds.include(core::bounds_of(triangle));
+    const auto through = planes_through(bounds, cuts_);
+    if (!through) return;
+    const auto add_all = [&](std::span<const core::SmoothTriangle> triangles) {
+        for (const core::SmoothTriangle& triangle : triangles)
+            add_whole(triangle, material, atoms);
+    };
+    if (through->empty()) return add_all(surface);
+    std::vector<Polygon> body;
+    for (const core::SmoothTriangle& triangle : surface)
+        body.push_back(polygon_of(triangle));
+    for (const CutPlane& plane : *through)
+        body = clipped(body, plane.normal, plane.offset);
+    add_all(smooth_triangles_of(body));
 }
 
 void DrawnShapes::finish() {

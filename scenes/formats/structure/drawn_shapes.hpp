@@ -37,24 +37,20 @@ class DrawnShapes {
             atoms_of_shape_->insert(atoms_of_shape_->end(), core::count_parts(solid), atoms);
     }
 
-    /// Adds the part of a shape that the planes keep. Triangles enclose nothing, so they are kept
-    /// or removed whole, by their middles.
+    /// Adds the part of a shape that encloses a volume that the planes keep.
     template <class Shape>
     void add(const Shape& shape, core::MaterialIndex material, Style style, float opacity,
              const AtomPair& atoms) {
-        const core::Bounds bounds = core::bounds_of(shape);
-        if constexpr (core::AnyTriangle<Shape>) {
-            if (keep_middle(bounds, cuts_)) add_whole(shape, material, atoms);
-        } else {
-            const auto through = planes_through(bounds, cuts_);
-            if (!through) return;
-            if (opacity == 1.0F && through->empty()) return add_whole(shape, material, atoms);
-            parts_[opacity < 1.0F ? std::pair(style, opacity) : opaque].push_back(
-                {{.shape = core::to_doubles(shape), .material = material},
-                 !through->empty(),
-                 atoms});
-        }
+        const auto through = planes_through(core::bounds_of(shape), cuts_);
+        if (!through) return;
+        if (opacity == 1.0F && through->empty()) return add_whole(shape, material, atoms);
+        parts_[opacity < 1.0F ? std::pair(style, opacity) : opaque].push_back(
+            {{.shape = core::to_doubles(shape), .material = material}, !through->empty(), atoms});
     }
+    /// Adds the part that the planes keep of the surface of a body that is about convex. The
+    /// surface may lack the walls between the body and its neighbours.
+    void add(std::span<const core::SmoothTriangle> surface, core::MaterialIndex material,
+             const AtomPair& atoms);
 
     std::span<const CutPlane> cuts() const { return cuts_; }
 

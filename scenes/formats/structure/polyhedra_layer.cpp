@@ -1,9 +1,10 @@
 #include "scenes/formats/structure/polyhedra_layer.hpp"
 
+#include "scenes/formats/polygon.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace raylane::scenes {
@@ -51,73 +52,6 @@ void sort_around(std::span<const Vec3d> points, const Vec3d& normal, Face& face)
         corner = next;
     } while (corner != around.front() && around.size() <= face.size());
     face = std::move(around);
-}
-
-using Polygon = std::vector<Vec3d>; ///< corners, counter-clockwise from outside
-
-/// Returns true if the corners of a triangle are on one line, as cuts near corners may leave them.
-bool is_flat(const core::Triangle& triangle) {
-    const Vec3d a = core::convert<double>(triangle.a);
-    return core::cross(core::convert<double>(triangle.b) - a,
-                       core::convert<double>(triangle.c) - a) == Vec3d(0.0);
-}
-
-/// Returns where an edge crosses a plane: the same point for both directions of the edge.
-/// `a_above` and `b_above`: how far the ends are above the plane, with different signs.
-Vec3d crossing_of(const Vec3d& a, double a_above, const Vec3d& b, double b_above) {
-    if (std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z))
-        return crossing_of(b, b_above, a, a_above);
-    return a + a_above / (a_above - b_above) * (b - a);
-}
-
-/// Returns the polygon that a plane cuts from a convex polyhedron, from its corners in any order.
-Polygon face_of(std::vector<Vec3d> corners, const Vec3d& normal) {
-    Vec3d middle(0.0);
-    for (const Vec3d& corner : corners)
-        middle += 1.0 / static_cast<double>(corners.size()) * corner;
-    const Vec3d u = corners.front() - middle, v = core::cross(normal, u);
-    // Grows with the angle around the middle.
-    const auto turn = [&](const Vec3d& corner) {
-        const double x = core::dot(corner - middle, u) * core::length(normal);
-        const double y = core::dot(corner - middle, v);
-        const double share = x / (std::abs(x) + std::abs(y));
-        return y < 0.0 ? share - 1.0 : 1.0 - share;
-    };
-    std::sort(corners.begin(), corners.end(),
-              [&](const Vec3d& p, const Vec3d& q) { return turn(p) < turn(q); });
-    return corners;
-}
-
-/// Returns the part of a convex polyhedron that a plane keeps, with a face on the plane.
-std::vector<Polygon> clipped(const std::vector<Polygon>& polygons, const CutPlane& plane) {
-    const auto above = [&](const Vec3d& p) { return core::dot(plane.normal, p) - plane.offset; };
-    std::vector<Polygon> kept;
-    std::vector<Vec3d> on_plane;
-    bool is_below = false;
-    for (const Polygon& polygon : polygons) {
-        Polygon part;
-        for (std::size_t k = 0; k < polygon.size(); ++k) {
-            const Vec3d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-            const double a_above = above(a), b_above = above(b);
-            is_below = is_below || a_above < 0.0;
-            if (a_above <= 0.0) part.push_back(a);
-            if (a_above == 0.0) on_plane.push_back(a);
-            if (a_above * b_above < 0.0) {
-                part.push_back(crossing_of(a, a_above, b, b_above));
-                on_plane.push_back(part.back());
-            }
-        }
-        if (part.size() >= 3) kept.push_back(std::move(part));
-    }
-    if (!is_below) return {};
-    const auto by_place = [](const Vec3d& p, const Vec3d& q) {
-        return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
-    };
-    std::sort(on_plane.begin(), on_plane.end(), by_place);
-    on_plane.erase(std::unique(on_plane.begin(), on_plane.end()), on_plane.end());
-    if (on_plane.size() >= 3 && polygons.size() > 1)
-        kept.push_back(face_of(std::move(on_plane), plane.normal));
-    return kept;
 }
 
 } // namespace
@@ -186,17 +120,12 @@ std::size_t add_polyhedra_layer(const DrawnAtoms& atoms, const AtomLayer& layer,
         for (const Face& face : hull) {
             Polygon& polygon = polygons.emplace_back();
             for (const std::size_t corner : face)
-                polygon.push_back(points[corner]);
+                polygon.push_back({points[corner]});
         }
         for (const CutPlane& plane : *through)
-            polygons = clipped(polygons, plane);
-        for (const Polygon& polygon : polygons)
-            for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-                const core::Triangle triangle{core::convert<float>(polygon[0]),
-                                              core::convert<float>(polygon[k]),
-                                              core::convert<float>(polygon[k + 1])};
-                if (!is_flat(triangle)) shapes.add_whole(triangle, of_face, {atom, atom});
-            }
+            polygons = clipped(polygons, plane.normal, plane.offset);
+        for (const core::Triangle& triangle : triangles_of(polygons))
+            shapes.add_whole(triangle, of_face, {atom, atom});
         for (const Face& face : hull) {
             const auto at = [&](std::size_t corner) {
                 return core::convert<float>(points[face[corner % face.size()]]);

@@ -208,6 +208,7 @@ class RibbonMesh {
     void add_sweep(double begin, double end, const ProfileAt& profile_at) {
         const auto steps = static_cast<int>(std::lround((end - begin) / step_));
         Ring before, next;
+        RibbonPiece piece;
         Frame frame{};
         bool was_drawn = false;
         for (int step = 0; step <= steps; ++step) {
@@ -217,9 +218,16 @@ class RibbonMesh {
             next.clear();
             for (const ProfilePoint& point : profile_at(s))
                 next.push_back(corner_of(frame, point));
-            if (was_drawn) add_between(before, next, atom_at(s - 0.5 * step_));
-            const bool is_seam = (step == 0 || step == steps) && is_seamless(s);
-            if (drawn != was_drawn && !is_seam) add_end(next, frame, drawn, s);
+            const bool has_end =
+                drawn != was_drawn && !((step == 0 || step == steps) && is_seamless(s));
+            if (was_drawn) {
+                add_between(before, next, piece);
+                if (has_end) add_end(next, frame, false, piece);
+                add_(piece, atom_at(s - 0.5 * step_));
+                piece.clear();
+            } else if (has_end) {
+                add_end(next, frame, true, piece);
+            }
             was_drawn = drawn;
             std::swap(before, next);
         }
@@ -238,30 +246,30 @@ class RibbonMesh {
         return is_round(s - 0.25) && is_round(s + 0.25);
     }
 
-    void add_triangle(const Corner& a, const Corner& b, const Corner& c, AtomIndex atom) const {
+    static void add_triangle(const Corner& a, const Corner& b, const Corner& c,
+                             RibbonPiece& piece) {
         if (core::checks::are_collinear(a.at, b.at, c.at)) return;
-        add_(core::SmoothTriangle{a.at, b.at, c.at, a.normal, b.normal, c.normal}, atom);
+        piece.push_back({a.at, b.at, c.at, a.normal, b.normal, c.normal});
     }
 
-    void add_between(const Ring& before, const Ring& next, AtomIndex atom) const {
+    static void add_between(const Ring& before, const Ring& next, RibbonPiece& piece) {
         for (std::size_t k = 0; k < next.size(); ++k) {
             const std::size_t other = k + 1 == next.size() ? 0 : k + 1;
             const Corner &a = before[k], &b = before[other], &c = next[other], &d = next[k];
             if (a.at == b.at && c.at == d.at) continue; // an edge
-            add_triangle(a, b, c, atom);
-            add_triangle(a, c, d, atom);
+            add_triangle(a, b, c, piece);
+            add_triangle(a, c, d, piece);
         }
     }
 
-    /// Closes a sweep by a flat face, which a drawn piece is behind if `begins`.
-    void add_end(const Ring& ring, const Frame& frame, bool begins, double s) const {
+    /// Closes a piece by a flat face, where it begins or ends.
+    static void add_end(const Ring& ring, const Frame& frame, bool begins, RibbonPiece& piece) {
         const auto normal = core::convert<float>(begins ? -frame.along : frame.along);
         const Corner middle{core::convert<float>(frame.at), normal};
-        const AtomIndex atom = atom_at(begins ? s + 0.5 * step_ : s - 0.5 * step_);
         for (std::size_t k = 0; k < ring.size(); ++k) {
             const std::size_t other = k + 1 == ring.size() ? 0 : k + 1;
             add_triangle(middle, {ring[begins ? other : k].at, normal},
-                         {ring[begins ? k : other].at, normal}, atom);
+                         {ring[begins ? k : other].at, normal}, piece);
         }
     }
 

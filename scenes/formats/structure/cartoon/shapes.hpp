@@ -6,17 +6,21 @@
 
 #include <functional>
 #include <variant>
+#include <vector>
 
 namespace raylane::scenes {
 
-using CartoonShape =
-    std::variant<core::SmoothTriangle, core::Sphere, core::CappedCylinder, core::Box>;
+/// The surface of a short piece of a ribbon, which is about convex, without the walls to the pieces
+/// before and behind it.
+using RibbonPiece = std::vector<core::SmoothTriangle>;
+using CartoonShape = std::variant<RibbonPiece, core::Sphere, core::CappedCylinder, core::Box>;
 
 /// Returns the shape at another place.
-inline core::SmoothTriangle moved(core::SmoothTriangle shape, const core::Vec3f& by) {
-    for (core::Vec3f* corner : {&shape.a, &shape.b, &shape.c})
-        *corner += by;
-    return shape;
+inline RibbonPiece moved(RibbonPiece piece, const core::Vec3f& by) {
+    for (core::SmoothTriangle& triangle : piece)
+        for (core::Vec3f* corner : {&triangle.a, &triangle.b, &triangle.c})
+            *corner += by;
+    return piece;
 }
 inline core::Sphere moved(core::Sphere shape, const core::Vec3f& by) {
     shape.center += by;

@@ -1,4 +1,5 @@
 #include "core/shapes/triangle.hpp"
+#include "scenes/formats/polygon.hpp"
 #include "scenes/formats/structure/cartoon/cartoon.hpp"
 #include "scenes/formats/structure/cartoon/path.hpp"
 #include "scenes/formats/structure/cartoon/shapes.hpp"
@@ -16,6 +17,7 @@ using raylane::core::Box;
 using raylane::core::CappedCylinder;
 using raylane::core::SmoothTriangle;
 using raylane::core::Sphere;
+using raylane::core::Vec3d;
 using raylane::core::Vec3f;
 using raylane::ray_sets::Random;
 
@@ -31,8 +33,8 @@ struct Shapes {
 
     void add(const CartoonShape& shape, AtomIndex atom) {
         atoms.push_back(atom);
-        if (const auto* triangle = std::get_if<SmoothTriangle>(&shape))
-            triangles.push_back(*triangle);
+        if (const auto* piece = std::get_if<RibbonPiece>(&shape))
+            triangles.insert(triangles.end(), piece->begin(), piece->end());
         if (const auto* sphere = std::get_if<Sphere>(&shape)) spheres.push_back(*sphere);
         if (const auto* cylinder = std::get_if<CappedCylinder>(&shape))
             cylinders.push_back(*cylinder);
@@ -123,6 +125,41 @@ TEST_CASE("ribbons have no gaps and no flipped normals") {
                 flipped += raylane::core::dot(flat, normal) < 0.0F ? 1 : 0;
         }
         CHECK(flipped * 200 <= shapes.triangles.size()); // in turns sharper than a ribbon is thick
+    }
+}
+
+TEST_CASE("ribbons that planes cut are closed by faces") {
+    Random random(11);
+    for (int round = 0; round < 20; ++round) {
+        const Structure structure = with_random_classes(random);
+        std::vector<std::pair<Vec3d, double>> planes;
+        for (int k = random.integer(1, 2); k > 0; --k) {
+            const Vec3d normal(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+            const auto& at = structure.positions[structure.positions.size() / 2];
+            planes.emplace_back(normal,
+                                raylane::core::dot(normal, raylane::core::convert<double>(at)));
+        }
+        std::vector<SmoothTriangle> triangles;
+        std::size_t balls = 0, faces = 0;
+        add_chains(structure, {}, everything, [&](const CartoonShape& shape, AtomIndex) {
+            const auto* piece = std::get_if<RibbonPiece>(&shape);
+            if (piece == nullptr) return static_cast<void>(++balls);
+            std::vector<Polygon> body;
+            for (const SmoothTriangle& triangle : *piece)
+                body.push_back(polygon_of(triangle));
+            for (const auto& [normal, offset] : planes) {
+                body = clipped(body, normal, offset);
+                for (const Polygon& polygon : body)
+                    faces += polygon.front().normal == normal ? 1 : 0;
+            }
+            for (const SmoothTriangle& t : smooth_triangles_of(body))
+                triangles.push_back(t);
+        });
+        CAPTURE(round, planes.size());
+        CHECK(faces > 1);
+        // A tube that ends with a ball is open there. Pieces in turns that are sharper than a
+        // ribbon is wide are not convex.
+        CHECK(open_edges(triangles) <= 48 * balls + 12);
     }
 }
 
