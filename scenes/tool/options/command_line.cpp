@@ -26,19 +26,6 @@ CLI::Option* add(CLI::App& command, AnyOption& option, const std::string& names)
             .add_flag_callback(
                 names, [&option] { option.give({""}); }, option.help())
             ->disable_flag_override();
-    if (const int most = option.properties().max_words; most > 1)
-        return command
-            .add_option_function<std::vector<std::string>>(
-                names,
-                [&command, &option](const std::vector<std::string>& words) {
-                    require_value(command, option, words.front());
-                    std::string text;
-                    for (const std::string& word : words)
-                        text.append(text.empty() ? "" : " ").append(word);
-                    option.give({text});
-                },
-                option.help())
-            ->expected(1, most);
     if (!option.is_list())
         // CLI11 itself would treat an empty text as a missing value.
         return command.add_option_function<std::string>(

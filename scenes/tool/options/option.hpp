@@ -32,7 +32,7 @@ struct OptionProperties {
     std::string standard = {};              ///< the default, in words
     std::string for_atoms = {};             ///< the default for files of atoms, if it is another
     std::vector<std::string> excluded = {}; ///< names of options that it goes without
-    int max_words = 1;                      ///< on the command line; they are joined by blanks
+    bool is_pair = false; ///< on the command line, the value may be two numbers, as two words
     bool is_required = false;
     bool is_recorded = false; ///< an image records the option
 };
@@ -78,8 +78,8 @@ struct Values : OptionProperties {
         excluded = std::move(names);
         return std::move(*this);
     }
-    Values of_words(int most) && {
-        max_words = most;
+    Values in_pairs() && {
+        is_pair = true;
         return std::move(*this);
     }
     Values required() && {

@@ -87,8 +87,13 @@ std::string suggestion_for(std::string_view name, const OptionTable& options) {
 OptionFiles::OptionFiles(const std::vector<std::string>& arguments, const OptionTable& options,
                          const OptionTable& others) {
     std::vector<std::string> rest;
-    bool is_value = false; // of the option before it
-    for (const std::string& argument : arguments) {
+    const AnyOption* before = nullptr; // the option whose value an argument is
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        std::string argument = arguments[i];
+        const bool is_value = before != nullptr;
+        if (is_value && before->properties().is_pair && is_number(argument) &&
+            i + 1 < arguments.size() && is_number(arguments[i + 1]))
+            argument += ' ' + arguments[++i];
         const AnyOption* const option = is_value ? nullptr : option_in(argument, options);
         if (option != nullptr) on_command_line_.push_back(option);
         if (!is_value && argument.size() > 1 && argument.front() == '@') {
@@ -98,11 +103,10 @@ OptionFiles::OptionFiles(const std::vector<std::string>& arguments, const Option
         if (!is_value && argument_of(options) != nullptr && !argument.starts_with('-'))
             on_command_line_.push_back(argument_of(options));
         const std::size_t name = argument.starts_with("--") ? argument.size() : 2;
-        is_value = option != nullptr && takes_value(*option) && argument.size() <= name &&
-                   argument.find('=') == std::string::npos;
-        rest.push_back(argument);
+        const bool has_value = argument.size() > name || argument.find('=') != std::string::npos;
+        before = option != nullptr && takes_value(*option) && !has_value ? option : nullptr;
+        rest.push_back(std::move(argument));
     }
-    // Arguments come first: an option of several words would take an argument after it.
     std::vector<std::string> first, lists, last;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
         const auto& [file, number, option, value] = lines_[i];

@@ -220,7 +220,7 @@ struct DrawingArguments : OptionTable {
                                    "Colours for a number per atom."};
     Option<std::string> range = {
         *this, "--range",
-        drawing_words("A B").of_words(2).otherwise("the range in the image").recorded(),
+        drawing_words("A B").in_pairs().otherwise("the range in the image").recorded(),
         "Numbers at the ends of the palette, such as 0 50 or 0:50."};
     Option<std::string> radius = {
         *this, "--radius", drawing_words("X").otherwise("that of the style").recorded(),
@@ -264,13 +264,12 @@ struct DrawingArguments : OptionTable {
     ListOption<std::string> cut = {
         *this, "--cut", drawing_words("PLANE").recorded(),
         "Show only the part on one side of a plane, with closed faces: z<1.5, x>0, or A,B,C,D for "
-        "A x + B y + C z <= D, in angstrom. With several planes, the part that meets all "
-        "conditions."};
+        "A x + B y + C z <= D, in angstrom. The number may be middle, that of the atoms, or "
+        "middle+1.5: z<middle. With several planes, the part that meets all conditions."};
     Option<std::string> slab = {
-        *this, "--slab", drawing_words("A B").of_words(2).recorded(),
+        *this, "--slab", drawing_words("A B").in_pairs().recorded(),
         "Show only the part between two depths in angstrom: -2 2, -2:2 or -2,2. The middle of the "
-        "atoms "
-        "has depth 0; depth grows towards the viewer. Works without --camera."};
+        "atoms has depth 0; depth grows towards the viewer. Works without --camera."};
     Flag cell = {*this, "--cell", flag().recorded(), "Show the edges of the unit cell."};
     Flag axes = {*this, "--axes", flag().recorded(),
                  "Show the directions of the cell's edges as arrows: a red, b green, c blue."};

@@ -164,6 +164,12 @@ TEST_CASE("cuts and slabs are recorded") {
     CHECK(!cut.rgb.is_same(fixture.drawn("b.png", {"--size", "40x30"}).rgb));
     CHECK(fixture.figure("c.png", {"--size", "4x3", "--slab", "-1:1", "--view", "best"}).code == 0);
     CHECK(fixture.verifies("c.png"));
+    // A file behind two numbers, or behind one word, is the scene.
+    for (const Options& slab : {Options{"--slab", "-1", "0.1"}, Options{"--slab", "-1:0.1"}}) {
+        const Outcome made = fixture.run(
+            joined({"render", "--size", "4x3"}, joined(slab, {"water.xyz", "-o", "e.png"})));
+        CHECK(made.err.empty());
+    }
     CHECK(has(fixture.error({"--cut", "z<-9"}), "--cut: must leave a part of the atoms"));
     const Options words[] = {{"--slab", "-1", "0.1"}, {"--slab", "-1:0.1"}, {"--slab=-1:0.1"},
                              {"--slab", "-1,0.1"},    {"--slab=-1,0.1"},    {"--slab", "-1 0.1"}};
