@@ -25,12 +25,37 @@ std::vector<double> numbers_in(std::string_view text, char separator) {
     }
 }
 
+/// The last number of a plane.
+struct Offset {
+    double number;
+    bool from_middle;
+};
+
+std::optional<Offset> offset_in(std::string_view text) {
+    constexpr std::string_view middle = "middle";
+    text = trimmed(text);
+    const bool from_middle = text.starts_with(middle);
+    if (from_middle) {
+        text = trimmed(text.substr(middle.size()));
+        if (text.empty()) return Offset{0.0, true};
+        if (text[0] != '+' && text[0] != '-') return std::nullopt;
+    }
+    const double sign = from_middle && text[0] == '-' ? -1.0 : 1.0;
+    const std::optional<double> number = number_in(trimmed(text.substr(from_middle ? 1 : 0)));
+    if (!number) return std::nullopt;
+    return Offset{sign * *number, from_middle};
+}
+
 std::optional<CutPlane> plane_in(std::string_view text) {
-    if (const std::vector<double> list = numbers_in(text, ','); list.size() == 4) {
+    const std::size_t last = std::min(text.rfind(','), text.size());
+    if (const std::vector<double> list = numbers_in(text.substr(0, last), ','); list.size() == 3) {
+        const std::optional<Offset> offset =
+            offset_in(text.substr(std::min(last + 1, text.size())));
+        if (!offset) return std::nullopt;
         const core::Vec3d normal(list[0], list[1], list[2]);
         const double largest =
             std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
-        const CutPlane plane{1.0 / largest * normal, list[3] / largest};
+        const CutPlane plane{1.0 / largest * normal, offset->number / largest, offset->from_middle};
         if (!std::isfinite(largest) || !std::isfinite(1.0 / largest) ||
             !std::isfinite(plane.offset))
             return std::nullopt;
@@ -40,12 +65,11 @@ std::optional<CutPlane> plane_in(std::string_view text) {
     if (sign == std::string_view::npos) return std::nullopt;
     const std::string_view axis = trimmed(text.substr(0, sign));
     const std::size_t behind = text.find_first_not_of('=', sign + 1);
-    const std::vector<double> offset =
-        numbers_in(behind == std::string_view::npos ? "" : text.substr(behind), ',');
-    if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z' || offset.size() != 1)
-        return std::nullopt;
+    const std::optional<Offset> offset =
+        offset_in(behind == std::string_view::npos ? "" : text.substr(behind));
+    if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z' || !offset) return std::nullopt;
     const double side = text[sign] == '<' ? 1.0 : -1.0;
-    CutPlane plane{core::Vec3d(0.0), side * offset[0]};
+    CutPlane plane{core::Vec3d(0.0), side * offset->number, offset->from_middle};
     plane.normal[axis[0] - 'x'] = side;
     return plane;
 }
@@ -56,8 +80,8 @@ CutPlane cut_plane_of(const std::string& option, const std::string& text) {
     const std::optional<CutPlane> plane = plane_in(text);
     if (!plane)
         throw BadInput(option, "",
-                       "must be a side of a plane, such as z<1.5, x>0 or 1,1,0,2.5 for x + y <= "
-                       "2.5, got \"" +
+                       "must be a side of a plane, such as z<1.5, x>middle or 1,1,0,2.5 for x + y "
+                       "<= 2.5, got \"" +
                            printable(text) + '"');
     return *plane;
 }
@@ -87,13 +111,6 @@ std::optional<std::vector<CutPlane>> planes_through(const core::Bounds& bounds,
 bool keep_point(const core::Vec3d& point, std::span<const CutPlane> planes) {
     return std::all_of(planes.begin(), planes.end(), [&](const CutPlane& plane) {
         return core::dot(plane.normal, point) <= plane.offset;
-    });
-}
-
-bool keep_middle(const core::Bounds& bounds, std::span<const CutPlane> planes) {
-    return std::all_of(planes.begin(), planes.end(), [&](const CutPlane& plane) {
-        const auto [least, most] = range_along(plane.normal, bounds);
-        return least + most <= 2.0 * plane.offset;
     });
 }
 

@@ -15,10 +15,12 @@ namespace raylane::scenes {
 /// Keeps the points p with dot(normal, p) <= offset.
 struct CutPlane {
     core::Vec3d normal{0.0};
-    double offset = 0.0; ///< in angstrom, times the normal's length
+    double offset = 0.0;      ///< in angstrom, times the normal's length
+    bool from_middle = false; ///< `offset` counts from the middle of the atoms
 };
 
-/// Parses "z<1.5", "x > 0" or "A,B,C,D", which keeps A x + B y + C z <= D. Throws BadInput.
+/// Parses "z<1.5", "x > 0" or "A,B,C,D", which keeps A x + B y + C z <= D. The number may be
+/// "middle", "middle+1" or "middle-1". Throws BadInput.
 CutPlane cut_plane_of(const std::string& option, const std::string& text);
 
 /// Returns the range of dot(normal, p) over a box.
@@ -33,8 +35,5 @@ std::optional<std::vector<CutPlane>> planes_through(const core::Bounds& bounds,
 
 /// Returns true if all planes keep a point.
 bool keep_point(const core::Vec3d& point, std::span<const CutPlane> planes);
-
-/// Returns true if all planes keep the middle of a box.
-bool keep_middle(const core::Bounds& bounds, std::span<const CutPlane> planes);
 
 } // namespace raylane::scenes

@@ -1,9 +1,11 @@
 #include "scenes/formats/structure/drawing.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/infinity.hpp"
 #include "core/scene/best_view.hpp"
 #include "core/shapes/checks.hpp"
 #include "scenes/files/errors.hpp"
+#include "scenes/files/number.hpp"
 #include "scenes/formats/structure/atom_layer.hpp"
 #include "scenes/formats/structure/bonds.hpp"
 #include "scenes/formats/structure/cartoon/chain_colors.hpp"
@@ -99,7 +101,8 @@ class SceneFromAtoms {
         DrawnShapes shapes(builder_, atoms_.cuts, atoms_of_shape_);
         add_layers(shapes);
         if (!atoms_.cuts.empty() && builder_.shape_count() == 0)
-            throw BadInput(emptying_option(), "", "must leave a part of the atoms, got none");
+            throw BadInput(emptying_option(), "",
+                           "must leave a part of the atoms, got none: they have " + extent());
         find_places();
         find_atoms_in_chains();
         if (drawing_.show_cell) {
@@ -146,6 +149,42 @@ class SceneFromAtoms {
         };
         if (empties(cuts.last(2))) return "--slab";
         return empties(cuts.first(drawing_.cuts.size())) ? "--cut" : "--cut and --slab";
+    }
+
+    /// Returns the range of dot(axis, p) over the atoms' balls. `axis` is a unit vector.
+    std::pair<double, double> range_of_atoms(const Vec3d& axis) const {
+        std::pair<double, double> range(core::infinity<double>, -core::infinity<double>);
+        for (const AtomLayer& layer : layers_)
+            atoms_.for_each([&](AtomIndex atom, const Vec3f& at) {
+                if (!layer.has(atoms_, atom)) return;
+                const double middle = core::dot(axis, core::convert<double>(at));
+                const auto radius = static_cast<double>(layer.radii.of(atom));
+                range = {std::min(range.first, middle - radius),
+                         std::max(range.second, middle + radius)};
+            });
+        return range;
+    }
+
+    /// Returns the atoms' coordinates and depths, for a message.
+    std::string extent() const {
+        const auto range_text = [&](const char* name, const Vec3d& axis, double origin) {
+            const auto [least, most] = range_of_atoms(axis);
+            const auto in_hundredths = [&](double number) {
+                return to_text(static_cast<float>(std::round(100.0 * (number - origin)) / 100.0));
+            };
+            return std::string(name) + " from " + in_hundredths(least) + " to " +
+                   in_hundredths(most);
+        };
+        std::string text;
+        if (!drawing_.cuts.empty())
+            text = range_text("x", {1.0, 0.0, 0.0}, 0.0) + ", " +
+                   range_text("y", {0.0, 1.0, 0.0}, 0.0) + ", " +
+                   range_text("z", {0.0, 0.0, 1.0}, 0.0);
+        if (drawing_.slab)
+            text += (text.empty() ? "" : ", ") +
+                    range_text("depths", direction_to_viewer(),
+                               core::dot(direction_to_viewer(), middle_of_atoms()));
+        return text;
     }
 
     double largest_radius() const {
@@ -526,14 +565,27 @@ class SceneFromAtoms {
         return bounds;
     }
 
+    /// Returns the middle of the bounds of the centres of all atoms that are shown.
+    Vec3d middle_of_atoms() const {
+        core::Bounds bounds;
+        atoms_.for_each([&](AtomIndex atom, const Vec3f& at) {
+            if (atoms_.representations[atom] != DrawnAtoms::hidden) bounds.include({at, at});
+        });
+        return 0.5 * (core::convert<double>(bounds.lower) + core::convert<double>(bounds.upper));
+    }
+
+    Vec3d direction_to_viewer() const {
+        const Vec3d along = core::convert<double>(camera_.direction);
+        return -1.0 / core::length(along) * along;
+    }
+
     void find_cuts() {
         atoms_.cuts = drawing_.cuts;
+        for (CutPlane& plane : atoms_.cuts)
+            if (plane.from_middle) plane.offset += core::dot(plane.normal, middle_of_atoms());
         if (!drawing_.slab) return;
-        const Vec3d along = core::convert<double>(camera_.direction);
-        const Vec3d back = -1.0 / core::length(along) * along;
-        const core::Bounds bounds = bounds_of_shown();
-        const double middle = 0.5 * core::dot(back, core::convert<double>(bounds.lower) +
-                                                        core::convert<double>(bounds.upper));
+        const Vec3d back = direction_to_viewer();
+        const double middle = core::dot(back, middle_of_atoms());
         atoms_.cuts.push_back({back, middle + drawing_.slab->second});
         atoms_.cuts.push_back({-1.0 * back, -(middle + drawing_.slab->first)});
     }

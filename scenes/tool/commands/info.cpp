@@ -48,6 +48,18 @@ Json shape_counts(const core::Scene& scene) {
     return counts;
 }
 
+/// Returns the bounds of the shapes that have bounds, or null if there are none.
+Json bounds_of(const core::Scene& scene) {
+    const core::Bounds& bounds = scene.hierarchy().bounds;
+    if (scene.hierarchy().nodes.empty()) return nullptr;
+    Json lower, upper;
+    for (int axis = 0; axis < 3; ++axis) {
+        lower.push_back(as_printed(bounds.lower[axis]));
+        upper.push_back(as_printed(bounds.upper[axis]));
+    }
+    return {{"lower", lower}, {"upper", upper}};
+}
+
 Json names_where(const core::Features& features, bool wanted) {
     Json names = Json::array();
     for (const auto& [name, needed] : features.named())
@@ -63,6 +75,7 @@ Json info_of(const std::string& name, const core::Scene& scene) {
     return {{"scene", printable(name, 4096)},
             {"shapes", shape_counts(scene)},
             {"shape_count", scene.shape_count()},
+            {"bounds", bounds_of(scene)},
             {"materials", scene.materials().size()},
             {"lights", scene.lights().size()},
             {"fog", text_of(scene.fog().kind)},
@@ -113,6 +126,17 @@ void print(const Json& info) {
     for (const auto& [kind, count] : info["shapes"].items())
         kinds.append(kinds.empty() ? ": " : ", ").append(count.dump() + " " + kind);
     line("shapes", shapes + kinds);
+    if (const Json& bounds = info["bounds"]; !bounds.is_null()) {
+        std::string extent;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            char text[96];
+            std::snprintf(text, sizeof text, "%s%c from %.4g to %.4g", axis == 0 ? "" : ", ",
+                          "xyz"[axis], bounds["lower"][axis].get<double>(),
+                          bounds["upper"][axis].get<double>());
+            extent += text;
+        }
+        line("extent", extent);
+    }
     line("materials", number("materials"));
     line("lights", number("lights"));
     line("fog", info["fog"]);

@@ -27,8 +27,9 @@ TEST_CASE("info lists the content and the needs of a scene") {
     const Outcome text = fixture.run({"info", "scene.json"});
     CHECK(text.code == 0);
     CHECK(text.err.empty());
-    for (const char* line : {"shapes     1: 1 sphere\n", "lights     1\n", "fog        none\n",
-                             "image      16 x 12 pixels, ", "limits     depth 8, weight 0.001\n"})
+    for (const char* line :
+         {"shapes     1: 1 sphere\n", "extent     x from ", "lights     1\n", "fog        none\n",
+          "image      16 x 12 pixels, ", "limits     depth 8, weight 0.001\n"})
         CHECK(contains(text.out, line));
 
     const Outcome outcome = fixture.run({"info", "--json", "scene.json"});
@@ -36,6 +37,8 @@ TEST_CASE("info lists the content and the needs of a scene") {
     const Json info = json_of(outcome);
     CHECK(info["scene"] == "scene.json");
     CHECK(info["shapes"] == Json{{"sphere", 1}});
+    CHECK(info["bounds"]["lower"].size() == 3);
+    CHECK(info["bounds"]["lower"][0] < info["bounds"]["upper"][0]);
     CHECK(info["width"] == 16);
     CHECK(info["height"] == 12);
     CHECK(info["camera"] == "perspective");

@@ -578,5 +578,6 @@ TEST_CASE("the octant that faces the camera is cut out") {
     CHECK(draw_structure(atom, drawing, "a").shape_count() == 8);
     drawing.cuts = {cut_plane_of("--cut", "x<0")};
     CHECK(message_of<BadInput>([&] { draw_structure(atom, drawing, "a"); }) ==
-          "--cut: must leave a part of the atoms, got none");
+          "--cut: must leave a part of the atoms, got none: they have x from 0.57 to 1.43, y from "
+          "1.57 to 2.43, z from 2.57 to 3.43");
 }

@@ -106,18 +106,36 @@ TEST_CASE("a slab is across the view from the middle of the atoms") {
     CHECK(height_at(scene, 0.0, 6.0) == 2.5);
 }
 
+TEST_CASE("a cut may go through the middle of the atoms") {
+    // Centres are from (0, 0, 0) to (6, 6, 4).
+    const auto is_same = [](const char* plane, const char* same) {
+        for (const double x : {-1.0, 0.5, 1.5, 5.0, 6.5})
+            for (const double y : {0.0, 0.5, 6.0})
+                if (height_at(cut({plane}), x, y) != height_at(cut({same}), x, y)) return false;
+        return true;
+    };
+    CHECK(is_same("z<middle", "z<2"));
+    CHECK(is_same("z <= middle + 1.5", "z<3.5"));
+    CHECK(is_same("x>middle-2.5", "x>0.5"));
+    CHECK(is_same("1,1,0,middle-5", "1,1,0,1"));
+    CHECK(!is_same("z<middle", "z<2.5"));
+}
+
 TEST_CASE("cuts that leave nothing are refused by their names") {
     CHECK(tests::message_of<BadInput>([] { cut({"z<-3"}); }) ==
-          "--cut: must leave a part of the atoms, got none");
+          "--cut: must leave a part of the atoms, got none: they have x from -2 to 8, y from -2 to "
+          "8, z from -2 to 6");
     LoadOptions options;
     options.drawing.slab = {{50.0, 60.0}};
     options.drawing.show_cell = false;
     CHECK(tests::message_of<BadInput>([&] { parse_scene("a.xyz", atoms, options); }) ==
-          "--slab: must leave a part of the atoms, got none");
+          "--slab: must leave a part of the atoms, got none: they have depths from -4 to 4");
 }
 
 TEST_CASE("a malformed cut is refused") {
-    for (const std::string text : {"", "z", "w<1", "z<", "z<1,2", "1,2,3", "0,0,0,1", "z=1", "z<a"})
+    for (const std::string text :
+         {"", "z", "w<1", "z<", "z<1,2", "1,2,3", "0,0,0,1", "z=1", "z<a", "z<middle1", "z<middle+",
+          "z<middle*2", "1,2,middle,3", "middle"})
         CHECK_THROWS_AS(cut_plane_of("--cut", text), BadInput);
     for (const std::string text : {"", "1", "2 1", "1 1", "a b", "1:2:3"})
         CHECK_THROWS_AS(range_of("--slab", text), BadInput);
