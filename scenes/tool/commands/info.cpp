@@ -48,7 +48,7 @@ Json shape_counts(const core::Scene& scene) {
     return counts;
 }
 
-/// Returns the bounds of the shapes that have bounds, or null if there are none.
+/// Returns the bounds of all shapes but planes, or null for planes alone.
 Json bounds_of(const core::Scene& scene) {
     const core::Bounds& bounds = scene.hierarchy().bounds;
     if (scene.hierarchy().nodes.empty()) return nullptr;

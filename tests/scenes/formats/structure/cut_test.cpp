@@ -126,6 +126,9 @@ TEST_CASE("cuts that leave nothing are refused by their names") {
           "--cut: must leave a part of the atoms, got none: they have x from -2 to 8, y from -2 to "
           "8, z from -2 to 6");
     LoadOptions options;
+    options.drawing.style = Style::spheres;
+    options.drawing.radius = "2";
+    options.drawing.fit_camera.direction = {0.0F, 0.0F, -2.0F};
     options.drawing.slab = {{50.0, 60.0}};
     options.drawing.show_cell = false;
     CHECK(tests::message_of<BadInput>([&] { parse_scene("a.xyz", atoms, options); }) ==
