@@ -121,9 +121,8 @@ def from_atoms(
     number, True, or a list: ``color``, ``palette``, ``range``, ``radius``, ``scale``, ``select``, ``hide``, ``opacity``,
     ``repeat`` (``(2, 2, 1)``), ``axes``, ``boundary``, ``whole``, ``polyhedra`` (``"Ti opacity 0.6"``),
     ``hydrogen_bonds``, ``view`` (also ``"best"``, ``"a"``, ``"b"``, ``"c"``), ``perspective``, ``orthographic``, ``look``,
-    ``background``, ``cut`` (``"z<middle"``, the numbers ``(a, b, c, d)`` for a x + b y + c z <= d, or a list of these),
-    ``slab`` (``(-2, 2)``), and for files with displacements ``ellipsoids``, ``ellipses``, ``octants`` and
-    ``probability``.
+    ``background`` and ``slab`` (``(-2, 2)``). ``cut``: ``"z<middle"``, numbers ``(a, b, c, d)`` for a x + b y + c z <= d,
+    or a list of these. Files with displacements have ``ellipsoids``, ``ellipses``, ``octants`` and ``probability``, too.
 
     Annotations are options, too. Images of the scene have them, or an SVG file (``annotations`` of :func:`render`).
     ``labels``: texts such as ``"resn LIG: {resi}"``. ``distances``: texts such as ``"index 1: index 5"``. ``legend`` and
