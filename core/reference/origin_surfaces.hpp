@@ -8,8 +8,17 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace raylane::core {
+
+/// Returns true if a ray's start and the point at t may be on the wrong side of surfaces that it
+/// has left and that it meets, because they are rounded. A ray that leaves the point then stands on
+/// both surfaces: otherwise it could meet them in turns without end. The bound is 2^13 half ulps,
+/// for surfaces that the ray almost touches.
+inline bool is_rounded_away(const Vec3<double>& origin, double t) {
+    return t <= 0x1p-40 * largest_component(origin);
+}
 
 /// A ray's crossing with a shape.
 template <class Real>
@@ -150,6 +159,18 @@ class OriginSurfaces {
                 contact.inside = contact.goes_inside;
         }
         return result;
+    }
+
+    /// Returns these surfaces and those that the ray has left shortly before, without crossing
+    /// these since.
+    OriginSurfaces joined(const OriginSurfaces& left) const {
+        std::vector<Contact<Real>> contacts(begin(), end());
+        for (const Contact<Real>& contact : left)
+            if (find(contact.hit.shape) == nullptr) {
+                contacts.push_back(contact);
+                contacts.back().inside = contact.goes_inside;
+            }
+        return OriginSurfaces(contacts);
     }
 
   private:

@@ -12,6 +12,7 @@
 #include "core/shapes/shapes.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace raylane::core {
 
@@ -29,7 +30,8 @@ ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& setti
                                        Precision precision, Survey* survey,
                                        const std::atomic<bool>* abandon)
     : scene_(scene), settings_(settings), camera_rays_(scene.camera(), settings),
-      searcher_(scene, search, precision), survey_(survey), abandon_(abandon) {
+      searcher_(scene, search, precision), is_exact_(precision == Precision::exact),
+      survey_(survey), abandon_(abandon) {
     crossings_.reserve(64);
     pending_.reserve(64);
     for (const Light& light : scene.lights())
@@ -144,7 +146,7 @@ Vec3<Real> ReferenceTracer<Real>::light_along(Path path) {
 /// Returns the light of the nearest visible surface, and of the media in between.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
-    const Encounter<Real> encounter = searcher_.nearest(
+    Encounter<Real> encounter = searcher_.nearest(
         path.ray, path.origins, [&](const Hit<Real>& candidate) { return is_visible(candidate); });
     const Hit<Real>& hit = encounter.hit;
     cost_ += hit.any() ? 1.0 + light_rays_ : 1.0;
@@ -155,6 +157,9 @@ Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
         return Vector(0);
     }
 
+    if constexpr (std::is_same_v<Real, double>)
+        if (is_exact_ && path.origins.size() != 0 && is_rounded_away(path.ray.origin, hit.t))
+            encounter.contacts = encounter.contacts.joined(path.origins);
     const Surface surface = surface_at(path, encounter);
     const MaterialIndex medium = medium_before(hit, path.media);
     Vector before = path.throughput;

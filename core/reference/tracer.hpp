@@ -152,6 +152,7 @@ class ReferenceTracer {
     Settings settings_;
     CameraRays<Real> camera_rays_;
     Searcher<Real> searcher_;
+    bool is_exact_;
     MediaStacks media_;
     std::vector<Path> pending_;        // the next path last
     std::vector<Hit<Real>> crossings_; // of a shadow ray

@@ -3,6 +3,7 @@
 #include "core/shapes/shapes.hpp"
 #include "simd/query/as_core.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace raylane::simd {
@@ -52,6 +53,22 @@ void TransparencyWalk::nearest(const Paths& paths, const Coherence* coherence,
     at_contacts_.assign(query_.at_contacts().begin(), query_.at_contacts().end());
     points_.assign(query_.points().begin(), query_.points().end());
     if (onward_ != nullptr) go_on(paths, coherence, counters);
+    leave_near_surfaces(paths);
+}
+
+/// Leaves rays to the reference tracer that meet a surface next to the one that they leave. It
+/// knows how to leave both.
+void TransparencyWalk::leave_near_surfaces(const Paths& paths) {
+    const Hits& hits = query_.hits();
+    for (std::size_t lane = 0; lane < paths.count; ++lane) {
+        if (paths.origin_slot[lane] == no_slot || hits.slot[lane] == no_slot) continue;
+        const core::Vec3d origin(paths.origin[0][lane], paths.origin[1][lane],
+                                 paths.origin[2][lane]);
+        if (!core::is_rounded_away(origin, hits.t[lane])) continue;
+        const auto number = static_cast<std::uint32_t>(lane);
+        if (std::find(at_contacts_.begin(), at_contacts_.end(), number) == at_contacts_.end())
+            at_contacts_.push_back(number);
+    }
 }
 
 core::Vec3d TransparencyWalk::point_of(const Paths& paths, std::size_t lane) const {

@@ -29,6 +29,7 @@ class TransparencyWalk {
     Query& query() { return query_; }
 
   private:
+    void leave_near_surfaces(const Paths& paths);
     void go_on(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
     bool is_visible(const Paths& paths, const Hits& hits, std::size_t lane, core::WayInUnion& way);
     void settle(const Paths& paths, std::size_t lane);

@@ -87,3 +87,24 @@ TEST_CASE("rays do not skip crossings of parts that touch or coincide") {
     mixed.add_union(sticks);
     tests::check_engines_agree(mixed.finish());
 }
+
+TEST_CASE("rays that leave two surfaces nearer than rounding do not meet them in turns") {
+    TestScene scene;
+    scene.settings.width = 8;
+    scene.settings.height = 6;
+    scene.settings.min_weight = 0.0F; // endless otherwise
+    scene.camera.from = {-9, 0, 0};
+    scene.camera.field_of_view = 1e-5F;
+    std::vector<PartShape> balls;
+    for (int i = 0; i < 20; ++i)
+        balls.push_back(SphereOf<double>{{0.25 * (i / 2), 0, i % 2 == 0 ? -1e-11 : 0}, 0.5});
+    balls.push_back(SphereOf<double>{{3.25, 0, 0}, 0.5});
+    scene.add_union(balls);
+    const Scene built = scene.finish();
+    for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
+        const simd::Rendering rendering =
+            simd::render(built, built.settings(), {.engine = engine, .threads = 1});
+        // Four surfaces a ray. A surface may be met twice: rounding moves points to its other side.
+        CHECK(rendering.counters.passed <= 6 * rendering.counters.primary);
+    }
+}
