@@ -1,6 +1,7 @@
 #include "scenes/tool/options/option_files.hpp"
 
 #include "scenes/files/input_file.hpp"
+#include "scenes/files/number.hpp"
 #include "scenes/formats/structure/lines.hpp"
 
 #include <algorithm>
