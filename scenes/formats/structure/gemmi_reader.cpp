@@ -232,7 +232,7 @@ class ShiftedResidues {
     }
     /// Returns true for a name with a symbol of one letter: "C", "O1", "N1A".
     static bool is_one_letter(std::string_view name) {
-        return is_letter(name[0]) && (name.size() == 1 || !is_letter(name[1])) &&
+        return !name.empty() && is_letter(name[0]) && (name.size() == 1 || !is_letter(name[1])) &&
                element_of(name.substr(0, 1)) != 0;
     }
 

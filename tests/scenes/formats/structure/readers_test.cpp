@@ -359,6 +359,9 @@ TEST_CASE("names of a ligand give its elements if they all begin in column 13") 
     CHECK(elements("LIG", {"HO1 ", "CD1 ", "O1  ", "H12A", "CL1 "}) == "C H C O H Cl ");
     CHECK(elements("LIG", {"HG  ", "CD1 ", " O1 "}) == "C Hg Cd O "); // one name begins later
     CHECK(elements("LIG", {"HG  ", "CD1 "}) == "C Hg Cd ");
+    // A name of blanks decides nothing. Reading its first letter is an error in the sanitizers'
+    // build.
+    CHECK(elements("LIG", {"\t\t\t\t", " CD1"}) == "C X C ");
 }
 
 TEST_CASE("a table of a macromolecule's atoms needs coordinates alone") {
