@@ -160,6 +160,7 @@ void ShadowTracer::follow(std::size_t lane) {
     const core::Vec3d share =
         reference_.light_let_through(ray_of(walk_, lane), origin_surfaces_of(scene_, walk_, lane),
                                      walk_.media_at(lane), walk_distance_[lane]);
+    if (share == core::Vec3d(0.0)) state_[walk_.sample[lane]] = blocked;
     for (int channel = 0; channel < 3; ++channel)
         rays_.weight[channel][walk_.sample[lane]] =
             walk_.throughput[channel][lane] * share[channel];
