@@ -38,12 +38,15 @@ void Query::nearest(const Paths& paths, const Coherence* coherence, EngineCounte
 bool Query::is_apart(const Paths& paths, std::size_t lane) const {
     if (!tracing_.certifies()) return true;
     if (certifier_.was_refined(lane)) return false;
+    const double second = static_cast<double>(second_[lane]) + search_.approach().before(lane);
+    return second > hits_.t[lane] + error_of_point(paths, lane);
+}
+
+double Query::error_of_point(const Paths& paths, std::size_t lane) const {
     double reach = hits_.t[lane];
     for (int axis = 0; axis < 3; ++axis)
         reach = std::max(reach, std::abs(paths.origin[axis][lane]));
-    const double second = static_cast<double>(second_[lane]) + search_.approach().before(lane);
-    // Several times the rounding errors of a point, its t and its ray.
-    return second > hits_.t[lane] + 0x1p-44 * reach;
+    return 0x1p-44 * reach; // several times the rounding errors of a point, its t and its ray
 }
 
 /// The difference between a distance and the length by which its ray was moved may have an error of

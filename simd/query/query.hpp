@@ -27,10 +27,13 @@ class Query {
                  const double* t_limit = nullptr);
     /// Returns the hits of the last rays.
     const Hits& hits() const { return hits_; }
-    /// Returns true if, shortly behind the lane's hit, the ray crosses no other surface: none
-    /// within the error of the hit point in double. A ray that starts at the hit point in double
-    /// then misses no surface.
+    /// Returns true if, shortly behind the lane's hit, the ray certainly crosses no other surface:
+    /// none within the error of the hit point in double. A ray that starts at the hit point in
+    /// double then misses no surface. Returns false if the search's bounds, which depend on its
+    /// order, leave that open.
     bool is_apart(const Paths& paths, std::size_t lane) const;
+    /// Returns a bound on the distance of the lane's hit point in double from the exact one.
+    double error_of_point(const Paths& paths, std::size_t lane) const;
     /// Returns true if the lane's hit was not certain at first. Otherwise its ray does not only
     /// touch the shape, as certified solvers leave touches in doubt.
     bool was_refined(std::size_t lane) const { return certifier_.was_refined(lane); }

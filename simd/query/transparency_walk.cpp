@@ -84,17 +84,18 @@ void TransparencyWalk::go_on(const Paths& paths, const Coherence* coherence,
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         core::WayInUnion way;
         if (is_visible(paths, hits, lane, way)) continue;
-        if (!query_.is_apart(paths, lane)) {
-            settle(paths, lane);
-            continue;
-        }
-        const std::size_t to = onward_paths_.count++;
+        const std::size_t to = onward_paths_.count;
         ways_[to] = way;
         onward_paths_.copy(paths, lane, to);
         onward_paths_.sample[to] = static_cast<std::uint32_t>(lane);
         passed_[to] = 0.0;
         onward_paths_.move_to(to, point_of(paths, lane));
         move_on(hits, lane, to);
+        if (!query_.is_apart(paths, lane) && !is_clear(to, query_.error_of_point(paths, lane))) {
+            settle(paths, lane);
+            continue;
+        }
+        ++onward_paths_.count;
         std::erase_if(points_, [&](const HitPoint& point) { return point.lane == lane; });
     }
     // Rays that go on no longer start at one point.
@@ -128,18 +129,31 @@ void TransparencyWalk::go_on(const Paths& paths, const Coherence* coherence,
                     if (known.lane == i) points_.push_back({lane, known.point});
                 continue;
             }
-            if (!onward_->is_apart(onward_paths_, i)) {
-                settle(paths, lane);
-                continue;
-            }
+            const bool is_apart = onward_->is_apart(onward_paths_, i);
+            const double error = onward_->error_of_point(onward_paths_, i);
             onward_paths_.copy(onward_paths_, i, kept);
             passed_[kept] = passed_[i];
             ways_[kept] = ways_[i];
             onward_paths_.move_to(kept, point);
-            move_on(found, i, kept++);
+            move_on(found, i, kept);
+            if (is_apart || is_clear(kept, error))
+                ++kept;
+            else
+                settle(paths, lane);
         }
         onward_paths_.count = kept;
     }
+}
+
+/// Returns true if a ray that goes on crosses no surface within a distance. Decides where the
+/// bounds of Query::is_apart do not, so that images do not depend on the order of a search.
+bool TransparencyWalk::is_clear(std::size_t onward, double distance) {
+    return !searcher_
+                ->nearest(
+                    ray_of(onward_paths_, onward),
+                    origin_surfaces_of(scene_, onward_paths_, onward),
+                    [](const core::Hit<double>&) { return true; }, distance)
+                .hit.any();
 }
 
 /// Finds the first visible surface of a ray by the scalar search.
