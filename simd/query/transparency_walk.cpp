@@ -23,8 +23,8 @@ core::Vec3d point_among(std::span<const HitPoint> points, const Hits& hits, cons
 } // namespace
 
 TransparencyWalk::TransparencyWalk(const SceneData& scene, const Tracing& tracing)
-    : scene_(scene), query_(scene, tracing, Asked::points), solid_surfaces_(scene.scene()),
-      cut_faces_(scene.scene()) {
+    : scene_(scene), is_exact_(tracing.certifies()), query_(scene, tracing, Asked::points),
+      solid_surfaces_(scene.scene()), cut_faces_(scene.scene()) {
     if (!scene.looks_through()) return;
     searcher_ = std::make_unique<core::Searcher<double>>(scene.scene(), core::Search::hierarchy,
                                                          tracing.precision);
@@ -53,7 +53,7 @@ void TransparencyWalk::nearest(const Paths& paths, const Coherence* coherence,
     at_contacts_.assign(query_.at_contacts().begin(), query_.at_contacts().end());
     points_.assign(query_.points().begin(), query_.points().end());
     if (onward_ != nullptr) go_on(paths, coherence, counters);
-    leave_near_surfaces(paths);
+    if (is_exact_) leave_near_surfaces(paths);
 }
 
 /// Leaves rays to the reference tracer that meet a surface next to the one that they leave. It

@@ -41,6 +41,7 @@ class TransparencyWalk {
     void move_on(const Hits& hits, std::size_t lane, std::size_t to);
 
     const SceneData& scene_;
+    bool is_exact_;
     Query query_;
     std::vector<std::uint32_t> at_contacts_;
     std::vector<HitPoint> points_;

@@ -50,8 +50,9 @@ Json shape_counts(const core::Scene& scene) {
 
 /// Returns the bounds of all shapes but planes, or null for planes alone.
 Json bounds_of(const core::Scene& scene) {
-    const core::Bounds& bounds = scene.hierarchy().bounds;
-    if (scene.hierarchy().nodes.empty()) return nullptr;
+    core::Bounds bounds = scene.hierarchy().bounds;
+    if (scene.copies() != nullptr) bounds.include(scene.copies()->bounds());
+    if (!(bounds.lower.x <= bounds.upper.x)) return nullptr;
     Json lower, upper;
     for (int axis = 0; axis < 3; ++axis) {
         lower.push_back(as_printed(bounds.lower[axis]));

@@ -52,6 +52,29 @@ TEST_CASE("info lists the content and the needs of a scene") {
     CHECK(fixture.names() == std::vector<std::string>{"out", "scene.json"});
 }
 
+TEST_CASE("info gives the extent of copies, and none of planes") {
+    const ToolFixture fixture;
+    const auto bounds_with = [&](const std::string& object) {
+        fixture.write(
+            "a.json",
+            R"({"camera": {"from": [0, 0, 60], "at": [0, 0, 0]}, "lights": [], "materials": {"m": {}},
+            "definitions": {"balls": {"type": "group", "objects": [
+                {"type": "sphere", "material": "m", "center": [0, 0, 0], "radius": 1},
+                {"type": "sphere", "material": "m", "center": [3, 0, 0], "radius": 1}]}},
+            "objects": [)" +
+                object + "]}");
+        return json_of(fixture.run({"info", "--json", "a.json"}))["bounds"];
+    };
+    CHECK(bounds_with(
+              R"({"type": "plane", "material": "m", "point": [0, 0, 0], "normal": [0, 1, 0]})")
+              .is_null());
+    const Json copies = bounds_with(R"({"type": "instance", "of": "balls", "placements": [
+        {"translate": [0, 0, 0]}, {"translate": [0, 9, 0]}]})");
+    CHECK(copies["upper"][0] >= 4.0);
+    CHECK(copies["upper"][0] < 4.01);
+    CHECK(copies["upper"][1] >= 10.0);
+}
+
 TEST_CASE("info gives the memory of doubles") {
     const ToolFixture fixture;
     const auto info_with = [&](const std::string& radius) {
