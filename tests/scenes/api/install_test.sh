@@ -4,6 +4,10 @@
 # usage: install_test.sh BUILD_FOLDER CMAKE GENERATOR C_COMPILER CXX_COMPILER BUILD_TYPE FLAGS
 set -eu
 build=$1 cmake=$2 generator=$3 c_compiler=$4 compiler=$5 build_type=$6 flags=$7
+fortran=$(command -v gfortran || true)
+case $flags in
+*-fsanitize*) fortran= ;; # its programs lack the sanitizers' functions
+esac
 source=$(cd "$(dirname "$0")/../../.." && pwd)
 unset DESTDIR
 folder=$(mktemp -d)
@@ -88,7 +92,8 @@ fi
 echo "the examples find it, build and run"
 quietly "$cmake" -S "$source/scenes/api/examples" -B "$folder/examples" -G "$generator" \
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$c_compiler" -DCMAKE_CXX_COMPILER="$compiler" \
-    -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_C_FLAGS="$flags"
+    -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_C_FLAGS="$flags" \
+    -DCMAKE_Fortran_COMPILER="${fortran:-NOTFOUND}"
 quietly "$cmake" --build "$folder/examples"
 "$folder/examples/hits"
 [ -s sphere.png ] || fail "no picture"
@@ -98,7 +103,7 @@ cmp sphere.png ball.png || fail "another picture from C"
 "$folder/examples/path" || fail "another picture than raylane's"
 [ -s path.png ] || fail "no picture of paths"
 "$folder/examples/solids_in_c" || fail "wrong numbers in C"
-if command -v gfortran >/dev/null; then
+if [ -n "$fortran" ]; then
     "$folder/examples/solids_in_fortran" || fail "wrong numbers in Fortran"
 else
     echo "(there is no Fortran)"
@@ -148,7 +153,7 @@ EOF
     [ "$(of_page/hits_in_c)" = "4 inf" ] || fail "wrong t in C"
     ! nm of_page/hits_in_c | grep -i ' t .*raylane_closest' || fail "functions that it does not call are linked"
 fi
-if [ -n "$in_c" ] && command -v gfortran >/dev/null; then
+if [ -n "$in_c" ] && [ -n "$fortran" ]; then
     echo "a project in Fortran alone finds it, builds and runs"
     mkdir in_fortran
     cat >in_fortran/CMakeLists.txt <<EOF
@@ -205,7 +210,7 @@ if command -v pkg-config >/dev/null; then
     words=$(pkg-config --cflags --libs raylane-trace)
     eval "quietly \"$compiler\" $flags -std=c++20 traces/traces.cpp -o traces.pc $words ${run_path:+\"$run_path\"}"
     ./traces.pc || fail "wrong t"
-    if [ -n "$in_c" ] && command -v gfortran >/dev/null; then
+    if [ -n "$in_c" ] && [ -n "$fortran" ]; then
         eval "quietly gfortran \"$source/scenes/api/examples/solids_in_fortran.f90\" -o solids.pc \
             $words ${run_path:+\"$run_path\"}"
         ./solids.pc || fail "wrong numbers in Fortran"
