@@ -62,9 +62,7 @@ void TransparencyWalk::leave_near_surfaces(const Paths& paths) {
     const Hits& hits = query_.hits();
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         if (paths.origin_slot[lane] == no_slot || hits.slot[lane] == no_slot) continue;
-        const core::Vec3d origin(paths.origin[0][lane], paths.origin[1][lane],
-                                 paths.origin[2][lane]);
-        if (!core::is_rounded_away(origin, hits.t[lane])) continue;
+        if (!core::is_rounded_away(ray_of(paths, lane).origin, hits.t[lane])) continue;
         const auto number = static_cast<std::uint32_t>(lane);
         if (std::find(at_contacts_.begin(), at_contacts_.end(), number) == at_contacts_.end())
             at_contacts_.push_back(number);

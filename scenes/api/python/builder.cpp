@@ -55,6 +55,7 @@ struct Shared {
 using SharedBuilder = Shared<SceneBuilder>;
 using SharedGroup = Shared<Group>;
 
+/// Returns a group as Python holds it.
 std::unique_ptr<SharedGroup> shared(Group group) {
     auto made = std::make_unique<SharedGroup>();
     made->to = std::move(group);

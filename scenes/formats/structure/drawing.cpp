@@ -575,8 +575,7 @@ class SceneFromAtoms {
     }
 
     Vec3d direction_to_viewer() const {
-        const Vec3d along = core::convert<double>(camera_.direction);
-        return -1.0 / core::length(along) * along;
+        return 1.0 / core::length(atoms_.to_camera) * atoms_.to_camera;
     }
 
     void find_cuts() {

@@ -159,18 +159,16 @@ Drawing drawing_with(const DrawingOptions& options) {
         if (drawing.style == Style::automatic) drawing.style = Style::balls;
         return drawing;
     }
-    for (const auto& [name, text] : options)
-        if (name.ends_with("probability")) {
-            const std::string dashes = name.starts_with("--") ? "--" : "";
-            std::string expectation = "goes with ";
-            expectation.append(dashes)
-                .append("ellipsoids, ")
-                .append(dashes)
-                .append("ellipses or ")
-                .append(dashes)
-                .append("octants");
-            throw BadInput(name, "", expectation);
-        }
+    const auto given = std::find_if(options.begin(), options.end(), [](const auto& option) {
+        return option.first.ends_with("probability");
+    });
+    if (given != options.end()) {
+        const std::string& name = given->first;
+        const std::string dashes = name.starts_with("--") ? "--" : "";
+        throw BadInput(name, "",
+                       "goes with " + dashes + "ellipsoids, " + dashes + "ellipses or " + dashes +
+                           "octants");
+    }
     return drawing;
 }
 
