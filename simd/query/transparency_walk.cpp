@@ -82,18 +82,17 @@ void TransparencyWalk::go_on(const Paths& paths, const Coherence* coherence,
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         core::WayInUnion way;
         if (is_visible(paths, hits, lane, way)) continue;
-        const std::size_t to = onward_paths_.count;
+        if (!is_apart(query_, paths, lane)) {
+            settle(paths, lane);
+            continue;
+        }
+        const std::size_t to = onward_paths_.count++;
         ways_[to] = way;
         onward_paths_.copy(paths, lane, to);
         onward_paths_.sample[to] = static_cast<std::uint32_t>(lane);
         passed_[to] = 0.0;
         onward_paths_.move_to(to, point_of(paths, lane));
         move_on(hits, lane, to);
-        if (!query_.is_apart(paths, lane) && !is_clear(to, query_.error_of_point(paths, lane))) {
-            settle(paths, lane);
-            continue;
-        }
-        ++onward_paths_.count;
         std::erase_if(points_, [&](const HitPoint& point) { return point.lane == lane; });
     }
     // Rays that go on no longer start at one point.
@@ -127,31 +126,35 @@ void TransparencyWalk::go_on(const Paths& paths, const Coherence* coherence,
                     if (known.lane == i) points_.push_back({lane, known.point});
                 continue;
             }
-            const bool is_apart = onward_->is_apart(onward_paths_, i);
-            const double error = onward_->error_of_point(onward_paths_, i);
+            if (!is_apart(*onward_, onward_paths_, i)) {
+                settle(paths, lane);
+                continue;
+            }
             onward_paths_.copy(onward_paths_, i, kept);
             passed_[kept] = passed_[i];
             ways_[kept] = ways_[i];
             onward_paths_.move_to(kept, point);
-            move_on(found, i, kept);
-            if (is_apart || is_clear(kept, error))
-                ++kept;
-            else
-                settle(paths, lane);
+            move_on(found, i, kept++);
         }
         onward_paths_.count = kept;
     }
 }
 
-/// Returns true if a ray that goes on crosses no surface within a distance. Decides where the
-/// bounds of Query::is_apart do not, so that images do not depend on the order of a search.
-bool TransparencyWalk::is_clear(std::size_t onward, double distance) {
-    return !searcher_
-                ->nearest(
-                    ray_of(onward_paths_, onward),
-                    origin_surfaces_of(scene_, onward_paths_, onward),
-                    [](const core::Hit<double>&) { return true; }, distance)
-                .hit.any();
+/// Returns true if a ray crosses no other surface within the error of its hit point, before or
+/// behind it. A ray that starts there then misses none. Decides where the bounds of the search do
+/// not, so that images do not depend on its order.
+bool TransparencyWalk::is_apart(const Query& query, const Paths& paths, std::size_t lane) {
+    if (query.is_apart(paths, lane)) return true;
+    const double t = query.hits().t[lane], error = query.error_of_point(paths, lane);
+    int crossings = 0;
+    const auto count = [&](const core::Hit<double>& hit) {
+        if (!hit.at_start && std::abs(hit.t - t) <= error + hit.error) ++crossings;
+        return false;
+    };
+    // Crossings of surfaces that the ray almost touches have larger errors.
+    searcher_->nearest(ray_of(paths, lane), origin_surfaces_of(scene_, paths, lane), count,
+                       t + 0x1p24 * error);
+    return crossings <= 1;
 }
 
 /// Finds the first visible surface of a ray by the scalar search.

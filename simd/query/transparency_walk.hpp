@@ -32,7 +32,7 @@ class TransparencyWalk {
     void leave_near_surfaces(const Paths& paths);
     void go_on(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
     bool is_visible(const Paths& paths, const Hits& hits, std::size_t lane, core::WayInUnion& way);
-    bool is_clear(std::size_t onward, double distance);
+    bool is_apart(const Query& query, const Paths& paths, std::size_t lane);
     void settle(const Paths& paths, std::size_t lane);
     bool fills_first(const Paths& paths, const Hits& hits, std::size_t lane,
                      core::ShapeId shape) const;
