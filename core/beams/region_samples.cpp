@@ -2,7 +2,10 @@
 
 #include "core/numbers/elementary.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <utility>
 
 namespace raylane::core {
 
@@ -50,6 +53,10 @@ bool RegionSamples::end_round() {
         for (int x = region_.x0; x < region_.x1; ++x)
             look_closer(states_[number++], x, y);
     is_first_round_ = false;
+    if (survey_.asks_for_variance())
+        for (int y = region_.y0; y < region_.y1; ++y)
+            for (int x = region_.x0; x < region_.x1; ++x)
+                if (is_ahead(x, y)) reopen(states_[number_of(x, y)]);
     return std::any_of(states_.begin(), states_.end(),
                        [](const Pixel& pixel) { return pixel.wanted != 0; });
 }
@@ -77,7 +84,38 @@ void RegionSamples::look_closer(Pixel& pixel, int x, int y) {
     const bool is_done = count >= max_samples ||
                          (survey_.is_done({pixel.around, squares, count}) && !hides(pixel, x, y));
     pixel.wanted = is_done ? 0 : count != 0 ? count : survey_.first_samples();
+    pixel.is_in_grid = is_done && takes_grid();
     if (!is_done && takes_grid()) pixel.samples = {};
+}
+
+/// Returns true if a pixel is done with less than half of the samples that most of its neighbours
+/// have, or with fewer than they have if its samples are all alike. They were alike by chance, such
+/// as those of a hollow in which most rays to the sky are blocked.
+bool RegionSamples::is_ahead(int x, int y) const {
+    const Pixel& pixel = states_[number_of(x, y)];
+    if (pixel.wanted != 0) return false;
+    std::array<int, 8> counts{};
+    std::size_t neighbours = 0;
+    for_each_around(x, y, region_, [&](int column, int row) {
+        if (column == x && row == y) return;
+        counts[neighbours++] = states_[number_of(column, row)].samples.count();
+    });
+    if (neighbours == 0) return false;
+    auto* const middle = counts.begin() + (neighbours - 1) / 2;
+    std::nth_element(counts.begin(), middle, counts.begin() + neighbours);
+    const int count = pixel.samples.count();
+    return count < *middle &&
+           (2 * count < *middle || pixel.samples.squares_shown(settings_.transfer) == 0.0);
+}
+
+void RegionSamples::reopen(Pixel& pixel) const {
+    if (std::exchange(pixel.is_in_grid, false)) { // needs to see thin shapes again
+        pixel.samples = {};
+        pixel.may_hide = true;
+        pixel.closer_looks = 0;
+    }
+    const int count = pixel.samples.count();
+    pixel.wanted = count != 0 ? count : survey_.first_samples();
 }
 
 /// Returns true if a thin shape may show in a pixel, no sample has hit it, and the samples are

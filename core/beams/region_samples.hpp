@@ -17,6 +17,8 @@ namespace raylane::core {
 ///    image's survey finds them sufficient. Pixels in which beams find that a shape far thinner
 ///    than a pixel may show continue until a sample hits the shape, or until the shape would be too
 ///    small to matter.
+/// 3. A pixel that is done with less than half of the samples of most of its neighbours gets more,
+///    and so does one with fewer if its samples are all alike.
 ///
 /// The samples of a pixel depend on scene and settings alone. For use by one thread.
 class RegionSamples {
@@ -54,6 +56,7 @@ class RegionSamples {
         int wanted = 0;
         double around = 0.0; ///< variance
         bool may_hide = false;
+        bool is_in_grid = false; ///< done with the samples of the grid
         std::uint8_t closer_looks = 0;
         std::vector<ShapeId> hidden; ///< thin shapes that may show
     };
@@ -61,6 +64,8 @@ class RegionSamples {
     bool takes_grid() const { return is_first_round_ && survey_.grid() != 0; }
     void look_at(const Region& square);
     void look_closer(Pixel& pixel, int x, int y);
+    bool is_ahead(int x, int y) const;
+    void reopen(Pixel& pixel) const;
     bool hides(Pixel& pixel, int x, int y);
     Square seen_by(int x, int y, int size) const;
     std::size_t number_of(int x, int y) const {

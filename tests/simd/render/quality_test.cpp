@@ -132,6 +132,27 @@ TEST_CASE("an image of smooth shapes needs few samples", "[native]") {
     CHECK(psnr(rendering.film, converged(scene)) > 41.5);
 }
 
+TEST_CASE("no pixel is done because all rays to the sky around it were blocked by chance") {
+    // Of the rays from the bottom of a well, a fifth reach the sky.
+    Builder builder;
+    builder.settings.width = builder.settings.height = 96;
+    builder.camera.from = {0, 0, 40};
+    builder.camera.field_of_view = 8.0F;
+    builder.background = Color(1.0F);
+    builder.add_light({.kind = LightKind::sky, .color = Color(0.9F)});
+    Material matte = luminous(Color(0.8F));
+    matte.ambient = 0.0F;
+    matte.diffuse = 1.0F;
+    builder.add_shape(Disc{{0, 0, 0}, {0, 0, 1}, 1.0F}, matte);
+    builder.add_shape(OpenCylinder{{0, 0, 0}, {0, 0, 2}, 1.0F}, matte);
+    const Scene scene = builder.finish();
+    for (const float quality : {40.0F, 46.0F}) {
+        const Film film = rendered(scene, quality).film;
+        CAPTURE(quality);
+        CHECK(std::count(film.pixels().begin(), film.pixels().end(), Color(0.0F)) == 0);
+    }
+}
+
 TEST_CASE("an image with details everywhere is sampled without middles of pixels") {
     const auto floor_of_cells = [](float size) {
         Builder builder;
