@@ -66,6 +66,9 @@ struct FormulaOperations {
         return P::select(x > Number(0.0), P::select(x < most, x, most), Number(0.0));
     }
 
+    /// Rounds the coordinates of a point to multiples of 2^-28 of the largest one, as checkers do:
+    /// a plane along the axes then has one coordinate that is exact, and no noise from last bits.
+    static void round_coordinates(Number& x, Number& y, Number& z);
     static Number power(const Number& x, const Number& y);
     static Number abs(const Number& x) { return P::number(P::bits(x) & Bits(~sign_bit)); }
     static Number floor(const Number& x);
@@ -93,6 +96,16 @@ struct FormulaOperations {
         return a + weight * (b - a);
     }
 };
+
+template <class Number>
+void FormulaOperations<Number>::round_coordinates(Number& x, Number& y, Number& z) {
+    const auto larger = [](const Number& a, const Number& b) { return P::select(a < b, b, a); };
+    const Number size = larger(larger(abs(x), abs(y)), abs(z));
+    constexpr std::uint64_t exponent = std::uint64_t(0x7ff) << 52;
+    const Number to_round = P::number(P::bits(size) & Bits(exponent)) * Number(0x1.8p24);
+    for (Number* coordinate : {&x, &y, &z})
+        *coordinate = (*coordinate + to_round) - to_round;
+}
 
 /// Negative bases have powers by whole exponents only. 0 has no negative powers: they are infinite.
 template <class Number>

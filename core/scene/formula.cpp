@@ -357,6 +357,7 @@ const FormulaTexts& Formula::texts() const {
 Vec3d color_of(const FormulaProgram& program, const Vec3d& point,
                const ShapeCoordinates& on_shape) {
     double values[FormulaProgram::max_values] = {point.x, point.y, point.z, on_shape.u, on_shape.v};
+    FormulaOperations<double>::round_coordinates(values[0], values[1], values[2]);
     std::copy_n(program.constants, program.constant_count, values + FormulaProgram::inputs);
     double* next = values + FormulaProgram::inputs + program.constant_count;
     for (int i = 0; i < program.instruction_count; ++i) {

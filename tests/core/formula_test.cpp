@@ -260,3 +260,15 @@ TEST_CASE("a formula that is not set takes two pointers, and copies share one th
     CHECK(copy == red("x"));
     CHECK(!(copy == red("y")));
 }
+
+TEST_CASE("formulas ignore the last bits of a point") {
+    for (const double off : {-0x1p-50, 0.0, 0x1p-50}) {
+        CHECK(at("z == -4", {2.5, 0.25, -4.0 + 4.0 * off}) == 1.0);
+        CHECK(at("floor(z) + 5", {2.5, 0.25, -4.0 + 4.0 * off}) == 1.0);
+        CHECK(at("z == 0", {1e-5, -3e4, 3e4 * off}) == 1.0);
+        CHECK(at("1e30 * x", {1e-30 + 1e-30 * off, 0.0, 0.0}) == Approx(1.0));
+    }
+    CHECK(at("x + y + z", {0.0, 0.0, 0.0}) == 0.0);
+    CHECK(at("x == 1 + 1e-8", {1.0 + 1e-8, 0.0, 0.0}) == 0.0); // a multiple of 2^-28 is near
+    CHECK(at("x > 1", {1.0 + 1e-8, 0.0, 0.0}) == 1.0);
+}

@@ -24,6 +24,13 @@ class Formulas {
                 set(Program::inputs + i, k, F(program.constants[i]));
     }
 
+    /// Sets the coordinates of the points from `k` on.
+    void set_point(std::size_t k, F x, F y, F z) {
+        Operations::round_coordinates(x, y, z);
+        set(0, k, x);
+        set(1, k, y);
+        set(2, k, z);
+    }
     /// Sets an input of the points from `k` on.
     void set(int input, std::size_t k, const F& value) {
         value.store_unaligned(values_[input] + k);

@@ -69,9 +69,7 @@ struct Shading {
                     run.material->in_object_space
                         ? gather(paths.pattern)
                         : point_of(gather, paths, gather(paths.direction), gather(paths.t));
-                formulas.set(0, k, point.x);
-                formulas.set(1, k, point.y);
-                formulas.set(2, k, point.z);
+                formulas.set_point(k, point.x, point.y, point.z);
                 for (int i = 0; i < 2 && program.needs_shape; ++i)
                     formulas.set(3 + i, k, gather(paths.on_shape[i]));
             }

@@ -46,3 +46,18 @@ TEST_CASE("a formula's colour is that of the point where a ray hits") {
     const Vec3d color = color_along<double>(builder.finish(), {0.25, 0.5, 1}, {0, 0, -1});
     CHECK(color == Vec3d(5.25, 0.25, 2));
 }
+
+TEST_CASE("faces along the axes have no noise in formulas with steps") {
+    Builder builder;
+    builder.settings.width = builder.settings.height = 60;
+    builder.camera.from = {0.3F, 0.7F, 9};
+    const std::string cells = "mod(floor(x) + floor(y) + floor(z), 2)";
+    builder.add_shape(Box{{-3, -3, -3}, {6, 0, 0}, {0, 6, 0}, {0, 0, 3}},
+                      shows({cells, "z == 0", "0"}));
+    builder.add_shape(Plane{{0, 0, -4}, {0, 0, 1}}, shows({cells, "z == -4", "0"}));
+    const Scene scene = builder.finish();
+    for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference})
+        for (const Color& color : tests::image(scene, engine))
+            CHECK(color.y == 1.0F);
+    tests::check_engines_agree(scene);
+}

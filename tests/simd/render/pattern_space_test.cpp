@@ -152,7 +152,8 @@ TEST_CASE("a pattern in the space of the scene stays when its object moves") {
     SpaceMover move_space(transform);
     move_space(ball);
     builder.add_member(ball);
-    CHECK(color_along<double>(builder.finish(), {0, 0.6, 5}, {0, 0, -1}) == Vec3d(0, 0.6, 2.8));
+    const Vec3d color = color_along<double>(builder.finish(), {0, 0.6, 5}, {0, 0, -1});
+    CHECK(length(color - Vec3d(0, 0.6, 2.8)) < 0x1p-27); // formulas round points to 2^-28
 }
 
 TEST_CASE("kept copies have the same patterns as shapes, to the bit") {

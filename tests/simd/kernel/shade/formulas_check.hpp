@@ -20,9 +20,14 @@ struct FormulasCheck {
         using Formulas = simd::Formulas<Double<Arch>>;
         Formulas formulas(*arrays.program);
         for (std::size_t first = 0; first < arrays.count; first += Formulas::chunk) {
-            for (int input = 0; input < 5; ++input)
-                for (std::size_t k = 0; k < Formulas::chunk; k += F::size)
-                    formulas.set(input, k, F::load_unaligned(arrays.inputs[input] + first + k));
+            for (std::size_t k = 0; k < Formulas::chunk; k += F::size) {
+                const auto input = [&](int number) {
+                    return F::load_unaligned(arrays.inputs[number] + first + k);
+                };
+                formulas.set_point(k, input(0), input(1), input(2));
+                formulas.set(3, k, input(3));
+                formulas.set(4, k, input(4));
+            }
             formulas.run(Formulas::chunk);
             for (int channel = 0; channel < 3; ++channel)
                 for (std::size_t k = 0; k < Formulas::chunk; k += F::size)
