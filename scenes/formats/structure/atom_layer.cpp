@@ -88,7 +88,8 @@ class LayerShapes {
 
     void find_displacements() {
         if (structure_.anisotropies.empty())
-            throw BadInput("--ellipsoids", "", file_ + " has no anisotropic displacements");
+            throw BadInput(option_of(atoms_.ellipsoids), "",
+                           file_ + " has no anisotropic displacements");
         for (const Anisotropy& anisotropy : structure_.anisotropies)
             if (has(anisotropy.atom))
                 if (const auto axes = axes_of(anisotropy, atoms_.deviations))

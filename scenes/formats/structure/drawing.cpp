@@ -11,6 +11,7 @@
 #include "scenes/formats/structure/cartoon/chain_colors.hpp"
 #include "scenes/formats/structure/cell_layer.hpp"
 #include "scenes/formats/structure/chain_layer.hpp"
+#include "scenes/formats/structure/colors.hpp"
 #include "scenes/formats/structure/crystal.hpp"
 #include "scenes/formats/structure/displacement.hpp"
 #include "scenes/formats/structure/hydrogen_bond_layer.hpp"
@@ -120,17 +121,28 @@ class SceneFromAtoms {
   private:
     void add_layers(DrawnShapes& shapes) {
         for (const AtomLayer& layer : layers_) {
+            if (!has_atoms(layer.representation)) continue;
             if (layer.look.style == Style::polyhedra) {
                 if (add_polyhedra_layer(atoms_, layer, shapes) == 0)
-                    remark("polyhedra are missing: they need an atom with 4 to 64 bonds");
+                    report_no_polyhedra(layer.option);
             } else if (shows_chains(*layer.look.style)) {
                 remark(add_chain_layer(atoms_, layer, shapes, !shows_atoms(layer.representation)));
             } else {
+                if (atoms_.ellipsoids > Ellipsoids::plain && *layer.look.opacity < 1.0F)
+                    remark(std::string(option_of(atoms_.ellipsoids)) +
+                           " is ignored for atoms whose opacity is below 1");
                 add_layer(atoms_, layer, file_, shapes);
             }
         }
         if (drawing_.hydrogen_bonds) add_hydrogen_bonds(atoms_, shapes);
         shapes.finish();
+    }
+
+    void report_no_polyhedra(const std::string& option) {
+        const std::string text =
+            "polyhedra are missing: they need an atom that is shown and has 4 to 64 bonds";
+        if (layers_.size() == 1) throw BadInput(option, "", text);
+        remark(text);
     }
 
     /// Returns the option whose planes leave nothing, or both if neither does so alone.
@@ -305,6 +317,7 @@ class SceneFromAtoms {
             for (std::size_t i = 0; i < representations.size(); ++i)
                 if (is_shown[i] != 0) representations[i] = static_cast<std::uint16_t>(k);
         }
+        report_replaced();
         const auto hide_if = [&](const std::vector<char>& is_selected, char value) {
             for (std::size_t i = 0; i < representations.size(); ++i)
                 if (is_selected[i] == value) representations[i] = DrawnAtoms::hidden;
@@ -319,6 +332,20 @@ class SceneFromAtoms {
             throw BadInput(drawing_.hide.empty() ? "--show" : "--hide", "",
                            "must leave an atom to show, got none of " +
                                std::to_string(structure_.size()));
+    }
+
+    /// Reports representations of which later ones leave no atom.
+    void report_replaced() {
+        for (std::size_t k = 0; k < drawing_.show.size(); ++k)
+            if (!has_atoms(k))
+                unmatched_.push_back(shown_[k].option + " \"" + printable(shown_[k].what.select) +
+                                     "\" shows no atoms, because later ones replace it; two looks "
+                                     "at once are joined by +");
+    }
+
+    bool has_atoms(std::size_t representation) const {
+        return std::find(atoms_.representations.begin(), atoms_.representations.end(),
+                         representation) != atoms_.representations.end();
     }
 
     /// Readers check the coordinates that they read, but not those that follow from the cell.
@@ -539,12 +566,22 @@ class SceneFromAtoms {
                 if (atoms_.representations[i] != layer.representation || !layer.colors.has_name(i))
                     continue;
                 const std::uint32_t color = layer.colors.of(i);
-                if (known.insert(color).second) entries.emplace(layer.colors.meaning_of(i), color);
+                if (known.insert(color).second) entries.emplace(meaning_of(layer, i), color);
             }
         }
         scale_.has_too_many_colors = entries.size() > most;
         if (!entries.empty() && entries.size() <= most)
             scale_.keys.push_back({.entries = {entries.begin(), entries.end()}});
+    }
+
+    /// Returns the meaning of an atom's colour. A legend has no entry for a colour that an option
+    /// gives to all atoms, but one for that of carbons beside other elements.
+    std::string meaning_of(const AtomLayer& layer, AtomIndex atom) const {
+        constexpr std::size_t longest = 24; // that has room in a legend
+        std::string meaning = layer.colors.meaning_of(atom);
+        if (!layer.look.color.carbons || !color_named(meaning)) return meaning;
+        const std::string& select = shown_[layer.representation].what.select;
+        return select.size() > longest ? "C, " + meaning : select == "all" ? "C" : "C of " + select;
     }
 
     void add_key(ColorKey key) {

@@ -67,6 +67,10 @@ enum class Ellipsoids : std::uint8_t {
     ellipses, ///< with the three principal ellipses
     octants,  ///< and without the octant that faces the camera
 };
+constexpr const char* option_of(Ellipsoids ellipsoids) {
+    constexpr const char* options[] = {"", "--ellipsoids", "--ellipses", "--octants"};
+    return options[static_cast<std::size_t>(ellipsoids)];
+}
 
 /// Options for rendering a structure.
 struct Drawing {

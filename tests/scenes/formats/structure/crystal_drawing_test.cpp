@@ -574,6 +574,13 @@ TEST_CASE("the octant that faces the camera is cut out") {
     const auto scene = draw_structure(atom, drawing, "a");
     CHECK(scene.solids().any());
     CHECK(scene.shape_count() == 7);
+    drawing.opacity = 0.5F;
+    std::string remark;
+    CHECK(draw_structure(atom, drawing, "a", nullptr, nullptr, [&](const std::string& text) {
+              remark = text;
+          }).shape_count() == 1);
+    CHECK(remark == "a: --octants is ignored for atoms whose opacity is below 1");
+    drawing.opacity = 1.0F;
     drawing.cuts = {cut_plane_of("--cut", "x<1")};
     CHECK(draw_structure(atom, drawing, "a").shape_count() == 8);
     drawing.cuts = {cut_plane_of("--cut", "x<0")};

@@ -102,6 +102,37 @@ TEST_CASE("later representations replace earlier ones of the same atoms") {
     CHECK(text_of(balls(drawn(peptide(), {}, {{"water: spheres"}}))) == "O 1.52 ");
 }
 
+TEST_CASE("a representation that later ones replace is reported and needs no atoms") {
+    std::vector<std::string> remarks;
+    const core::Scene scene = drawn(
+        peptide(), {}, {{"water: cartoon"}, {"name CB: polyhedra"}, {"all: points"}}, &remarks);
+    CHECK(balls(scene).size() == 5);
+    const std::string replaced =
+        " shows no atoms, because later ones replace it; two looks at once are joined by +";
+    REQUIRE(remarks.size() == 2);
+    CHECK(remarks[0].ends_with("--show \"water\"" + replaced));
+    CHECK(remarks[1].ends_with("--show \"name CB\"" + replaced));
+    CHECK(complaint(peptide(), {{"all: polyhedra"}}) ==
+          "--show: polyhedra are missing: they need an atom that is shown and has 4 to 64 bonds");
+}
+
+TEST_CASE("a legend has the colour of carbons, by their selection") {
+    Drawing drawing{.style = Style::spheres};
+    drawing.show = {{"chain A: carbons orange"}, {"water: red"}};
+    DrawingScale scale;
+    draw_structure(peptide(), drawing, "a", nullptr, &scale);
+    REQUIRE(scale.keys.size() == 1);
+    std::vector<std::string> names;
+    for (const auto& [name, color] : scale.keys[0].entries)
+        names.push_back(name);
+    CHECK(std::count(names.begin(), names.end(), "C of chain A") == 1);
+    CHECK(std::count(names.begin(), names.end(), "red") == 1); // which the sheet leaves out
+    drawing.show = {{"chain A and index 1-5 and not element O: carbons orange"}};
+    scale = {};
+    draw_structure(peptide(), drawing, "a", nullptr, &scale);
+    CHECK(scale.keys[0].entries[0].first == "C, orange");
+}
+
 TEST_CASE("atoms that are hidden or not selected appear in no representation") {
     Drawing drawing{.style = Style::spheres, .hide = {"hydrogen", "name CB"}};
     CHECK(text_of(balls(drawn(peptide(), drawing))) == "N 1.55 C 1.7 O 1.52 ");

@@ -393,6 +393,8 @@ TEST_CASE("options that cannot be rendered give an error of one line") {
           }) == "--repeat: must have a cell to repeat, but a.xyz has none");
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.ellipsoids = Ellipsoids::plain; }) ==
           "--ellipsoids: a.xyz has no anisotropic displacements");
+    CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.ellipsoids = Ellipsoids::octants; }) ==
+          "--octants: a.xyz has no anisotropic displacements");
     CHECK(error("a.xyz", "0\n\n", [](LoadOptions&) {}) ==
           "a.xyz: has no atoms in its first frame; \"--frames 1\" selects the next one, if any");
     CHECK(error("a.dump",
