@@ -41,8 +41,9 @@ struct ViewCommandArguments : OptionTable {
         *this, "SCENE", file_argument(),
         "Scene or atoms, in any format that render reads. The window reloads the file "
         "when it changes."};
-    Option<std::pair<int, int>> size = {*this, "--size", image_size(),
-                                        "Window width and height in pixels."};
+    Option<ImageSize> size = {*this, "--size", image_size_on_paper(),
+                              "Window width and height in pixels, or on paper: 300 pixels per "
+                              "inch."};
     ThreadsOption threads{*this};
     AnnotationArguments annotation{*this};
     SceneArguments scene_arguments{*this};
@@ -87,7 +88,9 @@ class Viewer {
                             arguments.annotation.font.value(), remarks());
         core::Scene scene = loaded(annotated_);
         settings_ = scene.settings();
-        if (arguments.size) std::tie(settings_.width, settings_.height) = *arguments.size;
+        if (arguments.size)
+            std::tie(settings_.width, settings_.height) =
+                arguments.size->in_pixels(usual_dpi, {settings_.width, settings_.height});
         scene = seen(std::move(scene), arguments_.scene_arguments.view.change(), settings_);
         first_ = view_of(scene);
         orbit_.emplace(first_);

@@ -290,6 +290,9 @@ inline constexpr const char* any_scene =
 /// WIDTHxHEIGHT of an image
 Values<std::pair<int, int>> image_size();
 
+/// Resolution of sizes on paper without another one.
+inline constexpr float usual_dpi = 300.0F;
+
 /// The size of an image in pixels, or on paper.
 struct ImageSize {
     double width;

@@ -142,6 +142,9 @@ void OptionFiles::read(const std::string& file, const OptionTable& options,
         const std::string name(line.substr(0, end));
         const AnyOption* option = option_named(name, options);
         std::string_view value = line.substr(std::min(end + 1, line.size()));
+        if (end < line.size() && (option_named("--" + name, options) != nullptr ||
+                                  option_named("--" + name, others) != nullptr))
+            refuse("must begin with dashes: --" + name);
         if (option == nullptr && !name.starts_with('-')) {
             option = argument_of(options);
             value = line;

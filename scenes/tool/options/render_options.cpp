@@ -172,9 +172,8 @@ void RenderArguments::require_fit(ImageFormat format) const {
 }
 
 std::optional<float> RenderArguments::dpi() const {
-    constexpr float usual = 300.0F;
     if (image.encoding.dpi || !size || !size->on_paper) return image.encoding.dpi.value();
-    return usual;
+    return usual_dpi;
 }
 
 Annotations AnnotationArguments::annotations_at(std::optional<float> dpi,

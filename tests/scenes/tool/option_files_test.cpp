@@ -111,6 +111,17 @@ TEST_CASE("other commands ignore the options that only render has") {
     CHECK(content_of(fixture.path() / "a.json") == content_of(fixture.path() / "b.json"));
 }
 
+TEST_CASE("a line that has lost the dashes of its option is refused") {
+    const Figures fixture;
+    CHECK(names(fixture.figure("size 20x10\n", {"water.xyz"}).err,
+                "figure.txt:1: must begin with dashes: --size"));
+    fixture.write("figure.txt", "spp 4\n");
+    CHECK(names(fixture.run({"convert", "water.xyz", "a.json", "@figure.txt"}).err,
+                "figure.txt:1: must begin with dashes: --spp"));
+    fixture.write("size", water);
+    CHECK(fixture.figure("size\n").code == 0); // a file of this name
+}
+
 TEST_CASE("a value that begins with @ is not a file") {
     const Figures fixture;
     CHECK(fixture.run({"render", "water.xyz", "--select", "@none"}).err.find("no such file") ==

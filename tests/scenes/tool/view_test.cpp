@@ -93,6 +93,7 @@ Setup on_display(const std::string& name, const std::filesystem::path& directory
 
 TEST_CASE("a missing display gives an error of one line") {
     const ToolFixture fixture;
+    fixture.write("figure.txt", "--size 85x60mm\n--spp 4\n"); // of an image on paper
     Setup setup;
     const char* driver = GENERATE("x11", ""); // "": any driver that SDL finds
     setup.in_child = [driver] {
@@ -102,7 +103,7 @@ TEST_CASE("a missing display gives an error of one line") {
         ::setenv("XDG_RUNTIME_DIR", "/tmp", 1);
         if (*driver != '\0') ::setenv("SDL_VIDEODRIVER", driver, 1);
     };
-    const Outcome outcome = fixture.run({"view", "scene.json"}, setup);
+    const Outcome outcome = fixture.run({"view", "scene.json", "@figure.txt"}, setup);
     CHECK(outcome.code == 3);
     CHECK(is_one_line(outcome.err));
     CHECK(outcome.err.starts_with("raylane: view: cannot open a window: "));
