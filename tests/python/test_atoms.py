@@ -340,6 +340,9 @@ def test_looks_cuts_backgrounds_and_views_have_the_words_of_the_command_line(tmp
 
 
 def test_unknown_options_are_refused(tmp_path):
+    for options in (dict(size="8.5cm"), dict(transparent_shadows=False)):
+        with pytest.raises(raylane.InvalidValue, match=f"^{next(iter(options))}: is an argument of render$"):
+            raylane.from_atoms(*WATER, **options)
     for options, text in (
         (dict(polyhedron="Ti"), 'polyhedron: must be the name of an option, did you mean "polyhedra"?'),
         (dict(boundary="yes"), 'boundary: must be on or off, got "yes"'),

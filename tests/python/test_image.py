@@ -98,6 +98,72 @@ def test_files(birthday, tmp_path):
         raylane.Image(np.zeros((4, 5, 3)), np.zeros((5, 4))).save(tmp_path / "turned.png")
 
 
+def test_print_sizes(birthday, tmp_path):
+    for size, width, height in ("12x8", 12, 8), ((12, 8), 12, 8), ("1cm", 12, 12), ("10x7 mm", 12, 8), ("0.4inx.25in", 12, 8):
+        image = birthday.render(size=size, dpi=30, grid=1)
+        assert (image.width, image.height) == (width, height), size
+    assert birthday.render(size="1mm", grid=1).dpi == 300.0
+    for size in ("12", "1.5x2", "cm", "1,5cm", "3ft", "1x2x3cm", ""):
+        with pytest.raises(raylane.InvalidValue, match="size: must be pixels such as 800x600, or 8.5cm"):
+            birthday.render(size=size)
+    with pytest.raises(TypeError, match='qualty: must be an argument of render or a setting, did you mean "quality"?'):
+        birthday.render(qualty=40)
+
+    image.save(tmp_path / "a.png")
+    data = (tmp_path / "a.png").read_bytes()
+    at = data.index(b"pHYs") + 4
+    assert int.from_bytes(data[at : at + 4], "big") == round(30 / 0.0254)
+    image.save(tmp_path / "b.png", bits=16, dpi=600)
+    data = (tmp_path / "b.png").read_bytes()
+    assert data[24] == 16
+    at = data.index(b"pHYs") + 4
+    assert int.from_bytes(data[at : at + 4], "big") == round(600 / 0.0254)
+    image.save(tmp_path / "a.pfm")
+    with pytest.raises(raylane.InvalidValue, match="dpi: must be 0, except in .png"):
+        image.save(tmp_path / "b.pfm", dpi=300)
+
+
+def test_cameras_as_view_prints_them(birthday):
+    camera = raylane.Camera(position=(3, 2, 9), at=(0, 1, 0), field_of_view=30)
+    expected = birthday.render(width=12, height=8, grid=1, camera=camera).rgb
+    text = '{"from": [3, 2, 9], "at": [0, 1, 0], "field_of_view": 30}'
+    for one in (text, '"camera": ' + text, {"camera": {"from": [3, 2, 9], "at": [0, 1, 0], "field_of_view": 30}}, {"position": (3, 2, 9), "at": (0, 1, 0), "field_of_view": 30}):
+        assert np.array_equal(birthday.render(width=12, height=8, grid=1, camera=one).rgb, expected)
+    flat = raylane.Camera.from_json('{"type": "orthographic", "from": [0, 0, 9], "at": [0, 0, 0], "height": 4}')
+    assert flat == raylane.Camera(projection="orthographic", position=(0.0, 0.0, 9.0), at=(0.0, 0.0, 0.0), height=4)
+    with pytest.raises(raylane.InvalidValue, match="camera: must be a Camera or its JSON"):
+        birthday.seen_by("front")
+    with pytest.raises(TypeError, match="fild_of_view"):
+        birthday.seen_by({"fild_of_view": 3})
+
+
+def test_tiff(birthday, tmp_path):
+    image = birthday.render(width=12, height=8, grid=1, alpha=True)
+    tifffile = pytest.importorskip("tifffile")
+    for bits in (8, 16):
+        image.save(tmp_path / "a.tif", bits=bits, dpi=600)
+        with tifffile.TiffFile(tmp_path / "a.tif") as file:
+            page = file.pages[0]
+            assert page.tags["XResolution"].value == (600, 1) and page.tags["ResolutionUnit"].value == 2
+            assert page.asarray().shape == (8, 12, 4) and page.asarray().dtype == np.dtype(f"uint{bits}")
+            if bits == 8:
+                assert np.array_equal(page.asarray(), image.to_bytes())
+    assert os.listdir(tmp_path) == ["a.tif"]
+    for wrong in ({"bits": 12}, {"dpi": 0.5}):
+        with pytest.raises(raylane.InvalidValue):
+            image.save(tmp_path / "b.tif", **wrong)
+    tool = os.environ.get("RAYLANE_TOOL")
+    if tool:
+        image.save(tmp_path / "a.png", bits=16)
+        subprocess.run([tool, "compare", str(tmp_path / "a.png"), str(tmp_path / "a.tif")], check=True)
+
+
+def test_tiff_without_its_library(ball, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "tifffile", None)
+    with pytest.raises(raylane.SystemRefused, match="TIFF needs tifffile"):
+        ball.render(width=2, height=2).save(tmp_path / "a.tif")
+
+
 def test_what_cannot_be_drawn_says_where(ball, tmp_path):
     """Errors name settings by their keywords, whichever function refuses them."""
     for options, text in (

@@ -71,6 +71,7 @@ raylane_status raylane_write_image(const char* path, int width, int height, cons
             const std::span<const float> components = span_of("rgb", rgb, count);
             image.rgb.assign(components.begin(), components.end());
         }
-        write_image(&checked("path", path), image, enum_from_int<Transfer>("transfer", transfer));
+        write_image(&checked("path", path), image,
+                    {.transfer = enum_from_int<Transfer>("transfer", transfer)});
     });
 }

@@ -195,10 +195,11 @@ Texture read_texture(const std::filesystem::path& path) {
     });
 }
 
-void write_image(const std::filesystem::path& path, const Image& image, Transfer transfer) {
+void write_image(const std::filesystem::path& path, const Image& image,
+                 const ImageEncoding& encoding) {
     require_side("width", image.width);
     require_side("height", image.height);
-    if (transfer > Transfer::linear) throw InvalidValue("transfer", "must be a Transfer");
+    if (encoding.transfer > Transfer::linear) throw InvalidValue("transfer", "must be a Transfer");
     if (image.rgb.size() != std::size_t{3} * image.width * image.height)
         throw InvalidValue("rgb", "must be 3 components for each of " +
                                       std::to_string(image.width) + " x " +
@@ -211,6 +212,13 @@ void write_image(const std::filesystem::path& path, const Image& image, Transfer
                                         std::to_string(image.alpha.size()));
     with_file_errors([&] {
         scenes::OutputFile file(path);
+        const bool is_png = file.format() == scenes::ImageFormat::png;
+        if (encoding.bits != 8 && !(is_png && encoding.bits == 16))
+            throw InvalidValue("bits", is_png ? "must be 8 or 16" : "must be 8, except in .png");
+        const bool has_dpi = encoding.dpi != 0.0F;
+        if (has_dpi && !(is_png && encoding.dpi >= 1.0F && encoding.dpi <= 10'000.0F))
+            throw InvalidValue("dpi", is_png ? "must be from 1 to 10000, or 0 for none"
+                                             : "must be 0, except in .png");
         core::Film film(image.width, image.height, !image.alpha.empty());
         std::size_t i = 0;
         for (int y = 0; y < image.height; ++y)
@@ -220,7 +228,11 @@ void write_image(const std::filesystem::path& path, const Image& image, Transfer
                 if (film.has_alpha()) film.alpha_at(x, y) = image.alpha[i];
             }
         file.reserve(image.width, image.height);
-        file.commit(film, converted<core::Transfer>(transfer));
+        scenes::ImageOptions options;
+        options.transfer = converted<core::Transfer>(encoding.transfer);
+        options.bits = encoding.bits;
+        if (has_dpi) options.dpi = encoding.dpi;
+        file.commit(film, options);
     });
 }
 

@@ -157,8 +157,8 @@ py::object render_image(const Scene& scene, const py::object& settings, const py
 }
 
 void write_arrays(const std::filesystem::path& path, const py::object& rgb, const py::object& alpha,
-                  const py::object& transfer) {
-    const Transfer by = transfer_from(transfer);
+                  const py::object& transfer, int bits, float dpi) {
+    const ImageEncoding encoding{transfer_from(transfer), bits, dpi};
     const py::array_t<float, py::array::c_style | py::array::forcecast> colors(
         array_of<float>(rgb, "rgb"));
     if (colors.ndim() != 3 || colors.shape(2) != 3)
@@ -178,7 +178,7 @@ void write_arrays(const std::filesystem::path& path, const py::object& rgb, cons
         image.alpha.assign(shares.data(), shares.data() + shares.size());
     }
     const py::gil_scoped_release free;
-    write_image(path, image, by);
+    write_image(path, image, encoding);
 }
 
 } // namespace

@@ -200,8 +200,25 @@ TEST_CASE("an image is written in the format of the file's ending") {
         if (name == "a.pfm") CHECK(read.rgb.floats() == image.rgb);
         if (name == "a.png") CHECK(read.rgb[0] * 255.0F == Approx(137.0F)); // 0.25 in sRGB
     }
-    write_image(directory.path() / "linear.png", image, Transfer::linear);
+    write_image(directory.path() / "linear.png", image, {.transfer = Transfer::linear});
     CHECK(scenes::read_image(directory.path() / "linear.png").rgb[0] * 255.0F == Approx(64.0F));
+}
+
+TEST_CASE("a PNG may have 16 bits and a resolution") {
+    const tests::TemporaryDirectory directory;
+    const Image image = render(mirrored_ball());
+    write_image(directory.path() / "a.png", image, {.bits = 16, .dpi = 600});
+    const scenes::Image read = scenes::read_image(directory.path() / "a.png");
+    CHECK(read.rgb[0] * 65535.0F == Approx(35199.0F)); // 0.25 in sRGB
+    const auto refusal = [&](const char* name, const ImageEncoding& encoding) {
+        return message_of<InvalidValue>(
+            [&] { write_image(directory.path() / name, image, encoding); });
+    };
+    CHECK(refusal("b.png", {.bits = 12}) == "bits: must be 8 or 16");
+    CHECK(refusal("b.tga", {.bits = 16}) == "bits: must be 8, except in .png");
+    CHECK(refusal("b.png", {.dpi = 0.5F}) == "dpi: must be from 1 to 10000, or 0 for none");
+    CHECK(refusal("b.pfm", {.dpi = 300}) == "dpi: must be 0, except in .png");
+    CHECK(directory.file_count() == 1);
 }
 
 TEST_CASE("an image with alpha has no background") {
@@ -326,6 +343,6 @@ TEST_CASE("the callback receives each tile of an image once") {
 
 TEST_CASE("an invalid transfer is refused when an image is written") {
     CHECK(message_of<InvalidValue>([&] {
-              write_image("none.png", {1, 1, {0, 0, 0}}, static_cast<Transfer>(2));
+              write_image("none.png", {1, 1, {0, 0, 0}}, {.transfer = static_cast<Transfer>(2)});
           }) == "transfer: must be a Transfer");
 }

@@ -124,12 +124,21 @@ RAYLANE_API Image render(const Scene& scene, const RenderOptions& options = {});
 RAYLANE_API std::optional<Image> render(const Scene& scene, const RenderOptions& options,
                                         const ProgressCallback& progress);
 
-/// Writes an image to a file. The ending decides the format: .png, .tga, .bmp, .ppm (8 bits through
-/// the transfer curve), .hdr (Radiance) or .pfm (the floats unchanged). "-" is standard output, as
-/// PNG. PNG stores the alpha, with colours that are not premultiplied; in the other formats the
-/// image lies over black. The file appears complete or not at all. Throws InvalidValue if the size
-/// of the arrays differs from the image's size, BadInput for another ending, and SystemRefused.
+/// How write_image() encodes an image.
+struct ImageEncoding {
+    Transfer transfer = Transfer::srgb; ///< for .png, .tga, .bmp and .ppm
+    int bits = 8;                       ///< per component: 8, or 16 for .png
+    float dpi = 0.0F; ///< print resolution that a .png stores, 1 to 10000 per inch; 0: none
+};
+
+/// Writes an image to a file. The ending decides the format: .png (8 or 16 bits), .tga, .bmp, .ppm
+/// (8 bits through the transfer curve), .hdr (Radiance) or .pfm (the floats unchanged). "-" is
+/// standard output, as PNG. PNG stores the alpha, with colours that are not premultiplied; in the
+/// other formats the image lies over black. The file appears complete or not at all. Throws
+/// InvalidValue if the size of the arrays differs from the image's size, or for an encoding that
+/// the format lacks (fields "transfer", "bits", "dpi"), BadInput for another ending, and
+/// SystemRefused.
 RAYLANE_API void write_image(const std::filesystem::path& path, const Image& image,
-                             Transfer transfer = Transfer::srgb);
+                             const ImageEncoding& encoding = {});
 
 } // namespace raylane

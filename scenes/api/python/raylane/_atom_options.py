@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from numbers import Real
 from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, TypeVar
@@ -9,6 +10,7 @@ from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, Type
 import numpy as np
 
 from ._errors import BadInput, InvalidValue
+from ._values import Settings
 
 _T = TypeVar("_T")
 
@@ -60,7 +62,10 @@ def atom_options(
     """Returns names and texts of options. Raises InvalidValue for a value that has no text."""
     shown = looks(representations, style)
     texts = [("representations", text) for text in _texts([] if shown is None else shown)]
+    of_render = {field.name for field in dataclasses.fields(Settings)} | {"camera", "crop", "dpi", "size"}
     for name, value in options.items():
+        if name in of_render:
+            raise InvalidValue(name, "is an argument of render")
         if value is None:
             continue
         if isinstance(value, (np.ndarray, np.generic)):

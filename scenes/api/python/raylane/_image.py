@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import atexit
 import dataclasses
+import difflib
+import inspect
 import os
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import Any, Callable, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _raylane
+from ._errors import InvalidValue, SystemRefused
 from ._fields import Fields
 from ._renamed import renamed, take_renamed
 from ._scene import Scene, _warn, inner
@@ -58,6 +62,8 @@ class Image(Fields):
     aovs: Optional[Aovs]
     """The AOVs, or None if :func:`render` was called without ``aovs=True``."""
     transfer: str
+    dpi: Optional[float]
+    """Pixels per inch on paper, which :meth:`save` stores, or None."""
 
     def __init__(
         self,
@@ -65,11 +71,13 @@ class Image(Fields):
         alpha: Optional[NDArray[Any]] = None,
         aovs: Optional[Aovs] = None,
         transfer: str = "srgb",
+        dpi: Optional[float] = None,
     ) -> None:
         self.rgb = rgb
         self.alpha = alpha
         self.aovs = aovs
         self.transfer = transfer
+        self.dpi = dpi
 
     @property
     def width(self) -> int:
@@ -79,16 +87,53 @@ class Image(Fields):
     def height(self) -> int:
         return int(self.rgb.shape[0])
 
-    def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes a file in the format of its ending: .png, .tga, .bmp, .ppm, .hdr or .pfm.
+    def save(self, path: Union[str, os.PathLike[str]], *, bits: int = 8, dpi: Optional[float] = None) -> None:
+        """Writes a file in the format of its ending: .png, .tif, .tga, .bmp, .ppm, .hdr or .pfm.
 
-        The file appears complete or not at all. Raises :class:`BadInput` for another ending, :class:`InvalidValue` for
-        arrays of wrong shapes, and :class:`SystemRefused`.
+        ``bits``: per component, 8 or 16 in .png and .tif. ``dpi``: the print resolution that these store; default:
+        ``self.dpi``. TIFF needs tifffile (Debian: python3-tifffile). The file appears complete or not at all. Raises
+        :class:`BadInput` for another ending, :class:`InvalidValue` for arrays of wrong shapes and for values that the
+        format lacks, and :class:`SystemRefused`.
         """
-        _raylane.write_image(os.fspath(path), self.rgb, self.alpha, self.transfer)
+        name = os.fspath(path)
+        ending = os.path.splitext(name)[1].lower()
+        if dpi is None and ending in (".png", ".tif", ".tiff"):
+            dpi = self.dpi
+        if ending in (".tif", ".tiff"):
+            self._save_tiff(name, bits, dpi)
+        else:
+            _raylane.write_image(name, self.rgb, self.alpha, self.transfer, bits, dpi or 0.0)
+
+    def _save_tiff(self, name: str, bits: int, dpi: Optional[float]) -> None:
+        try:
+            import tifffile
+        except ImportError:
+            raise SystemRefused(f"{name}: cannot write: TIFF needs tifffile (Debian: python3-tifffile)") from None
+        if bits not in (8, 16):
+            raise InvalidValue("bits", f"must be 8 or 16, got {bits}")
+        if dpi is not None and not 1 <= dpi <= 10000:
+            raise InvalidValue("dpi", f"must be from 1 to 10000, or None, got {dpi}")
+        with tempfile.TemporaryDirectory(prefix=".raylane-", dir=os.path.dirname(name) or ".") as folder:
+            part = os.path.join(folder, "image.tif")
+            tifffile.imwrite(
+                part,
+                self._codes(bits),
+                photometric="rgb",
+                compression="zlib",
+                extrasamples=None if self.alpha is None else ["unassalpha"],
+                resolution=None if dpi is None else (dpi, dpi),
+                resolutionunit=None if dpi is None else "inch",
+                software="raylane",
+                metadata=None,
+            )
+            os.replace(part, name)
 
     def to_bytes(self) -> NDArray[np.uint8]:
         """Returns the 8-bit values of a PNG, through the transfer curve: (height, width, 3), or 4 with an alpha."""
+        return self._codes(8)
+
+    def _codes(self, bits: int) -> NDArray[Any]:
+        """Returns values of 8 or 16 bits through the transfer curve, as :meth:`to_bytes` does."""
         linear, alpha = self.rgb.astype(np.float64), None
         if self.alpha is not None:
             alpha = self.alpha.astype(np.float64)[..., None]
@@ -97,8 +142,8 @@ class Image(Fields):
         if self.transfer == "srgb":
             linear = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
         planes = linear if alpha is None else np.concatenate([linear, np.clip(alpha, 0.0, 1.0)], axis=-1)
-        rounded: NDArray[np.uint8] = np.floor(planes * 255.0 + 0.5).astype(np.uint8)
-        return rounded
+        codes: NDArray[Any] = np.floor(planes * (2.0**bits - 1.0) + 0.5).astype(f"u{bits // 8}")
+        return codes
 
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> NDArray[Any]:
         dtype = self.rgb.dtype if dtype is None else np.dtype(dtype)
@@ -163,7 +208,7 @@ def render(
     scene: Scene,
     settings: Optional[Settings] = None,
     *,
-    camera: Optional[Camera] = None,
+    camera: Union[None, Camera, str, Dict[str, Any]] = None,
     threads: int = 0,
     precision: Precision = "exact",
     crop: Optional[Tuple[int, int, int, int]] = None,
@@ -171,12 +216,16 @@ def render(
     progress: Union[bool, OnProgress] = False,
     annotations: Optional[Union[str, os.PathLike[str]]] = None,
     on_remark: Callable[[str], object] = _warn,
+    size: Union[None, str, Tuple[int, int]] = None,
+    dpi: Optional[float] = None,
     **changed: Any,
 ) -> Image:
     """Renders the image of a scene. With ``precision="exact"`` the bits depend on the scene and settings alone.
 
     ``settings``: default is those of the scene. Further arguments change single settings: ``render(scene, width=800,
-    height=600, grid=4)``. ``camera``: replaces the scene's (:meth:`Scene.seen_by`). ``threads``: maximum, 1 to 4096;
+    height=600, grid=4)``. ``size``: both of ``width`` and ``height``, as (800, 600) or "800x600"; or on paper, as
+    "8.5cm", "85x60mm" or "3.3in", at ``dpi`` pixels per inch, 300 by default. Files of the image store ``dpi``.
+    ``camera``: replaces the scene's (:meth:`Scene.seen_by`). ``threads``: maximum, 1 to 4096;
     0 is the value of RAYLANE_THREADS, or all processors. ``crop``: the part of the image to render, as x, y, width,
     height in pixels. ``aovs=True`` adds :class:`Aovs`. ``progress``: called from time to time with the numbers of
     finished and of all pixels; True shows a bar of tqdm, if that is installed.
@@ -192,7 +241,18 @@ def render(
     """
     inner(scene)
     aovs = take_renamed(changed, "layers", "aovs", aovs)
-    chosen = dataclasses.replace(scene.settings if settings is None else settings, **changed)
+    chosen = scene.settings if settings is None else settings
+    if size is not None:
+        pixels, dpi = _pixels_of(size, dpi, chosen)
+        changed = {**pixels, **changed}
+    try:
+        chosen = dataclasses.replace(chosen, **changed)
+    except TypeError:
+        unknown = [name for name in changed if not hasattr(chosen, name)]
+        if not unknown:
+            raise
+        text = f"{unknown[0]}: must be an argument of render or a setting{_suggestion(unknown[0])}"
+        raise TypeError(text) from None
     if camera is not None:
         scene = scene.seen_by(camera)
     bar = _bar() if progress is True else None
@@ -205,7 +265,39 @@ def render(
             bar.close()
     if arrays is None:
         raise Cancelled
-    return Image(arrays["rgb"], arrays["alpha"], Aovs(arrays) if aovs else None, chosen.transfer)
+    return Image(arrays["rgb"], arrays["alpha"], Aovs(arrays) if aovs else None, chosen.transfer, dpi)
+
+
+_PIXELS = re.compile(r"(\d+)x(\d+)")
+_ON_PAPER = re.compile(r"(\d+\.?\d*|\.\d+)(?:(?:cm|mm|in)?x(\d+\.?\d*|\.\d+))?(cm|mm|in)")
+_INCHES = {"cm": 1 / 2.54, "mm": 1 / 25.4, "in": 1.0}
+
+
+def _pixels_of(
+    size: Union[str, Tuple[int, int]], dpi: Optional[float], settings: Settings
+) -> Tuple[Dict[str, int], Optional[float]]:
+    """Returns the width and height of a size in the words of the command line, and its resolution."""
+    if not isinstance(size, str):
+        width, height = size
+        return {"width": width, "height": height}, dpi
+    text = size.replace(" ", "").lower()
+    if found := _PIXELS.fullmatch(text):
+        return {"width": int(found[1]), "height": int(found[2])}, dpi
+    found = _ON_PAPER.fullmatch(text)
+    if found is None:
+        raise InvalidValue("size", f'must be pixels such as 800x600, or 8.5cm, 85x60mm or 3.3in, got "{size}"')
+    dpi = 300.0 if dpi is None else dpi
+    scale = _INCHES[found[3]] * dpi
+    across = round(scale * float(found[1]))
+    upward = across * settings.height / settings.width if found[2] is None else scale * float(found[2])
+    return {"width": across, "height": round(upward)}, dpi
+
+
+def _suggestion(name: str) -> str:
+    known = [field.name for field in dataclasses.fields(Settings)]
+    known += [one for one in inspect.signature(render).parameters if one != "changed"]
+    near = difflib.get_close_matches(name, known, 1)
+    return f', did you mean "{near[0]}"?' if near else ""
 
 
 def imshow(image: Union[Scene, Image], ax: Any = None, **options: Any) -> Any:

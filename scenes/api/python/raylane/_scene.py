@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import tempfile
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -153,8 +153,13 @@ class Scene:
     def background(self) -> Vector:
         return self._scene.background()
 
-    def seen_by(self, camera: Camera) -> Scene:
-        """Returns a scene with the same shapes and another camera. Takes little memory and time."""
+    def seen_by(self, camera: Union[Camera, str, Dict[str, Any]]) -> Scene:
+        """Returns a scene with the same shapes and another camera. Takes little memory and time.
+
+        ``camera`` may be its JSON, see :meth:`Camera.from_json`.
+        """
+        if isinstance(camera, (str, dict)):
+            camera = Camera.from_json(camera)
         return Scene(self._scene.seen_by(camera))
 
     def with_positions(self, positions: ArrayLike) -> Scene:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import dataclass, field, replace
 from os import PathLike
-from typing import Any, Literal, Optional, Tuple, Union
+from typing import Any, Dict, Literal, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _raylane
+from ._errors import InvalidValue
 from ._fields import Fields
 from ._raylane import Texture
 from ._renamed import renamed
@@ -205,6 +207,29 @@ class Camera(Fields):
     """Radius of the thin lens, >= 0, in units of length. 0: a pinhole, without depth of field."""
     focus_distance: float = 0.0
     """Distance from the lens to the plane of focus, >= 0, in units of length. 0: that plane goes through ``at``."""
+
+    @classmethod
+    def from_json(cls, camera: Union[str, Dict[str, Any]]) -> Camera:
+        """Returns the camera of a scene's JSON, as ``raylane view`` prints it: a text, or the dict of json.loads.
+
+        >>> Camera.from_json('{"from": [9, 7.5, 12], "at": [0, 0, 0], "field_of_view": 33}').position
+        (9.0, 7.5, 12.0)
+        """
+        try:
+            given: Any = camera
+            if isinstance(given, str):
+                text = given.strip().rstrip(",")
+                given = json.loads("{" + text + "}" if text.startswith('"camera"') else text)
+            members = dict(given.get("camera", given))
+        except (AttributeError, TypeError, ValueError):
+            raise InvalidValue("camera", f'must be a Camera or its JSON, got "{camera}"') from None
+        if "height" in members:
+            members.setdefault("projection", members.pop("type", "orthographic"))
+        members.pop("type", None)
+        if "from" in members:
+            members["position"] = members.pop("from")
+        vectors = {name: tuple(map(float, value)) for name, value in members.items() if isinstance(value, (list, tuple))}
+        return cls(**{**members, **vectors})
 
     def rays(self, width: int, height: int) -> Tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Returns the origins and unit directions of the rays of an image, each (height, width, 3), for a tracer.
