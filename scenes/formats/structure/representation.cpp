@@ -124,7 +124,8 @@ void take_color_of_kind(WordList& words, const std::string& kind, ColorWords& co
 
 /// Throws for a second word that is not known: one of both may be a misspelled style.
 [[noreturn]] void refuse_second(const WordList& words, const std::string& first) {
-    std::vector<std::string_view> known = {"opacity", "radius", "scale", "palette", "range"};
+    std::vector<std::string_view> known = {"opacity", "radius", "scale",
+                                           "palette", "range",  "carbons"};
     for (const auto& [name, style] : named_styles())
         known.push_back(name);
     const bool is_color = color_named(first) || first == "element" || first == "chain" ||
@@ -199,11 +200,31 @@ const std::vector<std::pair<std::string_view, Style>>& named_styles() {
     return styles;
 }
 
+namespace {
+
+bool names_style(const std::string& option, const std::string& text) {
+    const auto is_style = [](std::string_view word) {
+        return std::any_of(named_styles().begin(), named_styles().end(),
+                           [&](const auto& style) { return in_lower_case(word) == style.first; });
+    };
+    for (WordList words(option, text, 0); !words.at_end(); words.advance())
+        if (is_style(words.word())) return true;
+    return false;
+}
+
+} // namespace
+
 Representation representation_of(const std::string& option, const std::string& text) {
     const std::size_t colon = separator_in(text);
     Representation representation{.select = text.substr(0, colon), .looks = {}};
     if (representation.select.find_first_not_of(" \t") == std::string::npos)
         throw BadInput(option, "", "must be SELECTION: STYLE, got \"" + printable(text) + '"');
+    if (names_style(option, representation.select))
+        throw BadInput(
+            option, "",
+            std::string("must be one SELECTION: STYLE") +
+                (colon == std::string::npos ? " with a colon" : "; give each by itself") +
+                ", got \"" + printable(text) + '"');
     WordList words(option, text, colon == std::string::npos ? text.size() : colon + 1);
     do {
         representation.looks.push_back(look_of(words, option));

@@ -3,6 +3,7 @@
 #include "scenes/files/errors.hpp"
 #include "scenes/files/number.hpp"
 #include "scenes/formats/structure/atom_tree.hpp"
+#include "scenes/formats/structure/elements.hpp"
 #include "scenes/formats/structure/lines.hpp"
 #include "scenes/formats/structure/named_selections.hpp"
 #include "scenes/formats/structure/selection_words.hpp"
@@ -399,8 +400,14 @@ class Parser {
         std::string text;
         for (const std::string_view word : known)
             text.append(text.empty() ? "" : ", ").append(word);
+        const bool is_element = std::any_of(
+            structure_.of_kind.begin(), structure_.of_kind.end(), [&](const AtomKind& kind) {
+                return kind.element != 0 && kind.element == element_of(name);
+            });
         fail_at(name, "must be one of " + printable(text, 400) + ", got \"" + printable(name) +
-                          "\"" + suggestion(name, known));
+                          "\"" +
+                          (is_element ? ", did you mean \"element " + printable(name) + "\"?"
+                                      : suggestion(name, known)));
     }
 
     Selected property(std::string_view name) {

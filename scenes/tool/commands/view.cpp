@@ -90,7 +90,7 @@ class Viewer {
         settings_ = scene.settings();
         if (arguments.size)
             std::tie(settings_.width, settings_.height) =
-                arguments.size->in_pixels(usual_dpi, {settings_.width, settings_.height});
+                arguments.size->in_pixels(double(usual_dpi), {settings_.width, settings_.height});
         scene = seen(std::move(scene), arguments_.scene_arguments.view.change(), settings_);
         first_ = view_of(scene);
         orbit_.emplace(first_);

@@ -133,7 +133,7 @@ TEST_CASE("an image of smooth shapes needs few samples", "[native]") {
 }
 
 TEST_CASE("no pixel is done because all rays to the sky around it were blocked by chance") {
-    // Of the rays from the bottom of a well, a fifth reach the sky.
+    // A fifth of the rays from the bottom of a well reach the sky.
     Builder builder;
     builder.settings.width = builder.settings.height = 96;
     builder.camera.from = {0, 0, 40};

@@ -284,6 +284,12 @@ TEST_CASE("an invalid representation gives an error with its column") {
           "--show: column 12: must be viridis, cividis, magma, plasma or coolwarm, got "
           "\"viridi\", did you mean \"viridis\"?");
     CHECK(refusal("a: range 5 1") == "--show: column 10: a range must have its lower end first");
+    CHECK(refusal("protein sticks orange") ==
+          "--show: must be one SELECTION: STYLE with a colon, got \"protein sticks orange\"");
+    CHECK(refusal("protein: cartoon, ligand: Sticks") ==
+          "--show: must be one SELECTION: STYLE; give each by itself, got \"protein: cartoon, "
+          "ligand: Sticks\"");
+    CHECK(refusal("protein: sticks carbon orange").ends_with("did you mean \"carbons\"?"));
     CHECK(refusal(": sticks") == "--show: must be SELECTION: STYLE, got \": sticks\"");
     CHECK(complaint(peptide(), {{"chain A: stiks"}}) ==
           "--show: must be a style, element, chain, residue, secondary, rainbow, b_factor or a "

@@ -102,4 +102,5 @@ TEST_CASE("resn takes names and resi takes numbers") {
     CHECK(complaint("same chain as water") ==
           "--select: column 6: must be \"residue\", got \"chain\"");
     CHECK(complaint("ligan").find("did you mean \"ligand\"?") != std::string::npos);
+    CHECK(complaint("O").ends_with("got \"O\", did you mean \"element O\"?"));
 }
