@@ -157,16 +157,26 @@ void take_color(WordList& words, ColorWords& color) {
     }
 }
 
+std::optional<Style> style_named(std::string_view word) {
+    for (const auto& [name, style] : named_styles())
+        if (in_lower_case(word) == name) return style;
+    return std::nullopt;
+}
+
 bool take_style(WordList& words, Look& look) {
-    for (const auto& [name, style] : named_styles()) {
-        if (in_lower_case(words.word()) != name) continue;
-        if (look.style)
-            words.fail("must have one style, got " + words.got() +
-                       " as well; \"+\" separates styles that are shown at once");
-        look.style = style;
-        words.advance();
-        return true;
-    }
+    const std::optional<Style> style = style_named(words.word());
+    if (!style) return false;
+    if (look.style)
+        words.fail("must have one style, got " + words.got() +
+                   " as well; \"+\" separates styles that are shown at once");
+    look.style = style;
+    words.advance();
+    return true;
+}
+
+bool names_style(const std::string& option, const std::string& text) {
+    for (WordList words(option, text, 0); !words.at_end(); words.advance())
+        if (style_named(words.word())) return true;
     return false;
 }
 
@@ -199,20 +209,6 @@ const std::vector<std::pair<std::string_view, Style>>& named_styles() {
         {"tube", Style::tube},         {"trace", Style::trace}};
     return styles;
 }
-
-namespace {
-
-bool names_style(const std::string& option, const std::string& text) {
-    const auto is_style = [](std::string_view word) {
-        return std::any_of(named_styles().begin(), named_styles().end(),
-                           [&](const auto& style) { return in_lower_case(word) == style.first; });
-    };
-    for (WordList words(option, text, 0); !words.at_end(); words.advance())
-        if (is_style(words.word())) return true;
-    return false;
-}
-
-} // namespace
 
 Representation representation_of(const std::string& option, const std::string& text) {
     const std::size_t colon = separator_in(text);
