@@ -83,7 +83,7 @@ void RegionSamples::look_closer(Pixel& pixel, int x, int y) {
     const double squares = count != 0 ? pixel.samples.squares_shown(settings_.transfer) : 0.0;
     const bool is_done = count >= max_samples ||
                          (survey_.is_done({pixel.around, squares, count}) && !hides(pixel, x, y));
-    pixel.wanted = is_done ? 0 : count != 0 ? count : survey_.first_samples();
+    pixel.wanted = is_done ? 0 : more_after(count);
     pixel.is_in_grid = is_done && takes_grid();
     if (!is_done && takes_grid()) pixel.samples = {};
 }
@@ -114,8 +114,7 @@ void RegionSamples::reopen(Pixel& pixel) const {
         pixel.may_hide = true;
         pixel.closer_looks = 0;
     }
-    const int count = pixel.samples.count();
-    pixel.wanted = count != 0 ? count : survey_.first_samples();
+    pixel.wanted = more_after(pixel.samples.count());
 }
 
 /// Returns true if a thin shape may show in a pixel, no sample has hit it, and the samples are

@@ -66,6 +66,7 @@ class RegionSamples {
     void look_closer(Pixel& pixel, int x, int y);
     bool is_ahead(int x, int y) const;
     void reopen(Pixel& pixel) const;
+    int more_after(int count) const { return count != 0 ? count : survey_.first_samples(); }
     bool hides(Pixel& pixel, int x, int y);
     Square seen_by(int x, int y, int size) const;
     std::size_t number_of(int x, int y) const {
