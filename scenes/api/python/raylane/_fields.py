@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 import difflib
-from typing import TYPE_CHECKING, Any, ClassVar, FrozenSet
+from typing import TYPE_CHECKING, Any, ClassVar, FrozenSet, Iterable
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """Returns the end of a message, with the known name that is most like a wrong one."""
+    near = difflib.get_close_matches(name, sorted(known), 1)
+    return f', did you mean "{near[0]}"?' if near else ""
 
 
 class Fields:
@@ -25,7 +31,6 @@ class Fields:
             kind = type(self)
             is_ours = kind.__module__.startswith("raylane.")
             if is_ours and name not in kind._fields_of_class and not name.startswith("_") and not hasattr(kind, name):
-                near = difflib.get_close_matches(name, sorted(kind._fields_of_class), 1)
-                meant = f', did you mean "{near[0]}"?' if near else ""
+                meant = suggestion(name, kind._fields_of_class)
                 raise AttributeError(f'{kind.__name__} has no attribute "{name}"{meant}')
             super().__setattr__(name, value)

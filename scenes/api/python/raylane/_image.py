@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import atexit
 import dataclasses
-import difflib
 import inspect
 import os
 import re
@@ -20,7 +19,7 @@ from numpy.typing import NDArray
 
 from . import _raylane
 from ._errors import InvalidValue, SystemRefused
-from ._fields import Fields
+from ._fields import Fields, suggestion
 from ._renamed import renamed, take_renamed
 from ._scene import Scene, _warn, inner
 from ._values import Camera, Precision, Settings
@@ -251,8 +250,9 @@ def render(
         unknown = [name for name in changed if not hasattr(chosen, name)]
         if not unknown:
             raise
-        text = f"{unknown[0]}: must be an argument of render or a setting{_suggestion(unknown[0])}"
-        raise TypeError(text) from None
+        known = [*vars(chosen), *inspect.signature(render).parameters]
+        meant = suggestion(unknown[0], known)
+        raise TypeError(f"{unknown[0]}: must be an argument of render or a setting{meant}") from None
     if camera is not None:
         scene = scene.seen_by(camera)
     bar = _bar() if progress is True else None
@@ -291,13 +291,6 @@ def _pixels_of(
     across = round(scale * float(found[1]))
     upward = across * settings.height / settings.width if found[2] is None else scale * float(found[2])
     return {"width": across, "height": round(upward)}, dpi
-
-
-def _suggestion(name: str) -> str:
-    known = [field.name for field in dataclasses.fields(Settings)]
-    known += [one for one in inspect.signature(render).parameters if one != "changed"]
-    near = difflib.get_close_matches(name, known, 1)
-    return f', did you mean "{near[0]}"?' if near else ""
 
 
 def imshow(image: Union[Scene, Image], ax: Any = None, **options: Any) -> Any:
