@@ -2,6 +2,8 @@
 
 #include "core/scene/best_view.hpp"
 #include "scenes/files/errors.hpp"
+#include "scenes/files/number.hpp"
+#include "scenes/files/words.hpp"
 #include "scenes/formats/built/built_file.hpp"
 #include "scenes/formats/format.hpp"
 #include "scenes/formats/json/reader.hpp"
@@ -44,7 +46,7 @@ core::Scene read_format(InputFile& file, const LoadOptions& options) {
                        "has no parameter \"$" + printable(options.parameters.begin()->first) +
                            "\": only JSON scenes have parameters");
     if (is_structure(format))
-        return read_structure(file, format, {options.atom_style, options.on_remark},
+        return read_structure(file, format, {options.atom_style, options.on_remark, options.frame},
                               options.drawing, options.workers, options.legend);
     if (!options.option_for_atoms.empty())
         throw BadInput(options.option_for_atoms, "",
@@ -64,15 +66,22 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
     return scene;
 }
 
+int frame_number(const std::string& option, const std::string& text) {
+    const std::optional<int> number = to_int(text);
+    if (!number)
+        refuse(option, "the number of a frame: 0 for the first one, -1 for the last", text);
+    return *number;
+}
+
 } // namespace
 
 void LoadOptions::set_drawing(DrawingOptions given) {
     if (!given.empty()) option_for_atoms = given.front().first;
     std::erase_if(given, [&](const auto& option) {
-        const bool is_for_reader = option.first == "atom-style" || option.first == "atom_style" ||
-                                   option.first == "--atom-style";
-        if (is_for_reader) atom_style = option.second;
-        return is_for_reader;
+        const std::string name = listed_name(option.first);
+        if (name == "atom-style") atom_style = option.second;
+        if (name == "frames") frame = frame_number(option.first, option.second);
+        return name == "atom-style" || name == "frames";
     });
     drawing = drawing_with(given);
 }

@@ -18,6 +18,7 @@ struct LoadOptions {
     OnRead on_read = {};
     OnRemark on_remark = {};     ///< for files of other programs, and for scenes without objects
     std::string atom_style = {}; ///< of LAMMPS data files; empty: the one that the file names
+    int frame = 0;               ///< of a file of atoms; negative: counted from the end
     Drawing drawing = {};        ///< how atoms are drawn
     Legend* legend = nullptr;    ///< receives the meaning of the shapes of a file of atoms
     /// The name of an option that says how atoms are drawn, or empty. Scenes are refused with it.
@@ -27,7 +28,7 @@ struct LoadOptions {
     /// use is an error.
     std::map<std::string, double> parameters = {};
 
-    /// Sets the options of a drawing, and the atom style. Throws BadInput.
+    /// Sets the options of a drawing, the atom style, and the frame. Throws BadInput.
     void set_drawing(DrawingOptions given);
 };
 

@@ -313,6 +313,29 @@ def test_options_have_the_words_of_the_command_line(tmp_path):
     assert raylane.load(path, style="spheres", boundary=False).shape_count == 5
 
 
+def test_the_camera_and_the_frame_have_the_words_of_the_command_line(tmp_path):
+    path = tmp_path / "walk.xyz"
+    path.write_text("".join(f"2\n\nO {frame} 0 0\nC 0 {frame} 2\n" for frame in range(3)))
+    scene = lambda **options: raylane.load(path, **options)
+    assert [scene(frames=frame).spheres().center[0, 0] for frame in (0, 1, 2, -1, -3)] == [0, 1, 2, 2, 0]
+    with pytest.raises(raylane.BadInput, match="^frames: must select some of the 3 frames that .* has"):
+        scene(frames=3)
+    assert scene(up="x").camera.up == scene(up=(1, 0, 0)).camera.up == scene(up=np.array([1, 0, 0])).camera.up == (1, 0, 0)
+    with pytest.raises(raylane.BadInput, match="^up: must not be parallel to the direction of view$"):
+        scene(view="front", up="z")
+    once, twice = scene(orthographic=True), scene(orthographic=True, zoom=2)
+    assert twice.camera.height == pytest.approx(once.camera.height / 2)
+    assert scene(depth_cue=0).fog.kind == "none" != scene().fog.kind
+    assert scene(depth_cue=0.6).fog.end < scene().fog.end
+    with pytest.raises(raylane.BadInput, match="^depth_cue: must be a number from 0 to 0.99, got"):
+        scene(depth_cue=1)
+    with pytest.raises(raylane.BadInput, match="^zoom: must be a number from 0.01 to 1000, got"):
+        scene(zoom=0)
+    # Paler atoms have the colours of other values, unless this is requested.
+    values = lambda **options: raylane.from_atoms(*WATER, color="charge", properties={"charge": [0, 1, 2]}, **options)
+    assert values().fog.kind == "none" != values(depth_cue=0.3).fog.kind
+
+
 def test_looks_cuts_backgrounds_and_views_have_the_words_of_the_command_line(tmp_path):
     atoms = lambda **options: raylane.from_atoms(*PEROVSKITE, cell_edges=False, style="spheres", **options)
     assert atoms(cut="z<-1").shape_count == 6  # four Sr, an O, and a face

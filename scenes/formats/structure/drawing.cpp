@@ -426,6 +426,10 @@ class SceneFromAtoms {
             camera_.direction = scale_.view->direction;
             camera_.up = scale_.view->up;
         }
+        if (drawing_.up) {
+            camera_.up = *drawing_.up;
+            require_upward(camera_.up, camera_.direction);
+        }
         atoms_.to_camera = -core::convert<double>(camera_.direction);
         atoms_.ellipsoids = drawing_.ellipsoids;
         atoms_.finish = drawing_.finish;
@@ -711,10 +715,10 @@ class SceneFromAtoms {
         const bool shows_values =
             std::any_of(layers_.begin(), layers_.end(),
                         [](const auto& layer) { return layer.colors.property() != nullptr; });
-        builder_.auto_camera = {
-            .fit_camera = camera_,
-            .lights = true,
-            .depth_cue = shows_values || is_print || is_flat ? 0.0F : drawing_.depth_cue};
+        builder_.auto_camera = {.fit_camera = camera_,
+                                .lights = true,
+                                .depth_cue = drawing_.depth_cue.value_or(
+                                    shows_values || is_print || is_flat ? 0.0F : 0.3F)};
     }
 
     const Structure& structure_;
@@ -735,6 +739,14 @@ class SceneFromAtoms {
 };
 
 } // namespace
+
+void require_upward(const core::Vec3f& up, const core::Vec3f& direction) {
+    const auto wide_up = core::convert<double>(up), forward = core::convert<double>(direction);
+    constexpr double min_sine = 1e-5;
+    if (core::length(core::cross(wide_up, forward)) <=
+        min_sine * core::length(wide_up) * core::length(forward))
+        throw BadInput("--up", "", "must not be parallel to the direction of view");
+}
 
 void DrawingScale::include(const DrawingScale& other) {
     for (const auto& [name, range] : other.ranges) {

@@ -92,11 +92,13 @@ struct Drawing {
     /// From where the camera will look; unset: as in `fit_camera`, and obliquely at crystals. A
     /// view without a direction has the name of one that depends on the atoms: see later_views.
     std::optional<core::NamedView> view{};
-    bool perspective = false;       ///< of crystals, too
-    int width = 1200, height = 900; ///< pixels of the image
-    float opacity = 1.0F;           ///< of atoms and bonds, in (0, 1]
-    float depth_cue = 0.3F;         ///< share of the background in the farthest atoms, in [0, 1);
-                                    ///< unused if colours stand for a property
+    std::optional<core::Vec3f> up{}; ///< in the image, in place of the view's; any length but zero
+    bool perspective = false;        ///< of crystals, too
+    int width = 1200, height = 900;  ///< pixels of the image
+    float opacity = 1.0F;            ///< of atoms and bonds, in (0, 1]
+    /// Share of the background in the colour of the farthest atoms, in [0, 1). Unset: 0.3, and 0 if
+    /// colours stand for a property or surfaces are flat.
+    std::optional<float> depth_cue{};
     std::optional<DrawingScale> scale{}; ///< of another frame
     /// If there are any, only the atoms that they select are shown. Each replaces the ones before
     /// it for the atoms that it selects. Their unset words follow from the options above.
@@ -112,6 +114,9 @@ struct Drawing {
     /// towards the viewer.
     std::optional<std::pair<double, double>> slab{};
 };
+
+/// Throws BadInput, for --up, if a camera that looks along `direction` cannot have `up` upward.
+void require_upward(const core::Vec3f& up, const core::Vec3f& direction);
 
 /// The atoms of a shape: an atom, twice; the ends of a bond; or `no_atoms` for the cell's edges.
 using AtomPair = std::array<AtomIndex, 2>;

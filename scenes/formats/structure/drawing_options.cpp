@@ -70,10 +70,17 @@ float opacity_of(const std::string& option, const std::string& text) {
     if (!(value > 0.0F && value <= 1.0F)) refuse(option, "above 0 and at most 1", text);
     return value;
 }
+float number_between(float least, float most, const std::string& option, const std::string& text) {
+    const std::optional<float> number = to_float(text);
+    if (!number || !(*number >= least && *number <= most))
+        refuse(option, "a number from " + to_text(least) + " to " + to_text(most), text);
+    return *number;
+}
 float probability_of(const std::string& option, const std::string& text) {
-    const float percent = to_float(text).value_or(0.0F);
-    if (!(percent >= 1.0F && percent <= 99.0F)) refuse(option, "a number from 1 to 99", text);
-    return 0.01F * percent;
+    return 0.01F * number_between(1.0F, 99.0F, option, text);
+}
+float depth_cue_of(const std::string& option, const std::string& text) {
+    return number_between(0.0F, 0.99F, option, text);
 }
 
 /// Adds a representation. Its messages name `option`.
@@ -122,6 +129,12 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
         {"octants", setter_of_ellipsoids(Ellipsoids::octants)},
         {"probability", setter_of(&Drawing::probability, probability_of)},
         {"view", setter_of(&Drawing::view, view_named)},
+        {"up", setter_of(&Drawing::up, upward_direction)},
+        {"zoom",
+         [](Drawing& drawing, const std::string& option, const std::string& text) {
+             drawing.fit_camera.zoom = number_between(0.01F, 1000.0F, option, text);
+         }},
+        {"depth-cue", setter_of(&Drawing::depth_cue, depth_cue_of)},
         {"background", setter_of(&Drawing::background,
                                  [](const std::string& option, const std::string& text) {
                                      return background_of(option, text);
@@ -138,9 +151,14 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
 
 } // namespace
 
+std::string listed_name(const std::string& option) {
+    std::string name = option.substr(option.starts_with("--") ? 2 : 0);
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name;
+}
+
 void set_option(Drawing& drawing, const std::string& name, const std::string& text) {
-    std::string dashed = name.substr(name.starts_with("--") ? 2 : 0);
-    std::replace(dashed.begin(), dashed.end(), '_', '-');
+    const std::string dashed = listed_name(name);
     std::vector<std::string_view> names;
     for (const auto& [known, set] : setters()) {
         if (known == dashed) return set(drawing, name, text);
@@ -201,20 +219,7 @@ std::optional<core::Color> color_of_parts(const std::string& text) {
     return color;
 }
 
-} // namespace
-
-core::Color background_of(const std::string& option, const std::string& text,
-                          const std::string& others) {
-    if (const std::optional<core::Color> parts = color_of_parts(text)) return *parts;
-    const std::optional<std::uint32_t> code = color_named(text);
-    if (!code)
-        throw BadInput(option, "",
-                       "must be " + others +
-                           "a colour such as black, #204060 or 0.1,0.2,0.3, got \"" +
-                           printable(text) + '"' + suggestion(text, color_names()));
-    return core::color_from_srgb(*code);
-}
-
+/// Returns a direction such as "1,-1,-0.5" or "-y"; nothing if it is malformed or 0.
 std::optional<core::Vec3f> direction_in(const std::string& text) {
     constexpr std::pair<const char*, core::Vec3f> axes[] = {{"x", {1, 0, 0}},   {"y", {0, 1, 0}},
                                                             {"z", {0, 0, 1}},   {"-x", {-1, 0, 0}},
@@ -231,6 +236,26 @@ std::optional<core::Vec3f> direction_in(const std::string& text) {
     }
     if (direction == core::Vec3f(0.0F)) return std::nullopt;
     return direction;
+}
+
+} // namespace
+
+core::Color background_of(const std::string& option, const std::string& text,
+                          const std::string& others) {
+    if (const std::optional<core::Color> parts = color_of_parts(text)) return *parts;
+    const std::optional<std::uint32_t> code = color_named(text);
+    if (!code)
+        throw BadInput(option, "",
+                       "must be " + others +
+                           "a colour such as black, #204060 or 0.1,0.2,0.3, got \"" +
+                           printable(text) + '"' + suggestion(text, color_names()));
+    return core::color_from_srgb(*code);
+}
+
+core::Vec3f upward_direction(const std::string& option, const std::string& text) {
+    const std::optional<core::Vec3f> direction = direction_in(text);
+    if (!direction) refuse(option, "x, y, z, -x, -y or -z, or a direction such as 0,1,1", text);
+    return *direction;
 }
 
 core::NamedView view_named(const std::string& option, const std::string& text) {

@@ -12,6 +12,7 @@ namespace raylane::scenes {
 struct ReaderOptions {
     std::string atom_style; ///< of LAMMPS' data, as in the command atom_style, or empty
     OnRemark on_remark;
+    int frame = 0; ///< that read_structure() shows; negative: counted from the end
 };
 
 /// Reads a file's frames, one after the other.

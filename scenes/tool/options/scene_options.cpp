@@ -103,11 +103,7 @@ core::AutoCamera ViewChange::auto_camera(const core::Scene& scene, core::Camera&
         const core::Vec3f along = auto_camera.fit_camera ? auto_camera.fit_camera->direction
                                                          : core::fit_camera_of(camera).direction;
         of_camera = *up;
-        const auto wide_up = core::convert<double>(*up), forward = core::convert<double>(along);
-        constexpr double min_sine = 1e-5;
-        if (core::length(core::cross(wide_up, forward)) <=
-            min_sine * core::length(wide_up) * core::length(forward))
-            throw BadInput("--up", "", "must not be parallel to the direction of view");
+        require_upward(*up, along);
     }
     if (auto_camera.fit_camera) {
         auto_camera.fit_camera->zoom = zoom.value_or(auto_camera.fit_camera->zoom);
@@ -168,12 +164,7 @@ Values<Background> backgrounds() {
 }
 
 Values<core::Vec3f> upward_directions() {
-    return {"WAY", "", [](const std::string& option, const std::string& text) {
-                const std::optional<core::Vec3f> direction = direction_in(text);
-                if (!direction)
-                    refuse(option, "x, y, z, -x, -y or -z, or a direction such as 0,1,1", text);
-                return *direction;
-            }};
+    return {"WAY", "", upward_direction};
 }
 
 Values<std::string> drawing_words(std::string type, std::string range) {
@@ -205,6 +196,10 @@ LoadOptions SceneArguments::load_options() const {
     if (options.option_for_atoms.empty() && view.view && view.view->name.size() == 1 &&
         view.view->direction == core::Vec3f(0.0F)) // an edge of a cell
         options.option_for_atoms = view.view.name();
+    if (frame && frame->frames) {
+        options.frame = static_cast<int>(frame->frames->start.value_or(0));
+        if (options.option_for_atoms.empty()) options.option_for_atoms = frame->frames.name();
+    }
     if (drawing.slab && view.camera) throw BadInput("--slab", "", "goes without --camera");
     options.parameters = parameters.values().front();
     return options;

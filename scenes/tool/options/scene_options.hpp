@@ -306,10 +306,22 @@ struct DrawingArguments : OptionTable {
     DrawingOptions given() const;
 };
 
+struct OneFrameArgument : OptionTable {
+    explicit OneFrameArgument(OptionTable& parent) : OptionTable(parent, group_of_several) {}
+
+    Option<FrameRange> frames = {
+        *this, "--frames", frame_ranges().otherwise("0"),
+        "Frame of a trajectory of atoms, numbered from 0; -1 is the last one. Of START:STOP:STEP, "
+        "the first."};
+};
+
 struct SceneArguments {
-    /// `sweeps`: whether parameters may have several values, for several images.
+    /// `sweeps`: whether parameters may have several values, for several images. Without sweeps
+    /// there is one frame.
     explicit SceneArguments(OptionTable& parent, bool sweeps = false)
-        : verbosity(parent), view(parent), parameters(parent, sweeps), drawing(parent) {}
+        : verbosity(parent), view(parent), parameters(parent, sweeps), drawing(parent) {
+        if (!sweeps) frame.emplace(parent);
+    }
 
     /// Returns options with the first value of each parameter. Throws BadInput.
     LoadOptions load_options() const;
@@ -318,6 +330,7 @@ struct SceneArguments {
     ViewArguments view;
     ParameterArguments parameters;
     DrawingArguments drawing;
+    std::optional<OneFrameArgument> frame;
 };
 
 } // namespace raylane::scenes

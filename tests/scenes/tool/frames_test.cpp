@@ -276,6 +276,29 @@ TEST_CASE("the option --view works for any scene and moves the lights that follo
               .find("--view: must have a bounded shape to frame") != std::string::npos);
 }
 
+TEST_CASE("commands for one scene read any frame") {
+    const ToolFixture fixture;
+    fixture.write("move.xyz", "1\n\nC 0 0 0\n1\n\nC 1 0 0\n1\n\nC 2 0 0\n");
+    fixture.write("figure.txt", "--frames 1:3\n"); // of a sequence; its first frame is shown
+    const auto x_in = [&](const Options& options) {
+        const Outcome outcome = fixture.run(joined({"convert", "move.xyz", "-"}, options));
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.code == 0);
+        return nlohmann::json::parse(outcome.out)["objects"][0]["center"][0].get<int>();
+    };
+    CHECK(x_in({}) == 0);
+    CHECK(x_in({"--frames", "1"}) == 1);
+    CHECK(x_in({"--frames", "-1"}) == 2);
+    CHECK(x_in({"@figure.txt"}) == 1);
+    const Outcome outside = fixture.run({"info", "move.xyz", "--frames", "3"});
+    CHECK(outside.code == 2);
+    CHECK(outside.err == "raylane: --frames: must select some of the 3 frames that move.xyz has, "
+                         "numbered from 0, got none\n");
+    fixture.write("scene.json", growing);
+    CHECK(fixture.run({"info", "scene.json", "--frames", "1"}).err ==
+          "raylane: --frames: goes with a file of atoms, but scene.json is a scene\n");
+}
+
 TEST_CASE("scenes of other programs accept --view and --turn but not --frames") {
     const ToolFixture fixture;
     fixture.write("ball.pov", R"(camera { location <0, 0, -5> look_at 0 angle 40 }

@@ -16,7 +16,7 @@ _T = TypeVar("_T")
 
 # options of which several values are meant
 _LISTS = ("show", "hide", "polyhedra", "cut", "label", "labels", "distance", "distances")
-_SEPARATORS = {"repeat": "x", "view": ",", "cut": ",", "background": ","}
+_SEPARATORS = {"repeat": "x", "view": ",", "up": ",", "cut": ",", "background": ","}
 
 
 def _is_numbers(value: Any) -> bool:

@@ -120,8 +120,8 @@ def from_atoms(
     Other options have the names of the options of ``raylane render``, with ``_`` for ``-``, and their words as a text, a
     number, True, or a list: ``color``, ``palette``, ``range``, ``radius``, ``scale``, ``select``, ``hide``, ``opacity``,
     ``repeat`` (``(2, 2, 1)``), ``axes``, ``boundary``, ``whole``, ``polyhedra`` (``"Ti opacity 0.6"``),
-    ``hydrogen_bonds``, ``view`` (also ``"best"``, ``"a"``, ``"b"``, ``"c"``), ``perspective``, ``orthographic``, ``look``,
-    ``background`` and ``slab`` (``(-2, 2)``). ``cut``: ``"z<middle"``, numbers ``(a, b, c, d)`` for a x + b y + c z <= d,
+    ``hydrogen_bonds``, ``view`` (also ``"best"``, ``"a"``, ``"b"``, ``"c"``), ``up``, ``zoom``, ``depth_cue``,
+    ``perspective``, ``orthographic``, ``look``, ``background`` and ``slab`` (``(-2, 2)``). ``cut``: ``"z<middle"``, numbers ``(a, b, c, d)`` for a x + b y + c z <= d,
     or a list of these. Files with displacements have ``ellipsoids``, ``ellipses``, ``octants`` and ``probability``, too.
 
     Annotations are options, too. Images of the scene have them, or an SVG file (``annotations`` of :func:`render`).

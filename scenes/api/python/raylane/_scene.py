@@ -433,7 +433,8 @@ def load(
     for a malformed or missing file, in JSON with up to ten mistakes, and :class:`SystemRefused`.
 
     For files of atoms, ``style``, ``representations`` and the other options are those of :func:`from_atoms`, and
-    ``cell=True`` shows the edges of the cell. :class:`BadInput` also if the file is another scene.
+    ``cell=True`` shows the edges of the cell. ``frames`` is the number of a trajectory's frame, from 0 or, for the last
+    one, -1. :class:`BadInput` also if the file is another scene.
     """
     name = os.fspath(path)
     return read_atoms(

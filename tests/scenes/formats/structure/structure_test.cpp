@@ -372,6 +372,31 @@ TEST_CASE("atoms that are not balls are ellipsoids in the proportions of the sty
     CHECK(std::get<Table<Ellipsoid>>(drawn(Style::points).shapes()).size() == 0);
 }
 
+TEST_CASE("a frame of a file is read by its number") {
+    const std::string text = "1\n\nC 0 0 0\n1\n\nN 1 0 0\n1\n\nO 2 0 0\n";
+    const auto x_in = [&](const std::string& frame) {
+        raylane::scenes::Legend legend;
+        LoadOptions options;
+        options.set_drawing({{"frames", frame}});
+        options.legend = &legend;
+        static_cast<void>(parse_scene("a.xyz", text, options));
+        return legend.structure.positions.at(0).x;
+    };
+    for (const int number : {0, 1, 2})
+        for (const int frame : {number, number - 3})
+            CHECK(x_in(std::to_string(frame)) == static_cast<float>(number));
+    const auto error = [&](const std::string& frame) {
+        return raylane::tests::message_of<BadInput>([&] { x_in(frame); });
+    };
+    for (const std::string outside : {"3", "-4"})
+        CHECK(error(outside) ==
+              "--frames: must select some of the 3 frames that a.xyz has, numbered from 0, got "
+              "none");
+    CHECK(error("0:2") ==
+          "frames: must be the number of a frame: 0 for the first one, -1 for the last, got "
+          "\"0:2\"");
+}
+
 TEST_CASE("options that cannot be rendered give an error of one line") {
     const auto error = [](const std::string& name, const std::string& text, const auto& change) {
         LoadOptions options;
@@ -396,7 +421,7 @@ TEST_CASE("options that cannot be rendered give an error of one line") {
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.ellipsoids = Ellipsoids::octants; }) ==
           "--octants: a.xyz has no anisotropic displacements");
     CHECK(error("a.xyz", "0\n\n", [](LoadOptions&) {}) ==
-          "a.xyz: has no atoms in its first frame; \"--frames 1\" selects the next one, if any");
+          "a.xyz: has no atoms in frame 0; \"--frames 1\" selects the next one, if any");
     CHECK(error("a.dump",
                 "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n0 1e40\n0 1\n0 1\n"
                 "ITEM: ATOMS xs ys zs\n0.5 0 0\n",
