@@ -6,8 +6,7 @@
 #include "scenes/tool/annotator.hpp"
 #include "scenes/tool/commands/command.hpp"
 #include "scenes/tool/loading.hpp"
-#include "scenes/tool/options/option.hpp"
-#include "scenes/tool/options/scene_options.hpp"
+#include "scenes/tool/options/render_options.hpp"
 #include "scenes/tool/window/image_maker.hpp"
 #include "scenes/tool/window/mouse.hpp"
 #include "scenes/tool/window/window.hpp"
@@ -41,9 +40,11 @@ struct ViewCommandArguments : OptionTable {
         *this, "SCENE", file_argument(),
         "Scene or atoms, in any format that render reads. The window reloads the file "
         "when it changes."};
-    Option<ImageSize> size = {*this, "--size", image_size_on_paper(),
-                              "Window width and height in pixels, or on paper: 300 pixels per "
-                              "inch."};
+    Option<ImageSize> size = {
+        *this, "--size", image_size_on_paper(),
+        "Window width and height in pixels, or on paper, at the resolution of --dpi."};
+    EncodingArguments encoding{*this, "8"}; // of saved images, which are PNGs
+    SettingArguments setting{*this};
     ThreadsOption threads{*this};
     AnnotationArguments annotation{*this};
     SceneArguments scene_arguments{*this};
@@ -79,18 +80,18 @@ class Viewer {
         : arguments_(arguments), name_(*arguments.scene),
           verbosity_(arguments.scene_arguments.verbosity.verbosity()),
           threads_(arguments.threads.count()), written_(time_of_file()) {
+        arguments.encoding.require_fit(ImageFormat::png);
         annotations_ = arguments.annotation.annotations_at(
-            std::nullopt, arguments.scene_arguments.drawing.axes.is_given());
+            dpi(), arguments.scene_arguments.drawing.axes.is_given());
         annotations_.is_steady = true;
         if (annotations_.any())
             overlay_ =
                 overlay_for(arguments.annotation.first_given() + ": cannot write on an image",
                             arguments.annotation.font.value(), remarks());
-        core::Scene scene = loaded(annotated_);
-        settings_ = scene.settings();
-        if (arguments.size)
-            std::tie(settings_.width, settings_.height) =
-                arguments.size->in_pixels(double(usual_dpi), {settings_.width, settings_.height});
+        core::Scene scene = loaded();
+        std::pair<int, int> size = {own_.width, own_.height};
+        if (arguments.size) size = arguments.size->in_pixels(double(dpi().value_or(0.0F)), size);
+        set_size(size.first, size.second);
         scene = seen(std::move(scene), arguments_.scene_arguments.view.change(), settings_);
         first_ = view_of(scene);
         orbit_.emplace(first_);
@@ -115,18 +116,22 @@ class Viewer {
   private:
     std::string title() const { return printable(name_, 200) + " - raylane"; }
 
+    std::optional<float> dpi() const { return arguments_.encoding.dpi_for(arguments_.size); }
+
     OnRemark remarks() const {
         if (verbosity_ == Verbosity::quiet) return {};
         return [](const std::string& remark) { std::fprintf(stderr, "%s\n", remark.c_str()); };
     }
 
-    core::Scene loaded(std::shared_ptr<const AnnotatedScene>& annotated) const {
+    /// Loads the scene, its settings and its annotations.
+    core::Scene loaded() {
         LoadOptions options = arguments_.scene_arguments.load_options();
         const auto result = std::make_shared<AnnotatedScene>();
         options.legend = &result->legend;
         core::Scene scene = load_with_progress(name_, std::move(options), verbosity_, threads_);
         if (annotations_.any()) result->composer.emplace(annotations_, result->legend, remarks());
-        annotated = result;
+        annotated_ = result;
+        own_ = scene.settings();
         return scene;
     }
 
@@ -139,6 +144,11 @@ class Viewer {
             return std::make_shared<const ImageOverlay>(
                 ImageOverlay{sheet->width, sheet->height, overlay.pixels(*sheet)});
         };
+    }
+
+    void set_size(int width, int height) {
+        settings_ = arguments_.setting.settings_of(
+            own_, {width, height}, arguments_.scene_arguments.drawing.look.is_given());
     }
 
     std::filesystem::file_time_type time_of_file() const {
@@ -192,7 +202,8 @@ class Viewer {
         if (time == written_) return;
         written_ = time;
         try {
-            core::Scene scene = loaded(annotated_);
+            core::Scene scene = loaded();
+            set_size(settings_.width, settings_.height);
             maker_->replace(std::move(scene), overlays());
             is_moved_ = true;
         } catch (const BadInput& bad) { // the file may be incomplete while it is written
@@ -214,8 +225,7 @@ class Viewer {
             orbit_->zoom(core::power(2.0, event.notches / 4.0));
             break;
         case Kind::resized:
-            settings_.width = window_->width();
-            settings_.height = window_->height();
+            set_size(window_->width(), window_->height());
             break;
         case Kind::clicked:
             maker_->with_scene([&](const core::Scene& scene) {
@@ -271,7 +281,8 @@ class Viewer {
             if (const auto sheet = annotated_->sheet(scene, settings_))
                 overlay_->cover(*sheet, {0, 0, film.width(), film.height()}, settings_.transfer,
                                 film);
-            output.commit(film, settings_.transfer);
+            output.commit(film,
+                          {settings_.transfer, arguments_.encoding.bits.value_or(8), dpi(), {}});
         });
         window_->set_title(title().c_str());
         std::printf("%s\n", name.c_str());
@@ -286,7 +297,7 @@ class Viewer {
     Annotations annotations_;
     std::optional<Overlay> overlay_;
     std::shared_ptr<const AnnotatedScene> annotated_;
-    core::Settings settings_;
+    core::Settings own_, settings_; // of the file, and of the window
     core::View first_;
     std::optional<Orbit> orbit_;
     std::unique_ptr<Window> window_;

@@ -117,6 +117,11 @@ void EncodingArguments::require_fit(ImageFormat format) const {
     if (bits && *bits == 8 && is_exr) refuse("--bits", "16 or 32 in EXR", "8");
 }
 
+std::optional<float> EncodingArguments::dpi_for(const Option<ImageSize>& size) const {
+    if (dpi || !size || !size->on_paper) return dpi.value();
+    return usual_dpi;
+}
+
 void ImageArguments::require_fit(ImageFormat format) const {
     const bool is_exr = format == ImageFormat::exr;
     require_writable("--output", format);
@@ -137,26 +142,33 @@ void ImageArguments::apply_to(simd::RenderOptions& options, const core::Settings
 
 RenderArguments::RenderArguments() = default;
 
-core::Settings RenderArguments::settings_of(const core::Settings& own) const {
+core::Settings SettingArguments::settings_of(const core::Settings& own,
+                                             const std::pair<int, int>& size,
+                                             bool scales_outline) const {
     core::Settings settings = own;
-    apply_to(settings);
-    if (size)
-        std::tie(settings.width, settings.height) =
-            size->in_pixels(double(dpi().value_or(0.0F)), {own.width, own.height});
-    const std::optional<Finish>& look = scene_arguments.drawing.look.value();
-    if (look && !image.outline) // as thick on a larger image
+    std::tie(settings.width, settings.height) = size;
+    if (scales_outline)
         settings.outline.width = std::min(core::Outline::max_width,
                                           own.outline.width * static_cast<float>(settings.height) /
                                               static_cast<float>(own.height));
+    apply_to(settings);
     if (samples || draft) settings.quality = 0.0F;
     if (draft) settings.grid = 1;
     if (draft) settings.light_samples = core::Settings::hard_light;
     if (print) settings.quality = 50.0F;
-    if (image.alpha || has_no_background()) settings.alpha = true;
-    if (settings.outline.any() || image.outline) return settings;
-    for (const AnyOption* option : {static_cast<const AnyOption*>(&image.outline_color),
-                                    static_cast<const AnyOption*>(&image.outline_creases)})
+    if (settings.outline.any() || outline) return settings;
+    for (const AnyOption* option : {static_cast<const AnyOption*>(&outline_color),
+                                    static_cast<const AnyOption*>(&outline_creases)})
         if (option->is_given()) throw BadInput(option->name(), "", "goes with --outline");
+    return settings;
+}
+
+core::Settings RenderArguments::settings_of(const core::Settings& own) const {
+    std::pair<int, int> pixels = {own.width, own.height};
+    if (size) pixels = size->in_pixels(double(dpi().value_or(0.0F)), pixels);
+    core::Settings settings =
+        setting.settings_of(own, pixels, scene_arguments.drawing.look.is_given());
+    if (image.alpha || has_no_background()) settings.alpha = true;
     return settings;
 }
 
@@ -172,8 +184,7 @@ void RenderArguments::require_fit(ImageFormat format) const {
 }
 
 std::optional<float> RenderArguments::dpi() const {
-    if (image.encoding.dpi || !size || !size->on_paper) return image.encoding.dpi.value();
-    return usual_dpi;
+    return image.encoding.dpi_for(size);
 }
 
 Annotations AnnotationArguments::annotations_at(std::optional<float> dpi,

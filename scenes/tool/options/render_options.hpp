@@ -36,6 +36,8 @@ struct EncodingArguments : OptionTable {
 
     /// Throws BadInput for options that the format does not support.
     void require_fit(ImageFormat format) const;
+    /// Returns the resolution to store. A size on paper has one.
+    std::optional<float> dpi_for(const Option<ImageSize>& size) const;
 
     Option<int> bits;
     Option<float> dpi = {*this, "--dpi",
@@ -46,27 +48,79 @@ struct EncodingArguments : OptionTable {
                          "Print resolution stored in PNG, TIFF or EXR."};
 };
 
-/// Options for the region of an image, its channels, and the lines over it.
-struct ImageArguments : OptionTable {
-    explicit ImageArguments(OptionTable& parent) : OptionTable(parent, "Images") {}
+/// Options for the settings of an image, except its size.
+struct SettingArguments : OptionTable {
+    explicit SettingArguments(OptionTable& parent) : OptionTable(parent, parent.group()) {}
 
-    /// Throws BadInput for options that the output's format does not support.
-    void require_fit(ImageFormat format) const;
-    /// Sets crop and AOVs. Throws BadInput if the crop is not within the image.
-    void apply_to(simd::RenderOptions& options, const core::Settings& settings) const;
+    /// Returns a scene's settings with the size of an image and the changes that the options
+    /// request. `scales_outline`: whether the scene's outline is as thick on a larger image. Throws
+    /// BadInput for details of an outline without a width.
+    core::Settings settings_of(const core::Settings& own, const std::pair<int, int>& size,
+                               bool scales_outline) const;
 
-    Option<core::Region> crop = {
-        *this, "--crop", crops().recorded(),
-        "Render only this rectangle: its upper left corner and its size, in pixels of "
-        "the whole image."};
-    EncodingArguments encoding{*this, "8 (PNG, TIFF), 16 (EXR)"};
-    Flag aovs = {*this, "--aovs", flag(),
-                 "Add AOVs of the first surface at the middle of each pixel to an EXR: Z "
-                 "(distance along the ray), N.X, N.Y, N.Z, id.shape, id.material and "
-                 "samples (number of samples)."};
-    Flag alpha = {*this, "--alpha", flag().recorded(),
-                  "Omit the background, for compositing. The alpha of a PNG, TIFF or EXR is the "
-                  "covered share of each pixel."};
+    Option<int> samples = {
+        *this, "--spp",
+        square_of(core::Settings::max_grid)
+            .replacing(&core::Settings::grid,
+                       [](const Rendered& rendered) { return rendered.settings.quality == 0.0F; })
+            .otherwise(as_in_file, "see --quality"),
+        "Samples per pixel, a square number."};
+    Option<float> quality = {
+        *this, "--quality",
+        number(10.0F, 80.0F, "DB")
+            .in("dB")
+            .replacing(&core::Settings::quality,
+                       [](const Rendered& rendered) { return rendered.settings.quality != 0.0F; })
+            .otherwise(as_in_file, "46, or 40 for spheres and points; --spp 9 if over 135,000 of "
+                                   "these are narrower than two pixels")
+            .without({"--spp"}),
+        "Target PSNR against a converged image, instead of --spp; 40 suits print."};
+    Option<core::PixelFilter> filter = {
+        *this, "--filter",
+        choice<core::PixelFilter>({{"box", core::PixelFilter::box},
+                                   {"gaussian", core::PixelFilter::gaussian},
+                                   {"blackman-harris", core::PixelFilter::blackman_harris}})
+            .replacing(&core::Settings::filter),
+        "Pixel filter: box (the square of the pixel), or the smoother gaussian or "
+        "blackman-harris (radius 1.5 pixels)."};
+    Option<int> light_samples = {
+        *this, "--light-samples",
+        whole(core::Settings::hard_light, core::Settings::max_light_samples)
+            .replacing_rarely(&core::Settings::light_samples),
+        "Shadow rays to each area or sky light, from each shaded point. 0: 4 with one "
+        "sample per pixel, 1 with more. -1: hard shadows, with one ray to the centre of "
+        "each light, and an unshadowed sky."};
+    Option<bool> transparent_shadows = {
+        *this, "--transparent-shadows",
+        choice<bool>({{"on", true}, {"off", false}})
+            .replacing_rarely(&core::Settings::transparent_shadows)
+            .otherwise(as_in_file, "on"),
+        "Shadows of transparent surfaces and glass. off: an envelope leaves its contents as bright "
+        "as they are without it."};
+    Flag draft = {*this, "--draft",
+                  flag().without({"--print", "--spp", "--quality", "--light-samples"}),
+                  "Fast preview, same as --spp 1 --light-samples -1."};
+    Flag print = {*this, "--print", flag().without({"--spp", "--quality"}),
+                  "Print quality, without grain at 300 dpi, same as --quality 50."};
+    Option<int> max_depth = {
+        *this, "--max-depth",
+        whole(0, core::Settings::depth_limit).replacing(&core::Settings::max_depth),
+        "Maximum number of reflections and refractions along a path."};
+    Option<int> max_transparent = {
+        *this, "--max-transparent",
+        whole(1, core::Settings::transparent_limit)
+            .replacing_rarely(&core::Settings::max_transparent)
+            .otherwise(as_in_file, "all"),
+        "Maximum number of transparent surfaces shown one behind the other; further ones "
+        "are omitted."};
+    Option<float> min_weight = {*this, "--min-weight",
+                                number(0.0F, 1.0F, "W").replacing(&core::Settings::min_weight),
+                                "Minimum weight of a path in its pixel; paths below it end."};
+    Option<core::Transfer> transfer = {
+        *this, "--transfer",
+        choice<core::Transfer>({{"srgb", core::Transfer::srgb}, {"linear", core::Transfer::linear}})
+            .replacing_rarely(&core::Settings::transfer),
+        "Transfer function of 8-bit and 16-bit images."};
     Option<float> outline = {
         *this, "--outline",
         number(0.0F, core::Outline::max_width, "WIDTH").in("pixels").replacing_rarely([
@@ -93,6 +147,29 @@ struct ImageArguments : OptionTable {
                 }),
         "Draw outlines also between materials and where surfaces bend by more than "
         "DEGREES; 180 for none of these."};
+};
+
+/// Options for the region of an image and its channels.
+struct ImageArguments : OptionTable {
+    explicit ImageArguments(OptionTable& parent) : OptionTable(parent, "Images") {}
+
+    /// Throws BadInput for options that the output's format does not support.
+    void require_fit(ImageFormat format) const;
+    /// Sets crop and AOVs. Throws BadInput if the crop is not within the image.
+    void apply_to(simd::RenderOptions& options, const core::Settings& settings) const;
+
+    Option<core::Region> crop = {
+        *this, "--crop", crops().recorded(),
+        "Render only this rectangle: its upper left corner and its size, in pixels of "
+        "the whole image."};
+    EncodingArguments encoding{*this, "8 (PNG, TIFF), 16 (EXR)"};
+    Flag aovs = {*this, "--aovs", flag(),
+                 "Add AOVs of the first surface at the middle of each pixel to an EXR: Z "
+                 "(distance along the ray), N.X, N.Y, N.Z, id.shape, id.material and "
+                 "samples (number of samples)."};
+    Flag alpha = {*this, "--alpha", flag().recorded(),
+                  "Omit the background, for compositing. The alpha of a PNG, TIFF or EXR is the "
+                  "covered share of each pixel."};
 };
 
 /// A length in angstrom, or 0 for "auto".
@@ -196,64 +273,7 @@ struct RenderArguments : OptionTable {
             [](const Rendered& rendered) { return rendered.names_size; }),
         "Image width and height in pixels; or on paper: the width, or both, in cm, mm or in, such "
         "as 8.5cm or 85x60mm, at the resolution of --dpi."};
-    Option<int> samples = {
-        *this, "--spp",
-        square_of(core::Settings::max_grid)
-            .replacing(&core::Settings::grid,
-                       [](const Rendered& rendered) { return rendered.settings.quality == 0.0F; })
-            .otherwise(as_in_file, "see --quality"),
-        "Samples per pixel, a square number."};
-    Option<float> quality = {
-        *this, "--quality",
-        number(10.0F, 80.0F, "DB")
-            .in("dB")
-            .replacing(&core::Settings::quality,
-                       [](const Rendered& rendered) { return rendered.settings.quality != 0.0F; })
-            .otherwise(as_in_file, "46, or 40 for spheres and points; --spp 9 if over 135,000 of "
-                                   "these are narrower than two pixels")
-            .without({"--spp"}),
-        "Target PSNR against a converged image, instead of --spp; 40 suits print."};
-    Option<core::PixelFilter> filter = {
-        *this, "--filter",
-        choice<core::PixelFilter>({{"box", core::PixelFilter::box},
-                                   {"gaussian", core::PixelFilter::gaussian},
-                                   {"blackman-harris", core::PixelFilter::blackman_harris}})
-            .replacing(&core::Settings::filter),
-        "Pixel filter: box (the square of the pixel), or the smoother gaussian or "
-        "blackman-harris (radius 1.5 pixels)."};
-    Option<int> light_samples = {
-        *this, "--light-samples",
-        whole(core::Settings::hard_light, core::Settings::max_light_samples)
-            .replacing_rarely(&core::Settings::light_samples),
-        "Shadow rays to each area or sky light, from each shaded point. 0: 4 with one "
-        "sample per pixel, 1 with more. -1: hard shadows, with one ray to the centre of "
-        "each light, and an unshadowed sky."};
-    Option<bool> transparent_shadows = {
-        *this, "--transparent-shadows",
-        choice<bool>({{"on", true}, {"off", false}})
-            .replacing_rarely(&core::Settings::transparent_shadows)
-            .otherwise(as_in_file, "on"),
-        "Shadows of transparent surfaces and glass. off: an envelope leaves its contents as bright "
-        "as they are without it."};
-    Flag draft = {*this, "--draft",
-                  flag().without({"--print", "--spp", "--quality", "--light-samples"}),
-                  "Fast preview, same as --spp 1 --light-samples -1."};
-    Flag print = {*this, "--print", flag().without({"--spp", "--quality"}),
-                  "Print quality, without grain at 300 dpi, same as --quality 50."};
-    Option<int> max_depth = {
-        *this, "--max-depth",
-        whole(0, core::Settings::depth_limit).replacing(&core::Settings::max_depth),
-        "Maximum number of reflections and refractions along a path."};
-    Option<int> max_transparent = {
-        *this, "--max-transparent",
-        whole(1, core::Settings::transparent_limit)
-            .replacing_rarely(&core::Settings::max_transparent)
-            .otherwise(as_in_file, "all"),
-        "Maximum number of transparent surfaces shown one behind the other; further ones "
-        "are omitted."};
-    Option<float> min_weight = {*this, "--min-weight",
-                                number(0.0F, 1.0F, "W").replacing(&core::Settings::min_weight),
-                                "Minimum weight of a path in its pixel; paths below it end."};
+    SettingArguments setting{*this};
     ThreadsOption threads{*this};
     Option<simd::Engine> engine = {
         *this, "--engine",
@@ -293,11 +313,6 @@ struct RenderArguments : OptionTable {
         "Arithmetic of intersections: fast (textbook formulas in float), robust (best "
         "formulas in float), exact (certified, with the results of real arithmetic) or "
         "double (formulas of robust in double)."};
-    Option<core::Transfer> transfer = {
-        *this, "--transfer",
-        choice<core::Transfer>({{"srgb", core::Transfer::srgb}, {"linear", core::Transfer::linear}})
-            .replacing_rarely(&core::Settings::transfer),
-        "Transfer function of 8-bit and 16-bit images."};
     Option<std::string> stats = {*this, "--stats", file_name(),
                                  "Write statistics of the render as JSON; - is standard output."};
     Flag no_resume = {*this, "--no-resume", flag(),

@@ -311,8 +311,8 @@ struct OneFrameArgument : OptionTable {
 
     Option<FrameRange> frames = {
         *this, "--frames", frame_ranges().otherwise("0"),
-        "Frame of a trajectory of atoms, numbered from 0; -1 is the last one. Of START:STOP:STEP, "
-        "the first."};
+        "Frame of a trajectory of atoms, numbered from 0; -1 is the last one. START:STOP:STEP "
+        "selects its first frame."};
 };
 
 struct SceneArguments {

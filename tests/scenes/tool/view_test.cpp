@@ -93,7 +93,9 @@ Setup on_display(const std::string& name, const std::filesystem::path& directory
 
 TEST_CASE("a missing display gives an error of one line") {
     const ToolFixture fixture;
-    fixture.write("figure.txt", "--size 85x60mm\n--spp 4\n"); // of an image on paper
+    fixture.write("figure.txt", // of an image on paper
+                  "--size 85x60mm\n--dpi 600\n--bits 16\n--outline 2\n--outline-creases 60\n"
+                  "--max-transparent 1\n--transparent-shadows off\n--print\n--max-depth 4\n");
     Setup setup;
     const char* driver = GENERATE("x11", ""); // "": any driver that SDL finds
     setup.in_child = [driver] {
@@ -117,17 +119,15 @@ TEST_CASE("a window shows the image of render and follows changes of the scene")
         WARN("skipped: Xvfb is missing");
         return;
     }
-    Process viewer({"view", "scene.json", "--size", "640x480"},
-                   on_display(display.name(), fixture.path()));
+    const Options options = {"scene.json", "--size", "640x480", "--spp", "4", "--outline", "3"};
+    Process viewer(joined({"view"}, options), on_display(display.name(), fixture.path()));
     constexpr std::size_t size = std::size_t{3} * screen_width * screen_height;
     std::string scene = ball;
     for (const std::string color : {"[1, 0, 0]", "[0, 1, 0]"}) {
         CAPTURE(color);
         scene.replace(scene.find("\"color\": ["), 18, "\"color\": " + color);
         fixture.write("scene.json", scene);
-        REQUIRE(
-            fixture.run({"render", "scene.json", "--size", "640x480", "-o", "out/a.ppm"}).code ==
-            0);
+        REQUIRE(fixture.run(joined(joined({"render"}, options), {"-o", "out/a.ppm"})).code == 0);
         const auto expected = pixels_of(fixture.output() / "a.ppm", size);
         CHECK(comes_true([&] { return display.pixels() == expected; }));
         std::filesystem::remove(fixture.output() / "a.ppm");
