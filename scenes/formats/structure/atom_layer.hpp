@@ -9,6 +9,7 @@
 #include "scenes/formats/structure/drawn_shapes.hpp"
 #include "scenes/formats/structure/structure.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -33,6 +34,10 @@ struct AtomLayer {
 
     /// Returns true if an atom of the structure has the look.
     bool has(const DrawnAtoms& atoms, AtomIndex atom) const;
+    /// Returns false if no atom of the structure is of the look's kinds.
+    bool matches_kinds() const {
+        return has_kind.empty() || std::find(has_kind.begin(), has_kind.end(), 1) != has_kind.end();
+    }
 };
 
 /// The parts of a drawing that its layers share.

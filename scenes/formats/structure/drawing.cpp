@@ -123,7 +123,7 @@ class SceneFromAtoms {
         for (const AtomLayer& layer : layers_) {
             if (!has_atoms(layer.representation)) continue;
             if (layer.look.style == Style::polyhedra) {
-                if (add_polyhedra_layer(atoms_, layer, shapes) == 0)
+                if (add_polyhedra_layer(atoms_, layer, shapes) == 0 && layer.matches_kinds())
                     report_no_polyhedra(layer.option);
             } else if (shows_chains(*layer.look.style)) {
                 remark(add_chain_layer(atoms_, layer, shapes, !shows_atoms(layer.representation)));
@@ -134,7 +134,8 @@ class SceneFromAtoms {
                 add_layer(atoms_, layer, file_, shapes);
             }
         }
-        if (drawing_.hydrogen_bonds) add_hydrogen_bonds(atoms_, shapes);
+        if (drawing_.hydrogen_bonds && add_hydrogen_bonds(atoms_, shapes) == 0)
+            remark("hydrogen bonds are missing: no atoms that are shown have one");
         shapes.finish();
     }
 
@@ -299,11 +300,17 @@ class SceneFromAtoms {
     std::vector<char> selected(const std::string& option, const std::string& select,
                                bool may_be_empty) {
         std::vector<char> result = select_atoms(structure_, select, unmatched_, option);
-        if (!may_be_empty && std::find(result.begin(), result.end(), 1) == result.end())
-            throw BadInput(option, "",
-                           "\"" + printable(select) + "\" selects none of " +
-                               std::to_string(structure_.size()) + " atoms");
+        if (!may_be_empty && is_empty(result)) throw BadInput(option, "", selects_none(select));
         return result;
+    }
+
+    static bool is_empty(const std::vector<char>& selection) {
+        return std::find(selection.begin(), selection.end(), 1) == selection.end();
+    }
+
+    std::string selects_none(const std::string& select) const {
+        return "\"" + printable(select) + "\" selects none of " +
+               std::to_string(structure_.size()) + " atoms";
     }
 
     /// Finds the last representation of each atom.
@@ -323,8 +330,13 @@ class SceneFromAtoms {
                 if (is_selected[i] == value) representations[i] = DrawnAtoms::hidden;
         };
         if (drawing_.select != "all") hide_if(selected("--select", drawing_.select, false), 0);
-        for (const std::string& hidden : drawing_.hide)
-            hide_if(selected("--hide", hidden, true), 1);
+        for (const std::string& hidden : drawing_.hide) {
+            const std::size_t said = unmatched_.size();
+            const std::vector<char> is_hidden = selected("--hide", hidden, true);
+            hide_if(is_hidden, 1);
+            if (said == unmatched_.size() && is_empty(is_hidden))
+                unmatched_.push_back("--hide: " + selects_none(hidden));
+        }
         count_ = representations.size() -
                  static_cast<std::size_t>(std::count(representations.begin(), representations.end(),
                                                      DrawnAtoms::hidden));

@@ -147,13 +147,14 @@ std::vector<std::pair<Vec3d, Vec3d>> dashes_of(const Vec3d& from, const Vec3d& t
     return dashes;
 }
 
-void add_hydrogen_bonds(const DrawnAtoms& atoms, DrawnShapes& shapes) {
+std::size_t add_hydrogen_bonds(const DrawnAtoms& atoms, DrawnShapes& shapes) {
     constexpr float radius = 0.045F;
     const core::MaterialIndex material =
         Palette(shapes.builder(), 1.0F, atoms.finish).of(0x4A90C8, [] {
             return std::string("hydrogen bond");
         });
     const Structure& structure = atoms.all();
+    std::size_t count = 0;
     for (const auto& [a, b] : find_hydrogen_bonds(structure, atoms.bonds)) {
         const AtomPair pair = {atoms.original(a), atoms.original(b)};
         if (atoms.representations[pair[0]] == DrawnAtoms::hidden ||
@@ -163,6 +164,7 @@ void add_hydrogen_bonds(const DrawnAtoms& atoms, DrawnShapes& shapes) {
             return keep_point(core::convert<double>(structure.positions[atom]), shapes.cuts());
         };
         if (!is_kept(a) || !is_kept(b)) continue;
+        ++count;
         for (const auto& [from, to] : dashes_of(core::convert<double>(structure.positions[a]),
                                                 core::convert<double>(structure.positions[b]))) {
             shapes.add(core::CappedCylinder{core::convert<float>(from),
@@ -170,6 +172,7 @@ void add_hydrogen_bonds(const DrawnAtoms& atoms, DrawnShapes& shapes) {
                        material, Style::licorice, 1.0F, pair);
         }
     }
+    return count;
 }
 
 } // namespace raylane::scenes

@@ -30,6 +30,7 @@ std::vector<std::pair<core::Vec3d, core::Vec3d>> dashes_of(const core::Vec3d& fr
                                                            const core::Vec3d& to);
 
 /// Adds the hydrogen bonds of all visible atoms as dashed lines, if no plane cuts an end off.
-void add_hydrogen_bonds(const DrawnAtoms& atoms, DrawnShapes& shapes);
+/// Returns their number.
+std::size_t add_hydrogen_bonds(const DrawnAtoms& atoms, DrawnShapes& shapes);
 
 } // namespace raylane::scenes

@@ -254,6 +254,20 @@ TEST_CASE("a remark has the column of a name in a list that matches nothing") {
     CHECK(told == unmatched("chain A foo"));
 }
 
+TEST_CASE("a remark names what has no atoms to hide or to bind") {
+    const auto told = [](const Drawing& drawing) {
+        std::string text;
+        draw_structure(peptide(), drawing, "a", nullptr, nullptr,
+                       [&](const std::string& remark) { text += remark + "\n"; });
+        return text;
+    };
+    CHECK(told({.hide = {"ion"}}) == "--hide: \"ion\" selects none of 5 atoms\n");
+    CHECK(told({.hide = {"element Fe"}}) == "--hide: column 9: \"Fe\" matches no element\n");
+    CHECK(told({.hydrogen_bonds = true}) ==
+          "a: hydrogen bonds are missing: no atoms that are shown have one\n");
+    CHECK(told({.hide = {"hydrogen"}}).empty());
+}
+
 TEST_CASE("within finds the same atoms as the distances of all pairs") {
     Random random(7);
     std::vector<std::pair<const char*, Vec3f>> atoms;
