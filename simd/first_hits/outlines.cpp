@@ -10,13 +10,21 @@ namespace raylane::simd {
 
 namespace {
 
+core::Vec3d point_of(const FirstHit& hit) {
+    return core::mul_add(hit.t, hit.ray.direction, hit.ray.origin);
+}
+
+/// Returns the distance of a hit from the plane that touches a surface at another hit.
+double from_plane(const FirstHit& hit, const FirstHit& other) {
+    return std::abs(core::dot(other.flat_normal, core::Vec3d(point_of(hit) - point_of(other))));
+}
+
 /// Returns t where a ray crosses the plane that touches a surface at its hit, or infinity if the
 /// ray never reaches the hidden side.
 double t_of_plane(const FirstHit& hit, const core::Ray<double>& ray) {
     const double slope = core::dot(hit.flat_normal, ray.direction);
     if (!(slope < 0.0)) return core::infinity<double>;
-    const core::Vec3d point = core::mul_add(hit.t, hit.ray.direction, hit.ray.origin);
-    return core::dot(hit.flat_normal, core::Vec3d(point - ray.origin)) / slope;
+    return core::dot(hit.flat_normal, core::Vec3d(point_of(hit) - ray.origin)) / slope;
 }
 
 /// Returns the distance between the points of two rays at the depth of the nearer hit.
@@ -28,11 +36,14 @@ double spacing(const FirstHit& a, const FirstHit& b) {
 
 /// Returns true if one hit is in front of the other: if, by the planes that touch the surfaces
 /// there, the same hit is the nearer one on both rays, by more than a pixel. The planes cross if
-/// surfaces meet or one is bent between the rays, however steep they are.
+/// surfaces meet or one is bent between the rays, however steep they are. Next to each other on a
+/// steep mesh are facets that do not touch; they are less than a pixel apart across their planes.
 bool is_step(const FirstHit& a, const FirstHit& b) {
     const double along_a = a.t - t_of_plane(b, a.ray), along_b = t_of_plane(a, b.ray) - b.t;
     if ((along_a < 0.0) != (along_b < 0.0)) return false;
-    return std::min(std::abs(along_a), std::abs(along_b)) > Outlines::per_pixel * spacing(a, b);
+    const double least = Outlines::per_pixel * spacing(a, b);
+    if (!(std::min(std::abs(along_a), std::abs(along_b)) > least)) return false;
+    return std::max(from_plane(a, b), from_plane(b, a)) > least;
 }
 
 } // namespace

@@ -136,6 +136,23 @@ TEST_CASE("a shape in front of another or in front of itself has a line") {
     CHECK(hidden_around(film, 50, 55) == 1.0);
 }
 
+TEST_CASE("steep facets have a line between them if they are more than a pixel apart") {
+    const auto at_step = [](float depth) {
+        Drawing drawing;
+        const MaterialIndex paint = drawing.add_material(luminous(blue));
+        const auto add_facet = [&](float x, float z) {
+            const Vec3f low{x, -3, z}, high{x, 3, z}, right{1, 0, 20};
+            drawing.add(Triangle{low, low + right, high}, paint);
+            drawing.add(Triangle{high, low + right, high + right}, paint);
+        };
+        add_facet(-1, -20);
+        add_facet(0, -depth);
+        return hidden_around(drawn(drawing.finish()), 50, 50);
+    };
+    CHECK(at_step(0.4F) == 0.0); // 10 pixels deep, but half a pixel across the facets
+    CHECK(at_step(2.4F) == 1.0); // three pixels
+}
+
 TEST_CASE("lines have the same bits for all tiles and threads and instruction sets") {
     Drawing drawing;
     drawing.camera.projection = Projection::perspective;
