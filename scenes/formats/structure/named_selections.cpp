@@ -1,5 +1,6 @@
 #include "scenes/formats/structure/named_selections.hpp"
 
+#include "scenes/formats/structure/cartoon/secondary_structure.hpp"
 #include "scenes/formats/structure/labels.hpp"
 #include "scenes/formats/structure/selection_words.hpp"
 
@@ -75,6 +76,14 @@ Selected backbone(const Structure& structure) {
     });
 }
 
+/// Selects residues of one secondary structure, which is computed unless the file has it.
+Selected of_secondary(const Structure& structure, Secondary wanted) {
+    if (structure.residues.empty()) return Selected(structure.size());
+    const std::vector<Secondary> secondary = secondary_structure(structure, backbone_of(structure));
+    return where(structure,
+                 [&](AtomIndex i) { return secondary[structure.residues[i]] == wanted; });
+}
+
 } // namespace
 
 std::optional<Selected> named_selection(const Structure& structure, std::string_view word) {
@@ -83,6 +92,12 @@ std::optional<Selected> named_selection(const Structure& structure, std::string_
     if (word == "none") return Selected(structure.size(), 0);
     if (word == "protein") return where_residue(structure, is_amino_acid);
     if (word == "nucleic") return where_residue(structure, is_nucleotide);
+    if (word == "polymer")
+        return where_residue(structure, [](const Residue& residue) {
+            return is_amino_acid(residue) || is_nucleotide(residue);
+        });
+    if (word == "helix") return of_secondary(structure, Secondary::helix);
+    if (word == "strand") return of_secondary(structure, Secondary::strand);
     if (word == "water") return where_residue(structure, is_water);
     if (word == "hetero")
         return where_residue(structure, [](const Residue& residue) { return residue.is_hetero; });

@@ -10,7 +10,8 @@ namespace raylane::scenes {
 
 /// Returns 1 for each atom that an expression selects, and 0 for the others. Words are whole words,
 /// in any case except for names of chains and types:
-///   all, none, protein, nucleic, water, hetero, hydrogen, noh
+///   all, none, protein, nucleic, polymer (both), water, hetero, hydrogen, noh
+///   helix, strand          by the file, or by DSSP's hydrogen bonds
 ///   backbone, sidechain    of protein
 ///   ligand                 residues with carbon, except water and parts of polymers
 ///   ion                    residues of one atom, except water

@@ -17,6 +17,7 @@ constexpr std::array aliases = {
     Alias{"atomname", "name"},
     Alias{"b.", "b_factor"},
     Alias{"bb.", "backbone"},
+    Alias{"betasheet", "strand"},
     Alias{"br.", "byres"},
     Alias{"byresidue", "byres"},
     Alias{"c.", "chain"},
@@ -38,6 +39,8 @@ constexpr std::array aliases = {
     Alias{"resid", "resi"},
     Alias{"resname", "resn"},
     Alias{"sc.", "sidechain"},
+    Alias{"serial", "index"},
+    Alias{"sheet", "strand"},
     Alias{"solvent", "water"},
     Alias{"waters", "water"},
 };

@@ -8,10 +8,11 @@
 namespace raylane::scenes {
 
 /// Words of the language, except and, or, of, to, x, y and z.
-constexpr std::array<std::string_view, 23> selection_keywords = {
-    "all",    "none",     "protein", "nucleic",  "water",     "ligand", "metal",   "ion",
-    "hetero", "hydrogen", "noh",     "backbone", "sidechain", "chain",  "residue", "element",
-    "name",   "type",     "index",   "within",   "exwithin",  "byres",  "not"};
+constexpr std::array<std::string_view, 26> selection_keywords = {
+    "all",      "none",      "protein",  "nucleic", "polymer", "helix",    "strand",
+    "water",    "ligand",    "metal",    "ion",     "hetero",  "hydrogen", "noh",
+    "backbone", "sidechain", "chain",    "residue", "element", "name",     "type",
+    "index",    "within",    "exwithin", "byres",   "not"};
 
 /// Returns the word of the language for a word in any case, of PyMOL or VMD, too.
 std::string keyword_of(std::string_view word);

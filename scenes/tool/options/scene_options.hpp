@@ -231,8 +231,8 @@ struct DrawingArguments : OptionTable {
     Option<std::string> select = {
         *this, "--select", word("WHICH").otherwise("all").recorded(),
         "Atoms to show: all, none, protein, nucleic, ligand, water, ion, metal, hetero, hydrogen, "
-        "backbone, sidechain, chain A B, residue ALA 17 20-30, element C Fe, name CA, type 1, "
-        "index 1-100, x < 50, a number per atom in the file, such as b_factor < 30, within 5 of "
+        "backbone, sidechain, helix, strand, chain A B, residue ALA 17 20-30, element C Fe, name "
+        "CA, type 1, index 1-100, x < 50, a number per atom in the file, such as b_factor < 30, within 5 of "
         "..., or byres ... Combine these by not, and, or and parentheses. PyMOL's and VMD's words "
         "for these are known, too."};
     ListOption<std::string> show = {

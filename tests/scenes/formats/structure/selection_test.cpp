@@ -67,6 +67,8 @@ TEST_CASE("words of PyMOL and VMD select the same atoms as raylane's") {
         {"name CA+CB", "name CA CB"},
         {"elem C", "element C"},
         {"polymer.protein", "protein"},
+        {"polymer", "protein or nucleic"},
+        {"serial 2", "index 2"},
         {"b < 5", "b_factor < 5"},
         {"beta >= 5", "b_factor >= 5"},
         {"b == 5", "b_factor = 5"},

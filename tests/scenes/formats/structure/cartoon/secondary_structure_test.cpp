@@ -1,5 +1,6 @@
 #include "scenes/formats/structure/cartoon/secondary_structure.hpp"
 #include "scenes/formats/structure/readers.hpp"
+#include "scenes/formats/structure/selection.hpp"
 #include "tests/scenes/formats/structure/cartoon/peptide.hpp"
 #include "tests/scenes/formats/structure/frames.hpp"
 #include "tests/support/catch.hpp"
@@ -52,6 +53,19 @@ TEST_CASE("hydrogen bonds give the helices and strands of DSSP") {
     CHECK(classes_of(peptide_of(chain_of(joined(joined(alpha(7), extended(3)), alpha(8))))) ==
           "-HHHHHH---HHHHHHH-");
     CHECK(classes_of(peptide_of(hairpin())) == "-EEEEE----EEEEE-");
+}
+
+TEST_CASE("selections find the residues of helices and strands") {
+    for (const Structure& structure : {peptide_of(chain_of(alpha(12))), peptide_of(hairpin())}) {
+        std::string found(structure.of_residue.size(), '-');
+        std::vector<std::string> unmatched;
+        for (const auto& [word, letter] : {std::pair("helix", 'H'), {"sheet", 'E'}}) {
+            const std::vector<char> selected = select_atoms(structure, word, unmatched);
+            for (std::size_t atom = 0; atom < selected.size(); ++atom)
+                if (selected[atom] != 0) found[structure.residues[atom]] = letter;
+        }
+        CHECK(found == classes_of(structure));
+    }
 }
 
 TEST_CASE("a break in a chain ends a helix") {
