@@ -121,9 +121,12 @@ core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions op
     return scene;
 }
 
-core::Scene load_seen(const std::string& scene, const SceneArguments& options, int threads) {
+core::Scene load_seen(const std::string& scene, const SceneArguments& options, int threads,
+                      Legend* legend) {
+    LoadOptions loading = options.load_options();
+    loading.legend = legend;
     core::Scene loaded =
-        load_with_progress(scene, options.load_options(), options.verbosity.verbosity(), threads);
+        load_with_progress(scene, std::move(loading), options.verbosity.verbosity(), threads);
     const core::Settings settings = loaded.settings();
     return seen(std::move(loaded), options.view.change(), settings);
 }

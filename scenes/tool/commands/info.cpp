@@ -7,7 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
+#include <map>
 
 namespace raylane::scenes {
 
@@ -68,7 +70,40 @@ Json names_where(const core::Features& features, bool wanted) {
     return names;
 }
 
-Json info_of(const std::string& name, const core::Scene& scene) {
+/// Returns the words and numbers that selections of atoms can use, or null without atoms.
+Json atoms_of(const Structure& structure) {
+    if (structure.size() == 0) return nullptr;
+    std::map<std::string, std::size_t> elements, chains, residues;
+    for (const std::uint16_t index : structure.kinds) {
+        const AtomKind& kind = structure.of_kind[index];
+        ++elements[kind.element != 0 ? std::string(data_of(kind.element).symbol) : kind.label];
+    }
+    for (const Residue& residue : structure.of_residue) {
+        ++residues[residue.name];
+        ++chains[structure.chains[residue.chain]];
+    }
+    Json numbers = Json::array();
+    for (const AtomProperty& property : structure.properties) {
+        const auto [least, most] =
+            std::minmax_element(property.values.begin(), property.values.end());
+        numbers.push_back({{"name", printable(property.name)},
+                           {"min", as_printed(*least)},
+                           {"max", as_printed(*most)}});
+    }
+    const auto counts = [](const std::map<std::string, std::size_t>& of_name) {
+        Json result = Json::object();
+        for (const auto& [name, count] : of_name)
+            result[printable(name)] = count;
+        return result;
+    };
+    return {{"count", structure.size()},
+            {"elements", counts(elements)},
+            {"chains", counts(chains)},
+            {"residues", counts(residues)},
+            {"numbers", numbers}};
+}
+
+Json info_of(const std::string& name, const core::Scene& scene, const Structure& structure) {
     const core::Settings& settings = scene.settings();
     const core::Features features = features_of(scene, settings);
     const std::size_t film_bytes =
@@ -77,6 +112,7 @@ Json info_of(const std::string& name, const core::Scene& scene) {
             {"shapes", shape_counts(scene)},
             {"shape_count", scene.shape_count()},
             {"bounds", bounds_of(scene)},
+            {"atoms", atoms_of(structure)},
             {"materials", scene.materials().size()},
             {"lights", scene.lights().size()},
             {"fog", text_of(scene.fog().kind)},
@@ -117,16 +153,38 @@ std::string bytes_text(double bytes) {
     return text;
 }
 
+void line(const char* name, const std::string& value) {
+    std::printf("%-10s %s\n", name, value.c_str());
+}
+
+/// Returns "3 a, 2 b".
+std::string counted(const Json& counts) {
+    std::string text;
+    for (const auto& [name, count] : counts.items())
+        text.append(text.empty() ? "" : ", ").append(count.dump() + " " + name);
+    return text;
+}
+
+void print_atoms(const Json& atoms) {
+    line("atoms", atoms["count"].dump() + ": " + counted(atoms["elements"]));
+    std::string chains, numbers;
+    for (const auto& [name, count] : atoms["chains"].items())
+        chains.append(chains.empty() ? "" : ", ")
+            .append(count.dump() + (count == 1 ? " residue in " : " residues in ") + name);
+    for (const Json& number : atoms["numbers"])
+        numbers.append(numbers.empty() ? "" : ", ")
+            .append(number["name"].get<std::string>() + " from " + number["min"].dump() + " to " +
+                    number["max"].dump());
+    if (!chains.empty()) line("chains", chains);
+    if (!atoms["residues"].empty()) line("residues", counted(atoms["residues"]));
+    if (!numbers.empty()) line("numbers", numbers);
+}
+
 void print(const Json& info) {
-    const auto line = [](const char* name, const std::string& value) {
-        std::printf("%-10s %s\n", name, value.c_str());
-    };
     const auto number = [&](const char* key) { return info[key].dump(); };
-    std::string shapes = number("shape_count");
-    std::string kinds;
-    for (const auto& [kind, count] : info["shapes"].items())
-        kinds.append(kinds.empty() ? ": " : ", ").append(count.dump() + " " + kind);
-    line("shapes", shapes + kinds);
+    const std::string kinds = counted(info["shapes"]);
+    line("shapes", number("shape_count") + (kinds.empty() ? "" : ": " + kinds));
+    if (!info["atoms"].is_null()) print_atoms(info["atoms"]);
     if (const Json& bounds = info["bounds"]; !bounds.is_null()) {
         std::string extent;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -160,8 +218,9 @@ void print(const Json& info) {
 }
 
 int info(const InfoArguments& arguments) {
-    const Json info =
-        info_of(*arguments.scene, load_seen(*arguments.scene, arguments.scene_arguments));
+    Legend legend;
+    const core::Scene scene = load_seen(*arguments.scene, arguments.scene_arguments, 0, &legend);
+    const Json info = info_of(*arguments.scene, scene, legend.structure);
     if (arguments.json)
         std::printf("%s\n", info.dump(2).c_str());
     else

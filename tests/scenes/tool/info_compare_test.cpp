@@ -52,6 +52,25 @@ TEST_CASE("info lists the content and the needs of a scene") {
     CHECK(fixture.names() == std::vector<std::string>{"out", "scene.json"});
 }
 
+TEST_CASE("info lists the words and numbers for selections of atoms") {
+    const ToolFixture fixture;
+    fixture.write("a.xyz",
+                  "3\nProperties=species:S:1:pos:R:3:resname:S:1:resid:I:1:chain:S:1:charge:R:1\n"
+                  "O 0 0 0 HOH 1 A -0.5\nH 1 0 0 HOH 1 A 0.25\nC 9 0 0 LIG 2 B 0.75\n");
+    const Json atoms = json_of(fixture.run({"info", "--json", "a.xyz"}))["atoms"];
+    CHECK(atoms["count"] == 3);
+    CHECK(atoms["elements"] == Json{{"C", 1}, {"H", 1}, {"O", 1}});
+    CHECK(atoms["chains"] == Json{{"A", 1}, {"B", 1}});
+    CHECK(atoms["residues"] == Json{{"HOH", 1}, {"LIG", 1}});
+    CHECK(atoms["numbers"] == Json::array({{{"name", "charge"}, {"min", -0.5}, {"max", 0.75}}}));
+    const Outcome text = fixture.run({"info", "a.xyz"});
+    for (const char* line :
+         {"atoms      3: 1 C, 1 H, 1 O\n", "chains     1 residue in A, 1 residue in B\n",
+          "residues   1 HOH, 1 LIG\n", "numbers    charge from -0.5 to 0.75\n"})
+        CHECK(contains(text.out, line));
+    CHECK(json_of(fixture.run({"info", "--json", "scene.json"}))["atoms"].is_null());
+}
+
 TEST_CASE("info gives the extent of copies, and none of planes") {
     const ToolFixture fixture;
     const auto bounds_with = [&](const std::string& object) {
