@@ -2,13 +2,12 @@
 
 #include "core/scene/best_view.hpp"
 #include "scenes/files/errors.hpp"
-#include "scenes/files/number.hpp"
-#include "scenes/files/words.hpp"
 #include "scenes/formats/built/built_file.hpp"
 #include "scenes/formats/format.hpp"
 #include "scenes/formats/json/reader.hpp"
 #include "scenes/formats/nff/reader.hpp"
 #include "scenes/formats/pov/reader.hpp"
+#include "scenes/formats/structure/frames.hpp"
 #include "scenes/formats/structure/structure_file.hpp"
 #include "scenes/formats/tachyon/reader.hpp"
 
@@ -46,8 +45,10 @@ core::Scene read_format(InputFile& file, const LoadOptions& options) {
                        "has no parameter \"$" + printable(options.parameters.begin()->first) +
                            "\": only JSON scenes have parameters");
     if (is_structure(format))
-        return read_structure(file, format, {options.atom_style, options.on_remark, options.frame},
-                              options.drawing, options.workers, options.legend);
+        return read_structure(
+            file, format,
+            {options.atom_style, options.on_remark, options.frames, options.on_structure},
+            options.drawing, options.workers, options.legend);
     if (!options.option_for_atoms.empty())
         throw BadInput(options.option_for_atoms, "",
                        "goes with a file of atoms, but " + printable(file.name(), 4096) +
@@ -66,13 +67,6 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
     return scene;
 }
 
-int frame_number(const std::string& option, const std::string& text) {
-    const std::optional<int> number = to_int(text);
-    if (!number)
-        refuse(option, "the number of a frame: 0 for the first one, -1 for the last", text);
-    return *number;
-}
-
 } // namespace
 
 void LoadOptions::set_drawing(DrawingOptions given) {
@@ -80,8 +74,8 @@ void LoadOptions::set_drawing(DrawingOptions given) {
     std::erase_if(given, [&](const auto& option) {
         const std::string name = listed_name(option.first);
         if (name == "atom-style") atom_style = option.second;
-        if (name == "frames") frame = frame_number(option.first, option.second);
-        return name == "atom-style" || name == "frames";
+        if (name == "frame") frames = frame_range_of(option.first, option.second);
+        return name == "atom-style" || name == "frame";
     });
     drawing = drawing_with(given);
 }

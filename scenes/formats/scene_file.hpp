@@ -7,6 +7,7 @@
 #include "scenes/formats/tachyon/shading.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -18,9 +19,10 @@ struct LoadOptions {
     OnRead on_read = {};
     OnRemark on_remark = {};     ///< for files of other programs, and for scenes without objects
     std::string atom_style = {}; ///< of LAMMPS data files; empty: the one that the file names
-    int frame = 0;               ///< of a file of atoms; negative: counted from the end
-    Drawing drawing = {};        ///< how atoms are drawn
-    Legend* legend = nullptr;    ///< receives the meaning of the shapes of a file of atoms
+    FrameRange frames = {};      ///< of a file of atoms, of which the first one is shown
+    std::function<void(const Structure&)> on_structure = {}; ///< receives that frame
+    Drawing drawing = {};                                    ///< how atoms are drawn
+    Legend* legend = nullptr; ///< receives the meaning of the shapes of a file of atoms
     /// The name of an option that says how atoms are drawn, or empty. Scenes are refused with it.
     std::string option_for_atoms = {};
     TachyonShading tachyon = {}; ///< overrides the shading that a Tachyon scene requests

@@ -122,9 +122,9 @@ core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions op
 }
 
 core::Scene load_seen(const std::string& scene, const SceneArguments& options, int threads,
-                      Legend* legend) {
+                      const std::function<void(const Structure&)>& on_structure) {
     LoadOptions loading = options.load_options();
-    loading.legend = legend;
+    loading.on_structure = on_structure;
     core::Scene loaded =
         load_with_progress(scene, std::move(loading), options.verbosity.verbosity(), threads);
     const core::Settings settings = loaded.settings();

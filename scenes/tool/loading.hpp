@@ -19,9 +19,9 @@ core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions op
                                Verbosity verbosity, int threads, std::optional<simd::Isa> isa = {});
 
 /// Does the same with the options of a command, and returns the scene with the view that they
-/// request. `legend`, unless null, receives the meaning of the shapes of a file of atoms.
+/// request. `on_structure` receives the atoms of a file of atoms.
 core::Scene load_seen(const std::string& scene, const SceneArguments& options, int threads = 0,
-                      Legend* legend = nullptr);
+                      const std::function<void(const Structure&)>& on_structure = {});
 
 /// Collective: returns the scene of a file, which `load` loads with a number of threads. Of several
 /// ranks on one host, the first loads it with the threads of all of them, and the others share its

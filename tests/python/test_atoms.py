@@ -317,9 +317,9 @@ def test_the_camera_and_the_frame_have_the_words_of_the_command_line(tmp_path):
     path = tmp_path / "walk.xyz"
     path.write_text("".join(f"2\n\nO {frame} 0 0\nC 0 {frame} 2\n" for frame in range(3)))
     scene = lambda **options: raylane.load(path, **options)
-    assert [scene(frames=frame).spheres().center[0, 0] for frame in (0, 1, 2, -1, -3)] == [0, 1, 2, 2, 0]
-    with pytest.raises(raylane.BadInput, match="^frames: must select some of the 3 frames that .* has"):
-        scene(frames=3)
+    assert [scene(frame=frame).spheres().center[0, 0] for frame in (0, 1, 2, -1, -3)] == [0, 1, 2, 2, 0]
+    with pytest.raises(raylane.BadInput, match="^frame: must select some of the 3 frames that .* has"):
+        scene(frame=3)
     assert scene(up="x").camera.up == scene(up=(1, 0, 0)).camera.up == scene(up=np.array([1, 0, 0])).camera.up == (1, 0, 0)
     with pytest.raises(raylane.BadInput, match="^up: must not be parallel to the direction of view$"):
         scene(view="front", up="z")

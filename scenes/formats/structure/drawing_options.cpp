@@ -159,7 +159,7 @@ std::string listed_name(const std::string& option) {
 
 void set_option(Drawing& drawing, const std::string& name, const std::string& text) {
     const std::string dashed = listed_name(name);
-    std::vector<std::string_view> names;
+    std::vector<std::string_view> names = {"atom-style", "frame"}; // of readers
     for (const auto& [known, set] : setters()) {
         if (known == dashed) return set(drawing, name, text);
         names.push_back(known);

@@ -3,16 +3,31 @@
 #include "scenes/files/input_file.hpp"
 #include "scenes/formats/structure/structure.hpp"
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace raylane::scenes {
+
+/// Python's start:stop:step; negative numbers count from the end.
+struct FrameRange {
+    std::optional<long> start{}, stop{};
+    long step = 1;       ///< > 0
+    bool is_one = false; ///< only the frame `start`
+
+    bool counts_from_end() const { return (start && *start < 0) || (stop && *stop < 0); }
+    /// Returns the same range counted from the start, for `count` frames.
+    FrameRange of(long count) const;
+};
 
 /// Options of readers.
 struct ReaderOptions {
     std::string atom_style; ///< of LAMMPS' data, as in the command atom_style, or empty
     OnRemark on_remark;
-    int frame = 0; ///< that read_structure() shows; negative: counted from the end
+    FrameRange frames = {}; ///< of which read_structure() shows the first one
+    /// Receives the frame that read_structure() shows.
+    std::function<void(const Structure&)> on_structure = {};
 };
 
 /// Reads a file's frames, one after the other.

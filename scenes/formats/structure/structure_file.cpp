@@ -2,6 +2,7 @@
 
 #include "core/scene/transfer.hpp"
 #include "scenes/files/errors.hpp"
+#include "scenes/formats/structure/frames.hpp"
 
 namespace raylane::scenes {
 
@@ -140,38 +141,10 @@ core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
 
 namespace {
 
-[[noreturn]] void refuse_frame(const InputFile& file, int count) {
-    throw BadInput("--frames", "",
-                   "must select some of the " + std::to_string(count) + " frames that " +
-                       printable(file.name(), 4096) + " has, numbered from 0, got none");
-}
-
-/// Returns the frame that the options select.
-Structure read_frame(InputFile& file, Format format, const ReaderOptions& options) {
-    Structure structure;
-    int wanted = options.frame;
-    if (wanted < 0) {
-        const std::unique_ptr<FrameReader> reader = open_structure(file, format, options);
-        int count = 0;
-        while (reader->next(structure))
-            ++count;
-        wanted += count;
-        if (wanted < 0) refuse_frame(file, count);
-        if (!file.rewind())
-            throw BadInput(file.name(), "",
-                           "must be a file, not a stream, for negative frame numbers");
-    }
-    const std::unique_ptr<FrameReader> reader = open_structure(file, format, options);
-    for (int read = 0; read <= wanted; ++read)
-        if (!reader->next(structure)) {
-            if (read == 0) throw BadInput(file.name(), "", "has no atoms");
-            refuse_frame(file, read);
-        }
-    if (structure.size() == 0)
-        throw BadInput(file.name(), "",
-                       "has no atoms in frame " + std::to_string(wanted) + "; \"--frames " +
-                           std::to_string(wanted + 1) + "\" selects the next one, if any");
-    return structure;
+Structure first_frame(InputFile& file, Format format, const ReaderOptions& options) {
+    Frames frames(file, format, options);
+    if (!frames.next()) throw BadInput("--frames", "", "must select at least one frame, got none");
+    return std::move(frames.structure());
 }
 
 } // namespace
@@ -182,7 +155,8 @@ core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& 
     builder.workers = workers;
     return of_file(file.name(), [&] {
         {
-            Structure structure = read_frame(file, format, options);
+            Structure structure = first_frame(file, format, options);
+            if (options.on_structure) options.on_structure(structure);
             draw_with(builder, structure, drawing, file.name(), legend, options.on_remark);
             if (legend != nullptr && legend->wants_atoms) legend->structure = std::move(structure);
         } // frees the structure before the hierarchy takes memory

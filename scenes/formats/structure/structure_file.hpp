@@ -36,7 +36,7 @@ core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
                            DrawingScale* scale = nullptr, const OnRemark& on_remark = {},
                            Legend* legend = nullptr);
 
-/// Returns the scene of one of a file's frames of atoms. `legend`, unless null, receives the
+/// Returns the scene of the first of the options' frames. `legend`, unless null, receives the
 /// meaning of its shapes. Throws BadInput, with the line, and SystemRefused.
 core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& options,
                            const Drawing& drawing, core::Workers* workers, Legend* legend);

@@ -8,8 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -70,40 +73,49 @@ Json names_where(const core::Features& features, bool wanted) {
     return names;
 }
 
-/// Returns the words and numbers that selections of atoms can use, or null without atoms.
+/// Returns the least and the largest finite number of a property, or null.
+Json range_of(const AtomProperty& property) {
+    float least = std::numeric_limits<float>::infinity(), most = -least;
+    for (const float number : property.values)
+        if (std::isfinite(number)) {
+            least = std::min(least, number);
+            most = std::max(most, number);
+        }
+    if (!(least <= most)) return nullptr;
+    return {
+        {"name", printable(property.name)}, {"min", as_printed(least)}, {"max", as_printed(most)}};
+}
+
+/// Returns the words and numbers that selections of atoms can use.
 Json atoms_of(const Structure& structure) {
-    if (structure.size() == 0) return nullptr;
-    std::map<std::string, std::size_t> elements, chains, residues;
+    std::map<std::string, std::size_t> elements, types, chains, residues;
     for (const std::uint16_t index : structure.kinds) {
         const AtomKind& kind = structure.of_kind[index];
-        ++elements[kind.element != 0 ? std::string(data_of(kind.element).symbol) : kind.label];
+        if (kind.element != 0)
+            ++elements[std::string(data_of(kind.element).symbol)];
+        else
+            ++types[kind.label];
     }
     for (const Residue& residue : structure.of_residue) {
         ++residues[residue.name];
-        ++chains[structure.chains[residue.chain]];
+        const std::string& chain = structure.chains[residue.chain];
+        if (!chain.empty()) ++chains[chain];
     }
     Json numbers = Json::array();
-    for (const AtomProperty& property : structure.properties) {
-        const auto [least, most] =
-            std::minmax_element(property.values.begin(), property.values.end());
-        numbers.push_back({{"name", printable(property.name)},
-                           {"min", as_printed(*least)},
-                           {"max", as_printed(*most)}});
-    }
+    for (const AtomProperty& property : structure.properties)
+        if (const Json range = range_of(property); !range.is_null()) numbers.push_back(range);
     const auto counts = [](const std::map<std::string, std::size_t>& of_name) {
         Json result = Json::object();
         for (const auto& [name, count] : of_name)
             result[printable(name)] = count;
         return result;
     };
-    return {{"count", structure.size()},
-            {"elements", counts(elements)},
-            {"chains", counts(chains)},
-            {"residues", counts(residues)},
-            {"numbers", numbers}};
+    return {{"count", structure.size()}, {"elements", counts(elements)}, {"types", counts(types)},
+            {"chains", counts(chains)},  {"residues", counts(residues)}, {"numbers", numbers}};
 }
 
-Json info_of(const std::string& name, const core::Scene& scene, const Structure& structure) {
+/// `atoms`: the result of atoms_of(), or null for a scene of other shapes.
+Json info_of(const std::string& name, const core::Scene& scene, const Json& atoms) {
     const core::Settings& settings = scene.settings();
     const core::Features features = features_of(scene, settings);
     const std::size_t film_bytes =
@@ -112,7 +124,7 @@ Json info_of(const std::string& name, const core::Scene& scene, const Structure&
             {"shapes", shape_counts(scene)},
             {"shape_count", scene.shape_count()},
             {"bounds", bounds_of(scene)},
-            {"atoms", atoms_of(structure)},
+            {"atoms", atoms},
             {"materials", scene.materials().size()},
             {"lights", scene.lights().size()},
             {"fog", text_of(scene.fog().kind)},
@@ -157,27 +169,41 @@ void line(const char* name, const std::string& value) {
     std::printf("%-10s %s\n", name, value.c_str());
 }
 
+/// Returns texts with commas between them, at most 40.
+std::string listed(const std::vector<std::string>& texts) {
+    constexpr std::size_t most = 40;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(texts.size(), most); ++i)
+        list.append(i == 0 ? "" : ", ").append(texts[i]);
+    if (texts.size() > most) list.append(" and " + std::to_string(texts.size() - most) + " more");
+    return list;
+}
+
 /// Returns "3 a, 2 b".
 std::string counted(const Json& counts) {
-    std::string text;
+    std::vector<std::string> texts;
     for (const auto& [name, count] : counts.items())
-        text.append(text.empty() ? "" : ", ").append(count.dump() + " " + name);
-    return text;
+        texts.push_back(count.dump() + " " + name);
+    return listed(texts);
 }
 
 void print_atoms(const Json& atoms) {
-    line("atoms", atoms["count"].dump() + ": " + counted(atoms["elements"]));
-    std::string chains, numbers;
+    std::vector<std::string> chains, numbers;
     for (const auto& [name, count] : atoms["chains"].items())
-        chains.append(chains.empty() ? "" : ", ")
-            .append(count.dump() + (count == 1 ? " residue in " : " residues in ") + name);
+        chains.push_back(count.dump() + (count == 1 ? " residue in " : " residues in ") + name);
     for (const Json& number : atoms["numbers"])
-        numbers.append(numbers.empty() ? "" : ", ")
-            .append(number["name"].get<std::string>() + " from " + number["min"].dump() + " to " +
-                    number["max"].dump());
-    if (!chains.empty()) line("chains", chains);
-    if (!atoms["residues"].empty()) line("residues", counted(atoms["residues"]));
-    if (!numbers.empty()) line("numbers", numbers);
+        numbers.push_back(number["name"].get<std::string>() + " from " +
+                          to_text(number["min"].get<float>()) + " to " +
+                          to_text(number["max"].get<float>()));
+    const auto line_unless_empty = [](const char* name, const std::string& text) {
+        if (!text.empty()) line(name, text);
+    };
+    line("atoms", atoms["count"].dump());
+    line_unless_empty("elements", counted(atoms["elements"]));
+    line_unless_empty("types", counted(atoms["types"]));
+    line_unless_empty("chains", listed(chains));
+    line_unless_empty("residues", counted(atoms["residues"]));
+    line_unless_empty("numbers", listed(numbers));
 }
 
 void print(const Json& info) {
@@ -218,9 +244,11 @@ void print(const Json& info) {
 }
 
 int info(const InfoArguments& arguments) {
-    Legend legend;
-    const core::Scene scene = load_seen(*arguments.scene, arguments.scene_arguments, 0, &legend);
-    const Json info = info_of(*arguments.scene, scene, legend.structure);
+    Json atoms; // null
+    const core::Scene scene =
+        load_seen(*arguments.scene, arguments.scene_arguments, 0,
+                  [&](const Structure& structure) { atoms = atoms_of(structure); });
+    const Json info = info_of(*arguments.scene, scene, atoms);
     if (arguments.json)
         std::printf("%s\n", info.dump(2).c_str());
     else

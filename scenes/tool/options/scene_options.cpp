@@ -5,6 +5,7 @@
 #include "scenes/formats/json/parameters.hpp"
 #include "scenes/formats/structure/colors.hpp"
 #include "scenes/formats/structure/drawing_options.hpp"
+#include "scenes/formats/structure/frames.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -45,21 +46,6 @@ std::optional<double> to_double(std::string_view word) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || !(std::abs(value) <= 1e30)) return std::nullopt;
     return value;
-}
-
-std::optional<FrameRange> frame_range_of(const std::string& text) {
-    const std::vector<std::string_view> parts = parts_of(text, ':');
-    std::optional<long> numbers[3];
-    if (parts.size() > 3) return std::nullopt;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (parts[i].empty()) continue;
-        const std::optional<int> number = to_int(parts[i]);
-        if (!number) return std::nullopt;
-        numbers[i] = *number;
-    }
-    const FrameRange range{numbers[0], numbers[1], numbers[2].value_or(1), parts.size() == 1};
-    if (range.step < 1 || (range.is_one && !range.start)) return std::nullopt;
-    return range;
 }
 
 std::optional<ParameterSweep> parameter_sweep_of(const std::string& text) {
@@ -197,7 +183,7 @@ LoadOptions SceneArguments::load_options() const {
         view.view->direction == core::Vec3f(0.0F)) // an edge of a cell
         options.option_for_atoms = view.view.name();
     if (frame && frame->frames) {
-        options.frame = static_cast<int>(frame->frames->start.value_or(0));
+        options.frames = *frame->frames;
         if (options.option_for_atoms.empty()) options.option_for_atoms = frame->frames.name();
     }
     if (drawing.slab && view.camera) throw BadInput("--slab", "", "goes without --camera");
@@ -205,26 +191,8 @@ LoadOptions SceneArguments::load_options() const {
     return options;
 }
 
-FrameRange FrameRange::of(long count) const {
-    const auto place = [&](std::optional<long> at) -> std::optional<long> {
-        if (!at || *at >= 0) return at;
-        return std::max(0L, *at + count);
-    };
-    FrameRange range{place(start), place(stop), step, is_one};
-    // A single frame before the first one does not exist.
-    if (is_one && *start < -count) range.start = std::numeric_limits<long>::max();
-    return range;
-}
-
 Values<FrameRange> frame_ranges() {
-    return {"WHICH", "", [](const std::string& option, const std::string& text) {
-                const std::optional<FrameRange> range = frame_range_of(text);
-                if (!range)
-                    refuse(option,
-                           "a number or START:STOP:STEP, such as 0:100:2, with a step from 1",
-                           text);
-                return *range;
-            }};
+    return {"WHICH", "", frame_range_of};
 }
 
 Values<Turn> turns() {

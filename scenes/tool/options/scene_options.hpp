@@ -37,17 +37,6 @@ struct VerbosityArguments : OptionTable {
 /// The heading in the help of options for several images.
 inline constexpr const char* group_of_several = "Parameters and sequences";
 
-/// Python's start:stop:step; negative numbers count from the end.
-struct FrameRange {
-    std::optional<long> start, stop;
-    long step = 1;       ///< > 0
-    bool is_one = false; ///< only the frame `start`
-
-    bool counts_from_end() const { return (start && *start < 0) || (stop && *stop < 0); }
-    /// Returns the same range counted from the start, for `count` frames.
-    FrameRange of(long count) const;
-};
-
 /// The images that an automatic camera and the ranges of colours are fitted to.
 enum class FitTo : std::uint8_t { first, all, each };
 
@@ -232,7 +221,8 @@ struct DrawingArguments : OptionTable {
         *this, "--select", word("WHICH").otherwise("all").recorded(),
         "Atoms to show: all, none, protein, nucleic, ligand, water, ion, metal, hetero, hydrogen, "
         "backbone, sidechain, helix, strand, chain A B, residue ALA 17 20-30, element C Fe, name "
-        "CA, type 1, index 1-100, x < 50, a number per atom in the file, such as b_factor < 30, within 5 of "
+        "CA, type 1, index 1-100, x < 50, a number per atom in the file, such as b_factor < 30, "
+        "within 5 of "
         "..., or byres ... Combine these by not, and, or and parentheses. PyMOL's and VMD's words "
         "for these are known, too."};
     ListOption<std::string> show = {

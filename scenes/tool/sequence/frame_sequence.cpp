@@ -373,7 +373,8 @@ std::optional<FrameSequence> requested_sequence(const RenderArguments& arguments
             // Replaces the progress line, which is drawn again afterwards.
             std::fprintf(stderr, is_terminal() ? "\r%s\x1B[K\n" : "%s\n", remark.c_str());
         };
-    sequence.source = range ? trajectory_of(*arguments.scene, options, *range)
+    if (range) options.frames = *range;
+    sequence.source = range ? trajectory_of(*arguments.scene, options)
                             : sweep_of(*arguments.scene, options, parameters.values());
     const std::size_t count = sequence.source->count();
     if (sequence.turn && count > 1 && count != sequence.turn->count)

@@ -37,8 +37,7 @@ class SceneSource {
 std::unique_ptr<SceneSource> sweep_of(const std::string& path, const LoadOptions& options,
                                       std::vector<std::map<std::string, double>> parameters);
 
-/// Returns a source of one scene for each frame of the range in a file of atoms.
-std::unique_ptr<SceneSource> trajectory_of(const std::string& path, const LoadOptions& options,
-                                           const FrameRange& range);
+/// Returns a source of one scene for each of the options' frames in a file of atoms.
+std::unique_ptr<SceneSource> trajectory_of(const std::string& path, const LoadOptions& options);
 
 } // namespace raylane::scenes

@@ -64,11 +64,19 @@ TEST_CASE("info lists the words and numbers for selections of atoms") {
     CHECK(atoms["residues"] == Json{{"HOH", 1}, {"LIG", 1}});
     CHECK(atoms["numbers"] == Json::array({{{"name", "charge"}, {"min", -0.5}, {"max", 0.75}}}));
     const Outcome text = fixture.run({"info", "a.xyz"});
-    for (const char* line :
-         {"atoms      3: 1 C, 1 H, 1 O\n", "chains     1 residue in A, 1 residue in B\n",
-          "residues   1 HOH, 1 LIG\n", "numbers    charge from -0.5 to 0.75\n"})
+    for (const char* line : {"atoms      3\n", "elements   1 C, 1 H, 1 O\n",
+                             "chains     1 residue in A, 1 residue in B\n",
+                             "residues   1 HOH, 1 LIG\n", "numbers    charge from -0.5 to 0.75\n"})
         CHECK(contains(text.out, line));
     CHECK(json_of(fixture.run({"info", "--json", "scene.json"}))["atoms"].is_null());
+    fixture.write("b.xyz", "2\nProperties=species:S:1:pos:R:3:q:R:1:p:R:1\n"
+                           "Zz 0 0 0 nan nan\nC 1 0 0 2 inf\n"); // p has no finite number
+    const Json others = json_of(fixture.run({"info", "--json", "b.xyz"}))["atoms"];
+    CHECK(others["elements"] == Json{{"C", 1}});
+    CHECK(others["types"] == Json{{"Zz", 1}});
+    CHECK(others["chains"].empty());
+    CHECK(others["numbers"] == Json::array({{{"name", "q"}, {"min", 2.0}, {"max", 2.0}}}));
+    CHECK(contains(fixture.run({"info", "b.xyz"}).out, "numbers    q from 2 to 2\n"));
 }
 
 TEST_CASE("info gives the extent of copies, and none of planes") {

@@ -264,7 +264,7 @@ RAYLANE_API Scene load(const std::filesystem::path& path, const OnRemark& on_rem
 /// value of a flag is "on" or "off". An option that has several values stands once for each of
 /// them. {"representations", VALUE} is the same as {"show", VALUE}, but messages number the values
 /// from 0: "representations/0: column 9: ...". {"cell", "on"} adds the edges of the unit cell.
-/// {"frames", "5"} is the number of a trajectory's frame, from 0, or from -1 backwards.
+/// {"frame", "5"} is the number of a trajectory's frame, from 0, or from -1 backwards.
 ///
 /// Annotations are options, too: render() puts them over images of the scene, or into an SVG file.
 /// {"legend", "on"}, {"legend_title", TEXT}, {"scale_bar", "auto" or a length in angstrom},

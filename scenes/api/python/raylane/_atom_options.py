@@ -39,6 +39,8 @@ def _text(name: str, value: Any) -> str:
 def _texts(representations: Sequence[str]) -> List[str]:
     if isinstance(representations, str):
         raise InvalidValue("representations", "must be a list of texts, got one text")
+    if not isinstance(representations, (list, tuple)):
+        raise InvalidValue("representations", f"must be a list of texts, got {representations!r:.40}")
     for index, text in enumerate(representations):
         if not isinstance(text, str):
             raise InvalidValue(f"representations/{index}", f"must be a text, got {text!r:.40}")
@@ -77,6 +79,10 @@ def atom_options(
 
 def _in_python(message: str) -> str:
     """Returns a message with the names of options in Python: hydrogen_bonds in place of --hydrogen-bonds."""
+    message = message.replace("--frames", "--frame")
+    suggestion = re.search(r'must be the name of an option, did you mean "(.*)"', message)
+    if suggestion:
+        message = message.replace(suggestion[1], suggestion[1].replace("-", "_"))
     return re.sub(r"(?<![\w-])--([a-z][a-z-]*)", lambda name: name[1].replace("-", "_"), message)
 
 

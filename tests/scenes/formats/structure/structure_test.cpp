@@ -391,7 +391,7 @@ TEST_CASE("a frame of a file is read by its number") {
     const auto x_in = [&](const std::string& frame) {
         raylane::scenes::Legend legend;
         LoadOptions options;
-        options.set_drawing({{"frames", frame}});
+        options.set_drawing({{"frame", frame}});
         options.legend = &legend;
         static_cast<void>(parse_scene("a.xyz", text, options));
         return legend.structure.positions.at(0).x;
@@ -406,9 +406,12 @@ TEST_CASE("a frame of a file is read by its number") {
         CHECK(error(outside) ==
               "--frames: must select some of the 3 frames that a.xyz has, numbered from 0, got "
               "none");
-    CHECK(error("0:2") ==
-          "frames: must be the number of a frame: 0 for the first one, -1 for the last, got "
-          "\"0:2\"");
+    CHECK(x_in("1:") == 1.0F);
+    CHECK(x_in("-9:") == 0.0F);
+    CHECK(error("1:1") == "--frames: must select at least one frame, got none");
+    CHECK(error("last") ==
+          "frame: must be a number or START:STOP:STEP, such as 0:100:2, with a step from 1, got "
+          "\"last\"");
 }
 
 TEST_CASE("options that cannot be rendered give an error of one line") {
