@@ -313,3 +313,19 @@ def test_orbit(birthday):
     assert picture.value != first
     around.value = 0.0
     assert picture.value == first
+
+
+def test_images_of_atoms_have_the_bits_of_the_tool_in_any_size(tmp_path):
+    tool = os.environ.get("RAYLANE_TOOL")
+    if not tool:
+        pytest.skip("RAYLANE_TOOL does not say where the tool is")
+    path = tmp_path / "a.xyz"
+    path.write_text("3\n\nO 0 0 0\nC 3 0 0\nN 6 1 2\n")
+    for width, height in ((40, 60), (80, 20), (48, 36)):
+        subprocess.run(
+            [tool, "render", path, "-o", tmp_path / "a.pfm", "--look", "print", "--zoom", "0.9", "--size", f"{width}x{height}"],
+            check=True,
+        )
+        ours = raylane.load(path, look="print", zoom=0.9).render(width=width, height=height)
+        ours.save(tmp_path / "b.pfm")
+        assert (tmp_path / "b.pfm").read_bytes() == (tmp_path / "a.pfm").read_bytes()

@@ -20,22 +20,41 @@ using library::translated;
 
 namespace {
 
-core::Settings settings_for(const Scene& scene, const RenderOptions& options) {
-    if (!options.settings) return library::Internals::of(scene).settings();
-    return converted<core::Settings>(*options.settings);
+/// Returns the result of f(). Names the settings in the errors that it throws.
+auto of_settings(const auto& f) {
+    try {
+        return f();
+    } catch (const core::InvalidValue& invalid) {
+        throw InvalidValue("settings/" + invalid.field, invalid.expectation);
+    }
 }
 
-simd::Rendering render_with(const Scene& scene, const core::Settings& settings,
+core::Settings settings_for(const Scene& scene, const RenderOptions& options) {
+    if (!options.settings) return library::Internals::of(scene).settings();
+    const auto settings = converted<core::Settings>(*options.settings);
+    of_settings([&] { core::validate(settings); });
+    return settings;
+}
+
+/// Returns the scene with an automatic camera placed for the proportions of an image.
+core::Scene placed_for(const core::Settings& settings, const Scene& scene) {
+    core::Scene result = library::Internals::of(scene);
+    const core::Settings& own = result.settings();
+    const bool is_similar =
+        std::int64_t{settings.width} * own.height == std::int64_t{own.width} * settings.height;
+    const core::AutoCamera auto_camera = result.auto_camera();
+    if (!auto_camera.fit_camera || is_similar) return result;
+    const core::View view = core::staged(result, auto_camera, settings);
+    return std::move(result).seen(auto_camera, view);
+}
+
+simd::Rendering render_with(const core::Scene& scene, const core::Settings& settings,
                             const simd::RenderOptions& options) {
     library::require_threads(options.threads);
     if (options.threads == 0)
         translated(
             [] { static_cast<void>(simd::default_threads()); }); // throws without "settings/"
-    try {
-        return simd::render(library::Internals::of(scene), settings, options);
-    } catch (const core::InvalidValue& invalid) {
-        throw InvalidValue("settings/" + invalid.field, invalid.expectation);
-    }
+    return of_settings([&] { return simd::render(scene, settings, options); });
 }
 
 simd::RenderOptions inner_options(const core::Settings& settings, const RenderOptions& options) {
@@ -57,22 +76,18 @@ simd::RenderOptions inner_options(const core::Settings& settings, const RenderOp
 }
 
 /// Returns a function that puts a scene's annotations over a film or into a file. It is empty for a
-/// scene without annotations.
-std::function<void(core::Film&)> annotating(const Scene& scene, const core::Settings& settings,
+/// scene without annotations. `placed`: the scene with its camera for the image.
+std::function<void(core::Film&)> annotating(const Scene& scene, const core::Scene& placed,
+                                            const core::Settings& settings,
                                             const std::optional<core::Region>& crop,
                                             const RenderOptions& options) {
     const auto& annotations = library::Internals::annotations_of(scene);
     if (annotations != nullptr &&
         (options.annotations.empty() || options.annotations.extension() == ".svg")) {
-        try {
-            core::validate(settings);
-        } catch (const core::InvalidValue& invalid) {
-            throw InvalidValue("settings/" + invalid.field, invalid.expectation);
-        }
         const core::Region part =
             crop.value_or(core::Region{0, 0, settings.width, settings.height});
-        return annotations->of_image(library::Internals::of(scene), settings, part,
-                                     options.annotations, options.on_remark);
+        return annotations->of_image(placed, settings, part, options.annotations,
+                                     options.on_remark);
     }
     if (options.annotations.empty()) return {};
     throw InvalidValue("annotations",
@@ -118,8 +133,9 @@ Tile tile_of(const core::Film& film, const core::Region& region) {
 Image render(const Scene& scene, const RenderOptions& options) {
     const core::Settings settings = settings_for(scene, options);
     const simd::RenderOptions inner = inner_options(settings, options);
-    const auto annotate = annotating(scene, settings, inner.crop, options);
-    simd::Rendering rendering = render_with(scene, settings, inner);
+    const core::Scene placed = placed_for(settings, scene);
+    const auto annotate = annotating(scene, placed, settings, inner.crop, options);
+    simd::Rendering rendering = render_with(placed, settings, inner);
     if (annotate) annotate(rendering.film);
     return image_of(std::move(rendering));
 }
@@ -129,7 +145,8 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
     if (!progress) return render(scene, options);
     const core::Settings settings = settings_for(scene, options);
     simd::RenderOptions inner = inner_options(settings, options);
-    const auto annotate = annotating(scene, settings, inner.crop, options);
+    const core::Scene placed = placed_for(settings, scene);
+    const auto annotate = annotating(scene, placed, settings, inner.crop, options);
     const core::Region drawn = simd::drawn_part(settings, inner.crop);
     const std::int64_t total = std::int64_t{drawn.x1 - drawn.x0} * (drawn.y1 - drawn.y0);
     simd::Progress made;
@@ -143,7 +160,7 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
         has_ended = !progress({made.pixels, total, made.rays, tile_of(tile.film, tile.region)});
         made.stop = made.abandon = has_ended;
     };
-    simd::Rendering rendering = render_with(scene, settings, inner);
+    simd::Rendering rendering = render_with(placed, settings, inner);
     if (!rendering.complete || has_ended) return std::nullopt;
     if (annotate) annotate(rendering.film);
     return image_of(std::move(rendering));

@@ -63,7 +63,8 @@ struct PixelRect {
 };
 
 struct RenderOptions {
-    std::optional<Settings> settings{}; ///< unset: the scene's settings
+    /// Unset: the scene's settings. For other proportions an automatic camera is placed again.
+    std::optional<Settings> settings{};
     int threads = 0; ///< maximum, 1 to 4096; 0: the value of RAYLANE_THREADS, or all processors
     Precision precision = Precision::exact;
     /// The part of the image to render. It has the same bits as in the whole image. Unset: all.

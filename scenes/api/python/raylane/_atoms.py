@@ -121,8 +121,9 @@ def from_atoms(
     number, True, or a list: ``color``, ``palette``, ``range``, ``radius``, ``scale``, ``select``, ``hide``, ``opacity``,
     ``repeat`` (``(2, 2, 1)``), ``axes``, ``boundary``, ``whole``, ``polyhedra`` (``"Ti opacity 0.6"``),
     ``hydrogen_bonds``, ``view`` (also ``"best"``, ``"a"``, ``"b"``, ``"c"``), ``up``, ``zoom``, ``depth_cue``,
-    ``perspective``, ``orthographic``, ``look``, ``background`` and ``slab`` (``(-2, 2)``). ``cut``: ``"z<middle"``, numbers ``(a, b, c, d)`` for a x + b y + c z <= d,
-    or a list of these. Files with displacements have ``ellipsoids``, ``ellipses``, ``octants`` and ``probability``, too.
+    ``perspective``, ``orthographic``, ``look``, ``background`` and ``slab`` (``(-2, 2)``). ``cut``: ``"z<middle"``,
+    numbers ``(a, b, c, d)`` for a x + b y + c z <= d, or a list of these. Outlines of a ``look`` are as thick on a larger
+    image. Files with displacements have ``ellipsoids``, ``ellipses``, ``octants`` and ``probability``, too.
 
     Annotations are options, too. Images of the scene have them, or an SVG file (``annotations`` of :func:`render`).
     ``labels``: texts such as ``"resn LIG: {resi}"``. ``distances``: texts such as ``"index 1: index 5"``. ``legend`` and
@@ -135,6 +136,8 @@ def from_atoms(
     ``"symbols/0"``, ``"positions/0/2"``, ``"cell/0/2"``, ``"names/0"``, ..., and :class:`BadInput` for a malformed
     representation, with its column, and for an unknown option.
     """
+    if "frame" in options:
+        raise InvalidValue("frame", "goes with load")
     if isinstance(symbols, (str, bytes)):  # the characters of "H2O" would count as elements, 2 as helium
         raise InvalidValue("symbols", f"must be a list of symbols or numbers, got {symbols[:40]!r}")
     words = [_symbol(symbol, index) for index, symbol in enumerate(symbols)]
@@ -166,7 +169,7 @@ def from_atoms(
         text.write(" ".join(row) + "\n")
     data = text.getvalue().encode()
     return read_atoms(
-        lambda texts, remarks: Scene(_raylane.parse_atoms(data, "atoms", texts, remarks)),
+        lambda texts, remarks: Scene(_raylane.parse_atoms(data, "atoms", texts, remarks), "look" in options),
         style,
         representations,
         {"cell_edges": edges_shown or None, **options},

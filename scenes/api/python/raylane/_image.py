@@ -22,7 +22,7 @@ from ._errors import InvalidValue, SystemRefused
 from ._fields import Fields, suggestion
 from ._renamed import renamed, take_renamed
 from ._scene import Scene, _warn, inner
-from ._values import Camera, Precision, Settings
+from ._values import Camera, Outline, Precision, Settings
 
 OnProgress = Callable[[int, int], Optional[bool]]
 """Called with the numbers of finished and of all pixels. Returning False cancels the rendering."""
@@ -223,7 +223,8 @@ def render(
 
     ``settings``: default is those of the scene. Further arguments change single settings: ``render(scene, width=800,
     height=600, grid=4)``. ``size``: both of ``width`` and ``height``, as (800, 600) or "800x600"; or on paper, as
-    "8.5cm", "85x60mm" or "3.3in", at ``dpi`` pixels per inch, 300 by default. Files of the image store ``dpi``.
+    "8.5cm", "85x60mm" or "3.3in", at ``dpi`` pixels per inch, 300 by default. Files of the image store ``dpi``. For
+    other proportions than those of the scene, an automatic camera is placed again.
     ``camera``: replaces the scene's (:meth:`Scene.seen_by`). ``threads``: maximum, 1 to 4096;
     0 is the value of RAYLANE_THREADS, or all processors. ``crop``: the part of the image to render, as x, y, width,
     height in pixels. ``aovs=True`` adds :class:`Aovs`. ``progress``: called from time to time with the numbers of
@@ -253,6 +254,8 @@ def render(
         known = [*vars(chosen), *inspect.signature(render).parameters]
         meant = suggestion(unknown[0], known)
         raise TypeError(f"{unknown[0]}: must be an argument of render or a setting{meant}") from None
+    if scene._has_look and settings is None and "outline" not in changed and isinstance(chosen.height, int):
+        chosen.outline = _scaled(chosen.outline, chosen.height, scene.settings.height)
     if camera is not None:
         scene = scene.seen_by(camera)
     bar = _bar() if progress is True else None
@@ -266,6 +269,12 @@ def render(
     if arrays is None:
         raise Cancelled
     return Image(arrays["rgb"], arrays["alpha"], Aovs(arrays) if aovs else None, chosen.transfer, dpi)
+
+
+def _scaled(outline: Outline, height: int, of_height: int) -> Outline:
+    """Returns an outline of images ``of_height`` pixels high for another height, as raylane render scales it."""
+    width = np.float32(outline.width) * np.float32(height) / np.float32(of_height)
+    return dataclasses.replace(outline, width=min(32.0, float(width)))
 
 
 _PIXELS = re.compile(r"(\d+)x(\d+)")

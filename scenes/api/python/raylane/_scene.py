@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 import warnings
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Sequence, Tuple, Union, overload
@@ -26,7 +27,11 @@ Ids = NDArray[np.uint32]
 
 
 def _warn(remark: str) -> None:
-    warnings.warn(remark, stacklevel=3)
+    """Warns at the line outside of this package that led here."""
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == os.path.dirname(__file__):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(remark, stacklevel=level)
 
 
 class Scene:
@@ -37,8 +42,9 @@ class Scene:
 
     _scene: _raylane.Scene
 
-    def __init__(self, scene: _raylane.Scene) -> None:
+    def __init__(self, scene: _raylane.Scene, has_look: bool = False) -> None:
         self._scene = scene
+        self._has_look = has_look  # whose outlines are as thick on a larger image
 
     @property
     def shape_count(self) -> int:
@@ -160,7 +166,7 @@ class Scene:
         """
         if isinstance(camera, (str, dict)):
             camera = Camera.from_json(camera)
-        return Scene(self._scene.seen_by(camera))
+        return Scene(self._scene.seen_by(camera), self._has_look)
 
     def with_positions(self, positions: ArrayLike) -> Scene:
         """Returns a scene whose spheres have moved; all else stays, such as their radii and ids.
@@ -172,7 +178,7 @@ class Scene:
         number of rows (field ``positions``), for an invalid coordinate (``positions/17/2``), and for a point light on
         a surface.
         """
-        return Scene(self._scene.with_positions(positions))
+        return Scene(self._scene.with_positions(positions), self._has_look)
 
     def camera_on_all(self, direction: Vector = (0.0, 0.0, -1.0), aspect: float = 1.0) -> Camera:
         """Returns a perspective camera that shows all bounded shapes as large as possible.
@@ -433,12 +439,16 @@ def load(
     for a malformed or missing file, in JSON with up to ten mistakes, and :class:`SystemRefused`.
 
     For files of atoms, ``style``, ``representations`` and the other options are those of :func:`from_atoms`, and
-    ``cell=True`` shows the edges of the cell. ``frames`` is the number of a trajectory's frame, from 0 or, for the last
-    one, -1. :class:`BadInput` also if the file is another scene.
+    ``cell=True`` shows the edges of the cell, and ``frame`` is the number of a trajectory's frame, from 0; -1 is the
+    last one. :class:`BadInput` also if the file is another scene.
     """
     name = os.fspath(path)
     return read_atoms(
-        lambda texts, remarks: Scene(_raylane.load(name, texts, remarks)), style, representations, options, on_remark
+        lambda texts, remarks: Scene(_raylane.load(name, texts, remarks), "look" in options),
+        style,
+        representations,
+        options,
+        on_remark,
     )
 
 

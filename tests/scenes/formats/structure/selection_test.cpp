@@ -94,6 +94,16 @@ TEST_CASE("words of PyMOL and VMD select the same atoms as raylane's") {
     }
 }
 
+TEST_CASE("a comparison is about a number of the file, also if that has the name of a selection") {
+    Structure structure = complex();
+    structure.properties.push_back({"helix", std::vector<float>(structure.size(), 0.5F)});
+    structure.properties.back().values[2] = 1.0F;
+    std::vector<std::string> unmatched;
+    const std::vector<char> selected = select_atoms(structure, "helix > 0.6", unmatched);
+    CHECK(std::count(selected.begin(), selected.end(), 1) == 1);
+    CHECK(selected[2] == 1);
+}
+
 TEST_CASE("resn takes names and resi takes numbers") {
     const auto complaint = [](const char* expression) {
         return raylane::tests::message_of<BadInput>([&] { selected(expression); });
