@@ -123,13 +123,14 @@ class Viewer {
         return [](const std::string& remark) { std::fprintf(stderr, "%s\n", remark.c_str()); };
     }
 
-    /// Loads the scene, its settings and its annotations.
+    /// Loads the scene, its settings and its annotations. Changes nothing if it throws.
     core::Scene loaded() {
         LoadOptions options = arguments_.scene_arguments.load_options();
         const auto result = std::make_shared<AnnotatedScene>();
         options.legend = &result->legend;
         core::Scene scene = load_with_progress(name_, std::move(options), verbosity_, threads_);
         if (annotations_.any()) result->composer.emplace(annotations_, result->legend, remarks());
+        static_cast<void>(settings_for(scene.settings(), 1, 1)); // may throw
         annotated_ = result;
         own_ = scene.settings();
         return scene;
@@ -146,10 +147,11 @@ class Viewer {
         };
     }
 
-    void set_size(int width, int height) {
-        settings_ = arguments_.setting.settings_of(
-            own_, {width, height}, arguments_.scene_arguments.drawing.look.is_given());
+    core::Settings settings_for(const core::Settings& own, int width, int height) const {
+        return arguments_.setting.settings_of(own, {width, height},
+                                              arguments_.scene_arguments.drawing.look.is_given());
     }
+    void set_size(int width, int height) { settings_ = settings_for(own_, width, height); }
 
     std::filesystem::file_time_type time_of_file() const {
         std::error_code unknown;

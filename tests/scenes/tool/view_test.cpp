@@ -126,6 +126,8 @@ TEST_CASE("a window shows the image of render and follows changes of the scene")
     for (const std::string color : {"[1, 0, 0]", "[0, 1, 0]"}) {
         CAPTURE(color);
         scene.replace(scene.find("\"color\": ["), 18, "\"color\": " + color);
+        if (color == "[0, 1, 0]") // settings of the file
+            scene.replace(1, 0, R"("outline": {"width": 1, "color": [0, 0, 1]},)");
         fixture.write("scene.json", scene);
         REQUIRE(fixture.run(joined(joined({"render"}, options), {"-o", "out/a.ppm"})).code == 0);
         const auto expected = pixels_of(fixture.output() / "a.ppm", size);
