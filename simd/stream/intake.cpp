@@ -4,6 +4,7 @@
 #include "simd/stream/starts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -209,16 +210,32 @@ template <class Real>
 void StreamIntake::start_on(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
     const Starts starts(scene_, shapes_.slots());
     constexpr std::size_t ahead = 16;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (i + 2 * ahead < count) starts.prefetch_slot(rays.origin_shape[i + 2 * ahead]);
-        if (i + ahead < count) starts.prefetch_sphere(rays.origin_shape[i + ahead]);
-        const std::size_t lane = to + i;
-        const std::uint32_t of_limits = paths_.origin_bits[lane];
-        if (!is_ray(lane) && is_refused(rays, i))
-            paths_.start_nowhere(lane, lane + 1);
-        else
-            starts.start(paths_, lane, rays, i);
-        paths_.origin_bits[lane] |= of_limits;
+    const bool fetches = scene_.is_large(); // otherwise all spheres are in the cache
+    LeftSpheres spheres;
+    std::array<std::uint32_t, LeftSpheres::size> slots{};
+    for (std::size_t first = 0; first < count; first += LeftSpheres::size) {
+        const std::size_t some = std::min(count - first, LeftSpheres::size);
+        for (std::size_t k = 0; k < some; ++k) {
+            const std::size_t i = first + k;
+            if (fetches && i + 2 * ahead < count)
+                starts.prefetch_slot(rays.origin_shape[i + 2 * ahead]);
+            if (fetches && i + ahead < count) starts.prefetch_sphere(rays.origin_shape[i + ahead]);
+            slots[k] = starts.find_sphere(rays, i, spheres, k);
+        }
+        const DepartureSides sides = kernels().find_sides(some, from(taken_, to + first), spheres,
+                                                          Starts::rounding_in<Real>);
+        for (std::size_t k = 0; k < some; ++k) {
+            const std::size_t i = first + k, lane = to + i;
+            const std::uint32_t of_limits = paths_.origin_bits[lane];
+            const bool inside = (sides.inside >> k & 1) != 0;
+            if (!is_ray(lane) && is_refused(rays, i))
+                paths_.start_nowhere(lane, lane + 1);
+            else if (!is_ray(lane) || slots[k] == no_slot ||
+                     (!inside && (sides.outside >> k & 1) == 0) ||
+                     !Starts::start_on_sphere(paths_, lane, rays, i, slots[k], inside))
+                starts.start_on_any(paths_, lane, rays, i);
+            paths_.origin_bits[lane] |= of_limits;
+        }
     }
 }
 

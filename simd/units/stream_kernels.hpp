@@ -88,11 +88,28 @@ struct LeftOver {
     std::size_t doubtful_count, unsharp_count;
 };
 
+/// The spheres that rays leave, by ray.
+struct LeftSpheres {
+    static constexpr std::size_t size = 64;
+
+    double center[3][size] = {}, radius[size] = {};
+};
+
+/// The sides of surfaces to which rays go, by ray as bit. Rays in neither are undecided.
+struct DepartureSides {
+    std::uint64_t outside = 0, inside = 0;
+};
+
 /// Kernels for streams of a caller's rays.
 struct StreamKernels {
     /// Takes rays in. Returns the number of invalid or empty ones.
     std::size_t (*take)(const RayStream<float>& rays, const StreamRays& taken);
     std::size_t (*take_doubles)(const RayStream<double>& rays, const StreamRays& taken);
+
+    /// Finds the sides to which rays go that leave spheres, by the operations of
+    /// core::clear_side_of_departure(). `count`: at most LeftSpheres::size.
+    DepartureSides (*find_sides)(std::size_t count, const StreamRays& rays,
+                                 const LeftSpheres& spheres, double share_of_size);
 
     /// Finds a property that all of the first `count` rays share. Returns false if they share none.
     /// `radius`: of the scene. `max_spread`: mean step between origins that have nothing else in

@@ -25,6 +25,39 @@ class CallerStream {
         return none;
     }
 
+    static DepartureSides find_sides(std::size_t count, const StreamRays& rays,
+                                     const LeftSpheres& spheres, double share_of_size) {
+        DepartureSides sides;
+        for (std::size_t i = 0; i < count; i += half) {
+            Vectors<D> offset, direction;
+            Number* const offsets[] = {&offset.x, &offset.y, &offset.z};
+            Number* const directions[] = {&direction.x, &direction.y, &direction.z};
+            for (int axis = 0; axis < 3; ++axis) {
+                *offsets[axis] = Number::load_unaligned(rays.origin[axis] + i) -
+                                 Number::load_unaligned(spheres.center[axis] + i);
+                *directions[axis] = Number::load_unaligned(rays.exact_direction[axis] + i);
+            }
+            const Number radius = Number::load_unaligned(spheres.radius + i);
+            const Number squared = radius * radius;
+            const auto sum = [](const Vectors<D>& a, const Vectors<D>& b, const auto& of) {
+                return of(a.x * b.x) + of(a.y * b.y) + of(a.z * b.z);
+            };
+            const auto same = [](const Number& term) { return term; };
+            const auto size_of = [](const Number& term) { return abs(term); };
+            const Number along = sum(offset, direction, same);
+            const Number size = sum(offset, direction, size_of);
+            // Directions have about length 1.
+            const Mask<D> clear =
+                (abs(sum(offset, offset, same) - squared) <= Number(share_of_size) * squared) &
+                (size > Number(0x1p-600)) & (abs(along) > Number(0x1p-45) * size);
+            const std::uint32_t decided = Lanes<D>::bits(clear & first_lanes(count - i));
+            const std::uint32_t outside = Lanes<D>::bits(along > zero<D>()) & decided;
+            sides.outside |= std::uint64_t{outside} << i;
+            sides.inside |= std::uint64_t{decided & ~outside} << i;
+        }
+        return sides;
+    }
+
     /// Finds the common properties of rays. Rays through one point or in one direction are coherent
     /// if consecutive ones are near each other. Rays that end at one point are always coherent, as
     /// they are sorted later. Rays that are only near each other are loosely coherent.
@@ -99,7 +132,7 @@ class CallerStream {
     }
 
     static constexpr StreamKernels table() {
-        return {take<float>, take<double>, find_coherence, hand_over};
+        return {take<float>, take<double>, find_sides, find_coherence, hand_over};
     }
 
   private:
