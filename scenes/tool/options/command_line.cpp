@@ -139,7 +139,9 @@ std::string unknown(const std::string& argument, const CLI::App& command) {
     const std::vector<std::string> known = option ? option_names(command) : command_names(command);
     const std::string near = suggestion(option ? option_name(argument) : argument,
                                         {known.begin(), known.end()}, option ? "--" : "");
-    return "unknown argument \"" + printable(argument) + '"' + near;
+    const bool is_part = !option && near.empty() && command.get_parent() != nullptr;
+    return "unknown argument \"" + printable(argument) + '"' +
+           (is_part ? "; values with spaces need quotes" : near);
 }
 
 /// Returns the option that CLI11 names at the start of its message: "--size: ...", "json was ...".
