@@ -137,7 +137,7 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
         {"depth-cue", setter_of(&Drawing::depth_cue, depth_cue_of)},
         {"background", setter_of(&Drawing::background,
                                  [](const std::string& option, const std::string& text) {
-                                     return background_of(option, text);
+                                     return named_color_of(option, text);
                                  })},
         {"perspective", setter_of(&Drawing::perspective, on_or_off_of)},
         {"orthographic",
@@ -240,8 +240,8 @@ std::optional<core::Vec3f> direction_in(const std::string& text) {
 
 } // namespace
 
-core::Color background_of(const std::string& option, const std::string& text,
-                          const std::string& others) {
+core::Color named_color_of(const std::string& option, const std::string& text,
+                           const std::string& others) {
     if (const std::optional<core::Color> parts = color_of_parts(text)) return *parts;
     const std::optional<std::uint32_t> code = color_named(text);
     if (!code)

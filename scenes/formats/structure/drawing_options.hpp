@@ -43,7 +43,7 @@ core::NamedView view_named(const std::string& option, const std::string& text);
 core::Vec3f upward_direction(const std::string& option, const std::string& text);
 /// A colour such as "black" or "#204060", or linear red, green and blue such as "0.1,0.2,0.3".
 /// `others`: words of other values, for messages.
-core::Color background_of(const std::string& option, const std::string& text,
-                          const std::string& others = "");
+core::Color named_color_of(const std::string& option, const std::string& text,
+                           const std::string& others = "");
 
 } // namespace raylane::scenes

@@ -2,6 +2,7 @@
 
 #include "core/scene/transfer.hpp"
 #include "scenes/files/number.hpp"
+#include "scenes/formats/structure/drawing_options.hpp"
 #include "scenes/images/exr.hpp"
 #include "scenes/tool/options/command_line.hpp"
 
@@ -64,11 +65,9 @@ Values<core::Region> crops() {
 
 Values<core::Color> colors() {
     const auto parse = [](const std::string& option, const std::string& text) {
-        const std::optional<core::Color> color = core::color_from_srgb(text);
-        if (!color) refuse(option, "#rrggbb, such as #204060", text);
-        return *color;
+        return named_color_of(option, text);
     };
-    return {"#RRGGBB", "", parse, [](const core::Color& color) { return text_of(color); }};
+    return {"COLOR", "", parse, [](const core::Color& color) { return text_of(color); }};
 }
 
 Values<double> bar_lengths() {

@@ -135,7 +135,7 @@ struct SettingArguments : OptionTable {
                 return rendered.settings.outline.any() &&
                        rendered.settings.outline.color != rendered.own.outline.color;
             }),
-        "Colour of the outlines."};
+        "Colour of the outlines, such as black or #204060."};
     Option<float> outline_creases = {
         *this, "--outline-creases",
         number(0.0F, 180.0F, "DEGREES")

@@ -145,7 +145,7 @@ Values<core::Camera> cameras() {
 Values<Background> backgrounds() {
     return {"COLOR", "", [](const std::string& option, const std::string& text) -> Background {
                 if (text == "none") return {};
-                return {background_of(option, text, "none or ")};
+                return {named_color_of(option, text, "none or ")};
             }};
 }
 

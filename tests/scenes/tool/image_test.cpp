@@ -56,7 +56,7 @@ TEST_CASE("outlines are rendered by the scene's settings or the command line's")
         REQUIRE(fixture.render("a.pfm", options).code == 0);
         return content_of(fixture.path() / "a.pfm");
     };
-    const Options asked = {"--outline", "2", "--outline-color", "#00ff00"};
+    const Options asked = {"--outline", "2", "--outline-color", "lime"};
     CHECK(bytes_of(with_outline, {}) == bytes_of(plain, asked));
     CHECK(bytes_of(with_outline, {}) != bytes_of(plain, {}));
     CHECK(bytes_of(with_outline, {"--outline", "0"}) == bytes_of(plain, {}));
@@ -123,8 +123,9 @@ TEST_CASE("options that an image cannot have give an error of one line") {
           "raylane: --dpi: must be a number from 1 to 10000, got \"0\"\n");
     CHECK(error_of(fixture, "a.png", {"--outline", "33"}) ==
           "raylane: --outline: must be a number from 0 to 32, got \"33\"\n");
-    CHECK(error_of(fixture, "a.png", {"--outline", "1", "--outline-color", "red"}) ==
-          "raylane: --outline-color: must be #rrggbb, such as #204060, got \"red\"\n");
+    CHECK(error_of(fixture, "a.png", {"--outline", "1", "--outline-color", "rde"}) ==
+          "raylane: --outline-color: must be a colour such as black, #204060 or 0.1,0.2,0.3, got "
+          "\"rde\", did you mean \"red\"?\n");
     CHECK(error_of(fixture, "a.png", {"--outline-color", "#ff0000"}) ==
           "raylane: --outline-color: goes with --outline\n");
 }
