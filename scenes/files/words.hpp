@@ -14,6 +14,9 @@ namespace raylane::scenes {
 [[noreturn]] void refuse(const std::string& option, const std::string& must,
                          const std::string& got);
 
+/// Returns a number from `least` to `most`. Throws BadInput.
+float number_between(const std::string& option, const std::string& text, float least, float most);
+
 /// Returns the parts of a text such as "1:2:3". There is at least one part; parts may be empty.
 std::vector<std::string_view> parts_of(std::string_view text, char separator);
 

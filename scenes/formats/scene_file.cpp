@@ -45,10 +45,8 @@ core::Scene read_format(InputFile& file, const LoadOptions& options) {
                        "has no parameter \"$" + printable(options.parameters.begin()->first) +
                            "\": only JSON scenes have parameters");
     if (is_structure(format))
-        return read_structure(
-            file, format,
-            {options.atom_style, options.on_remark, options.frames, options.on_structure},
-            options.drawing, options.workers, options.legend);
+        return read_structure(file, format, options.reader(), options.drawing, options.workers,
+                              options.legend);
     if (!options.option_for_atoms.empty())
         throw BadInput(options.option_for_atoms, "",
                        "goes with a file of atoms, but " + printable(file.name(), 4096) +

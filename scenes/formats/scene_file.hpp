@@ -30,6 +30,7 @@ struct LoadOptions {
     /// use is an error.
     std::map<std::string, double> parameters = {};
 
+    ReaderOptions reader() const { return {atom_style, on_remark, frames, on_structure}; }
     /// Sets the options of a drawing, the atom style, and the frame. Throws BadInput.
     void set_drawing(DrawingOptions given);
 };

@@ -70,17 +70,11 @@ float opacity_of(const std::string& option, const std::string& text) {
     if (!(value > 0.0F && value <= 1.0F)) refuse(option, "above 0 and at most 1", text);
     return value;
 }
-float number_between(float least, float most, const std::string& option, const std::string& text) {
-    const std::optional<float> number = to_float(text);
-    if (!number || !(*number >= least && *number <= most))
-        refuse(option, "a number from " + to_text(least) + " to " + to_text(most), text);
-    return *number;
-}
 float probability_of(const std::string& option, const std::string& text) {
-    return 0.01F * number_between(1.0F, 99.0F, option, text);
+    return 0.01F * number_between(option, text, 1.0F, 99.0F);
 }
 float depth_cue_of(const std::string& option, const std::string& text) {
-    return number_between(0.0F, 0.99F, option, text);
+    return number_between(option, text, 0.0F, 0.99F);
 }
 
 /// Adds a representation. Its messages name `option`.
@@ -132,7 +126,7 @@ const std::vector<std::pair<std::string_view, SetOption>>& setters() {
         {"up", setter_of(&Drawing::up, upward_direction)},
         {"zoom",
          [](Drawing& drawing, const std::string& option, const std::string& text) {
-             drawing.fit_camera.zoom = number_between(0.01F, 1000.0F, option, text);
+             drawing.fit_camera.zoom = number_between(option, text, 0.01F, 1000.0F);
          }},
         {"depth-cue", setter_of(&Drawing::depth_cue, depth_cue_of)},
         {"background", setter_of(&Drawing::background,

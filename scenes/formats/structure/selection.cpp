@@ -195,7 +195,7 @@ class Parser {
     Selected words() {
         const std::string_view given = word_;
         const std::string word = keyword_of(taken("a selection"));
-        if (is_any_word(word_, {"<", "<=", ">", ">=", "=", "=="})) return property(given);
+        if (is_comparison(word_)) return property(given);
         if (std::optional<Selected> named = named_selection(structure_, word))
             return *std::move(named);
         if (word == "chain") return chains();
@@ -411,10 +411,13 @@ class Parser {
                                       : suggestion(name, known)));
     }
 
+    static bool is_comparison(std::string_view word) {
+        return is_any_word(word, {"<", "<=", ">", ">=", "=", "=="});
+    }
     Selected property(std::string_view name) {
         const std::function<double(AtomIndex)> value_of = numbers_named(name);
         const std::string_view sign = taken("<, <=, >, >= or =");
-        if (!is_any_word(sign, {"<", "<=", ">", ">=", "=", "=="}))
+        if (!is_comparison(sign))
             fail_at(sign, "must have <, <=, >, >= or = behind it, got \"" + printable(sign) + "\"");
         const double bound = number("a number");
         return where(structure_, [&](AtomIndex i) {

@@ -167,11 +167,7 @@ Values<float> number(float least, float most, std::string type) {
     const bool is_open = most == std::numeric_limits<float>::max();
     return {std::move(type), to_text(least) + (is_open ? " or more" : " to " + to_text(most)),
             [=](const std::string& option, const std::string& text) {
-                const std::optional<float> value = to_float(text);
-                if (!value || *value < least || *value > most)
-                    refuse(option, "a number from " + to_text(least) + " to " + to_text(most),
-                           text);
-                return *value;
+                return number_between(option, text, least, most);
             },
             [](const float& value) { return to_text(value); }};
 }

@@ -222,8 +222,8 @@ struct DrawingArguments : OptionTable {
         "Atoms to show: all, none, protein, nucleic, ligand, water, ion, metal, hetero, hydrogen, "
         "backbone, sidechain, helix, strand, chain A B, residue ALA 17 20-30, element C Fe, name "
         "CA, type 1, index 1-100, x < 50, a number per atom in the file, such as b_factor < 30, "
-        "within 5 of "
-        "..., or byres ... Combine these by not, and, or and parentheses. PyMOL's and VMD's words "
+        "within 5 of ..., or byres ... Combine these by not, and, or and parentheses. PyMOL's and "
+        "VMD's words "
         "for these are known, too."};
     ListOption<std::string> show = {
         *this, "--show", drawing_words("WHICH:LOOK").recorded(),

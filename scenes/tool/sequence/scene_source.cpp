@@ -41,7 +41,7 @@ class Sweep : public SceneSource {
 class Trajectory : public SceneSource {
   public:
     Trajectory(const std::string& path, LoadOptions options)
-        : file_(path), options_(std::move(options)), frames_(file_, format(), reader_options()) {}
+        : file_(path), options_(std::move(options)), frames_(file_, format(), options_.reader()) {}
 
     std::optional<std::size_t> next() override { return frames_.next(); }
     core::Scene scene(Legend* legend) override {
@@ -70,9 +70,6 @@ class Trajectory : public SceneSource {
                            "goes with a file of atoms, but " + printable(file_.name(), 4096) +
                                " is a scene");
         return format;
-    }
-    ReaderOptions reader_options() const {
-        return {options_.atom_style, options_.on_remark, options_.frames, {}};
     }
 
     InputFile file_;

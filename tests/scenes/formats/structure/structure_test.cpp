@@ -254,7 +254,7 @@ TEST_CASE("a remark has the column of a name in a list that matches nothing") {
     CHECK(told == unmatched("chain A foo"));
 }
 
-TEST_CASE("a remark names what has no atoms to hide or to bind") {
+TEST_CASE("remarks name selections to hide and bonds that no atom has") {
     const auto told = [](const Drawing& drawing) {
         std::string text;
         draw_structure(peptide(), drawing, "a", nullptr, nullptr,
