@@ -60,16 +60,20 @@ class FirstSurfaces {
     };
 
     /// Reads one shape into all lanes; if `unclipped`, a quadric without its clipping.
-    struct Reader {
+    template <class Number>
+    struct ReaderOf {
         const double* numbers;
         bool unclipped = false;
         int row = 0;
-        Floats<C> next() {
+        Floats<Number> next() {
             constexpr int lower = 13, upper = 16; // rows of QuadricNumbers
             const int at = row++;
-            return Floats<C>(!unclipped || at < lower ? numbers[at] : at < upper ? -1e300 : 1e300);
+            return Floats<Number>(!unclipped || at < lower ? numbers[at]
+                                  : at < upper             ? -1e300
+                                                           : 1e300);
         }
     };
+    using Reader = ReaderOf<C>;
 
     /// Bound on the error of a comparison. The last digits of the sum of both errors and of the
     /// difference of both t are within the factor.
@@ -79,19 +83,23 @@ class FirstSurfaces {
         const std::uint32_t end = nodes_.node[root].end;
         for (std::uint32_t index = root; index < end; ++index)
             if (const SurfaceNode& node = nodes_.node[index]; node.numbers != nullptr)
-                with_solver<C>(node.kind, [&]<class Solver>() {
-                    cross<Solver>(node, lines_[index - root], best.doubt);
+                with_shape(node.kind, [&]<class Shape>() {
+                    cross<Shape>(node, lines_[index - root], best.doubt);
                 });
         for (std::uint32_t index = root; index < end; ++index)
             for (int which = 0; which < 2 && nodes_.node[index].slot != no_slot; ++which)
                 consider(root, index, which, best);
     }
 
-    template <class Solver>
+    template <class Shape>
     [[gnu::noinline]] void cross(const SurfaceNode& node, Line& line, M& doubt) const {
+        using Solver = typename ShapeKernels<Shape>::template Solver<C, false>;
+        using Certified = typename ShapeKernels<Shape>::template CertifiedSolver<D>;
         const Starts<D> starts = rays_.starts_on(node.id);
         if constexpr (std::is_base_of_v<SphereNumbers<C>, Solver>)
-            if (!any<D>(starts.on_surface)) return cross_sphere(node.numbers, line, doubt);
+            return cross_sphere(node.numbers, starts, line, doubt);
+        else if constexpr (requires { typename Certified::Through; })
+            if (go_through<Certified>(node.numbers, starts, line)) return;
         // A quadric's inside extends beyond its clipped surface.
         const Solver solver(Reader{node.numbers, node.is_part && node.kind == core::Kind::quadric});
         const Rays<C> rays = certified<D>(rays_.rays);
@@ -130,9 +138,9 @@ class FirstSurfaces {
 
     /// The spheres' crossings, with the bounds that SphereCertifiedSolver derives. They are those
     /// of unit directions, whose lengths and quotients err by a few ulps.
-    void cross_sphere(const double* numbers, Line& line, M& doubt) const {
+    void cross_sphere(const double* numbers, const Starts<D>& starts, Line& line, M& doubt) const {
         const Vectors<D> center = {F(numbers[0]), F(numbers[1]), F(numbers[2])};
-        const F radius(numbers[3]), o = zero<D>();
+        const F radius(numbers[3]);
         const Vectors<D> from_center = rays_.rays.origin - center;
         const F shift = negated(dot(from_center, rays_.unit));
         const Vectors<D> foot = mul_add<D>(shift, rays_.unit, from_center);
@@ -145,18 +153,45 @@ class FirstSurfaces {
         const F off = error_of(radius);
         const M meets = discriminant > off, passes = negated(discriminant) > error_of(size);
         const F root = sqrt(select(meets, discriminant, F(1.0)));
-        const F error = F(0x1p-45) * (abs(shift) + (radius + radius)) + off / root;
-        const F inverse = F(1.0) / rays_.length;
-        for (int which = 0; which < 2; ++which) {
-            const F t = (which == 0 ? shift - root : shift + root) * inverse;
-            line.counts[which] = line.exists[which] = meets;
-            line.t[which] = select(meets, t, F(__builtin_inf()));
-            line.error[which] =
-                select(meets, error * inverse * F(1.0 + 0x1p-48) + F(0x1p-48) * abs(t), o);
-            line.face[which] = o;
-        }
-        line.inside = none<D>();
-        doubt = doubt | ~(meets | passes);
+        const F H = abs(shift) + (radius + radius), error = F(0x1p-45) * H + off / root;
+        const M &on = starts.on_surface, is_near = foot_squared < F(2.0) * (radius * radius);
+        line.face[0] = line.face[1] = zero<D>();
+        doubt =
+            doubt | (on & starts.inward & ~is_near) | (~on & ~(meets | passes)) |
+            set(line, starts, meets, select(on, shift + shift, shift - root),
+                select(on, F(0x1p-49) * H + F(0x1p-45) * abs(shift), error), shift + root, error);
+    }
+
+    /// Returns false if a lane is in doubt.
+    template <class Certified>
+    bool go_through(const double* numbers, const Starts<D>& starts, Line& line) const {
+        const auto [first, second, misses] =
+            Certified(ReaderOf<D>{numbers}).through({rays_.rays.origin, rays_.unit}, starts);
+        const M meets = first.certain & second.certain, leaves = starts.on_surface & starts.inward;
+        line.face[0] = first.face;
+        line.face[1] = second.face;
+        const M doubt = (~starts.on_surface & ~(meets | misses)) | (leaves & ~first.certain);
+        return !any<D>(doubt |
+                       set(line, starts, meets, first.t, first.error, second.t, second.error));
+    }
+
+    /// Sets the crossings with a convex shape at t along the unit directions. Rays that start on
+    /// it have only the first one, if they go inward. Others have both if they meet it. Returns
+    /// true where the former crossing may be behind the start.
+    M set(Line& line, const Starts<D>& starts, const M& meets, const F& first, const F& first_error,
+          const F& second, const F& second_error) const {
+        const M leaves = starts.on_surface & starts.inward;
+        set(line, 0, leaves | (~starts.on_surface & meets), first, first_error);
+        set(line, 1, ~starts.on_surface & meets, second, second_error);
+        line.inside = leaves;
+        return leaves & ~(first > first_error);
+    }
+    void set(Line& line, int which, const M& exists, const F& t, const F& error) const {
+        const F inverse = F(1.0) / rays_.length, of_caller = t * inverse;
+        line.counts[which] = line.exists[which] = exists;
+        line.t[which] = select(exists, of_caller, F(__builtin_inf()));
+        line.error[which] = select(
+            exists, error * inverse * F(1.0 + 0x1p-48) + F(0x1p-48) * abs(of_caller), zero<D>());
     }
 
     void clip(const QuadricNumbers<C>& quadric, Line& line, M& doubt) const {

@@ -255,6 +255,22 @@ struct CappedCertifiedSolver {
         return result;
     }
 
+    /// Both crossings of lines, with t that may be negative and without normals. Each is
+    /// meaningful only where it is certain.
+    struct Through {
+        CertifiedCrossing<Arch> first;  ///< for rays that start on the surface, where they leave
+        CertifiedCrossing<Arch> second; ///< only for other rays
+        Mask<Arch> misses; ///< certainly no crossing ahead of the start; only for other rays
+    };
+    Through through(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const Line<Wanted::crossings> line(shape, rays);
+        Through result = {pass(line, starts.on_surface, starts), pass(line, all<Arch>(), starts),
+                          none<Arch>()};
+        const M uncertain = ~starts.on_surface & ~(result.first.certain & result.second.certain);
+        if (any<Arch>(uncertain)) result.misses = uncertain & passed(line);
+        return result;
+    }
+
   private:
     using F = Floats<Arch>;
     using M = Mask<Arch>;
@@ -274,7 +290,24 @@ struct CappedCertifiedSolver {
         };
         const M beyond = (is_beyond(in, true) & is_beyond(out, true)) |
                          (is_beyond(in, false) & is_beyond(out, false));
-        return line.has_no_root() | (known & (beyond | (out.t < negated(out.error))));
+        return line.has_no_root() | runs_beside(line) |
+               (known & (beyond | (out.t < negated(out.error))));
+    }
+
+    /// True where the line certainly stays outside of the body between the ends, as one along the
+    /// axis may. Halfway between them it is at s, and between them no more than way + error_s from
+    /// there: if the error of the height's slope is at most half of the slope, it at most doubles
+    /// the error that the height at `furthest` has, which height_error() allows for. If it is more
+    /// than half, error_s exceeds the distance from the axis at s, and nothing is claimed.
+    template <Wanted wanted>
+    static M runs_beside(const Line<wanted>& line) {
+        const F inverse = F(1.0) / line.height_slope, half = F(0.5) * line.axis_squared;
+        const F s = (half - line.height_start) * inverse, way = abs(half * inverse);
+        const F furthest = abs(s) + way;
+        const F error_s = line.height_error(furthest, zero<Arch>()) * abs(inverse);
+        const F speed = sum_of_sizes(line.across_direction) + F(0x1p-48);
+        const F nearest = line.widest + speed * (way + error_s) + line.local.error_at(s, 12.0);
+        return squared_length(line.across_at(s)) * F(1.0 - 0x1p-46) > nearest * nearest;
     }
 
     /// Not inlined, as it is seldom needed.

@@ -158,7 +158,8 @@ struct Bench {
 };
 
 /// With `lattice` the axis is a coordinate axis, parts have whole numbers, and many rays touch them
-/// or meet several at one point. Every third ray is off the axis by an ulp.
+/// or meet several at one point. Every third ray is off the axis by an ulp, and every third one is
+/// tilted.
 Bench any_bench(Random& random, bool lattice) {
     const core::Vec3f axis =
         lattice ? core::Vec3f(0, 0, 1)
@@ -203,6 +204,10 @@ Bench any_bench(Random& random, bool lattice) {
         if (i % 3 == 0) {
             float& nudged = ray.direction[random.integer(0, 2)];
             nudged = std::nextafter(nudged, random.integer(0, 1) != 0 ? 9.0F : -9.0F);
+        } else if (i % 3 == 1) {
+            const double tilt = std::ldexp(random.uniform(-1, 1), -random.integer(2, 20));
+            ray.direction +=
+                core::convert<float>(tilt * (random.integer(0, 1) != 0 ? across : beside));
         }
         bench.rays.push_back(ray);
     }
