@@ -219,17 +219,24 @@ void StreamWorker::mark_unanswered(const RayStream<Real>& rays, bool with_normal
 void StreamWorker::find_surfaces(bool with_normals) {
     const Hits& found = query_.hits();
     const std::size_t count = intake_.paths().count;
-    std::size_t hidden = 0;
+    const bool by_expressions = expressions_.any() && is_exact();
+    std::size_t asked = 0;
     for (std::size_t lane = 0; lane < count; ++lane)
-        if (found.slot[lane] != no_slot && !is_seen(lane)) {
+        if (found.slot[lane] != no_slot && !is_seen(lane, !by_expressions)) {
             found.hit[lane] |= hit_doubtful;
-            unsharp_[hidden++] = static_cast<std::uint32_t>(lane);
+            unsharp_[asked++] = static_cast<std::uint32_t>(lane);
         }
-    if (hidden == 0 || !expressions_.any() || !is_exact()) return;
+    if (asked == 0 || !by_expressions) return;
     Found those = found.found(intake_.paths(), 0, count);
     if (!with_normals) std::fill_n(those.normal, 3, nullptr);
     tracing_.method().refine.first_surfaces(expressions_.nodes(), those, found.slot, unsharp_,
-                                            hidden);
+                                            asked);
+    for (std::size_t k = 0; k < asked; ++k) {
+        const std::uint32_t lane = unsharp_[k];
+        if (found.slot[lane] == no_slot || (found.hit[lane] & hit_doubtful) == 0) continue;
+        found.hit[lane] &= ~hit_doubtful;
+        if (!is_seen(lane, true)) found.hit[lane] |= hit_doubtful;
+    }
 }
 
 StreamWorker::Columns::Taken StreamWorker::Columns::take(std::size_t count,
@@ -355,14 +362,15 @@ std::uint8_t StreamWorker::is_occluded(const LoneRay& ray) {
 }
 
 /// Returns true if the lane's hit is visible from the ray's side, and its shape alone answers the
-/// ray: a part of a solid must be a surface of it there, and not reversed.
-bool StreamWorker::is_seen(std::size_t lane) {
+/// ray: a part of a solid must be a surface of it there, and not reversed, or counts as unseen
+/// if not `on_solids`.
+bool StreamWorker::is_seen(std::size_t lane, bool on_solids) {
     const Hits& found = query_.hits();
     const SceneData::ShapeRecord shape = scene_.record_of(found.slot[lane]);
     const core::Scene& scene = scene_.scene();
     if (!scene.materials()[shape.material].is_seen(shape.is_entered(found.hit[lane]))) return false;
     return !scene.solids().has(shape.id) ||
-           (!shape.reversed &&
+           (on_solids && !shape.reversed &&
             solid_surfaces_.is_surface(
                 {ray_of(intake_.paths(), lane), origin_surfaces_of(scene_, intake_.paths(), lane)},
                 hit_at(lane)));

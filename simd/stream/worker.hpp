@@ -70,7 +70,7 @@ class StreamWorker {
     std::uint8_t is_occluded(const LoneRay& ray);
 
     core::Hit<double> hit_at(std::size_t lane) const;
-    bool is_seen(std::size_t lane);
+    bool is_seen(std::size_t lane, bool on_solids);
     bool is_before_t_max(std::size_t lane, const LoneRay& ray) const;
     float t_at(std::size_t lane, const LoneRay& ray) const;
     Widened widen(std::span<const std::uint32_t> lanes, bool with_normals) const;

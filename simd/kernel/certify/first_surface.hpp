@@ -305,7 +305,7 @@ class FirstSurfaces {
                             entering = Lanes<D>::bits(best.entering);
         for (std::size_t lane = 0; lane < count; ++lane) {
             const std::uint32_t ray = lanes[lane];
-            found_.hit[ray] = hit_doubtful;
+            found_.hit[ray] |= hit_doubtful;
             if ((is_miss >> lane & 1) != 0) slot_[ray] = no_slot;
             if ((is_hit >> lane & 1) == 0) continue;
             const SurfaceNode& shape = nodes_.node[static_cast<std::uint32_t>(node[lane])];
