@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/shapes/clear_departure.hpp"
 #include "core/shapes/shapes.hpp"
 
 #include <algorithm>
@@ -27,8 +28,12 @@ namespace detail {
 template <class Shape>
 double distance_from(const Shape& shape, const Vec3d& point, Face face, const Vec3d& normal) {
     constexpr Kind kind = kind_of<Shape>;
+    const auto per_length = [&](double value) { // squares of tiny normals underflow
+        const double largest = largest_component(normal);
+        return std::abs(value) / largest / length(normal / largest);
+    };
     const auto from_plane = [&](const Vec3d& on_plane) {
-        return std::abs(dot(normal, point - on_plane)) / length(normal);
+        return per_length(dot(normal, point - on_plane));
     };
     if constexpr (kind == Kind::box) {
         const Vec3d edges[] = {shape.edge_u, shape.edge_v, shape.edge_w};
@@ -49,7 +54,7 @@ double distance_from(const Shape& shape, const Vec3d& point, Face face, const Ve
         return std::abs(length(offset_from_axis(shape.base, shape.axis, point)) - radius);
     } else {
         // The form's gradient is once or twice the normal.
-        return std::abs(forms_at(shape, point)[0]) / length(normal);
+        return per_length(forms_at(shape, point)[0]);
     }
 }
 
@@ -138,62 +143,6 @@ template <class Shape>
 int side_of_departure(const Shape& shape, const Ray<double>& ray, Face face) {
     const std::optional<int> side = detail::side_in<Bounded<double>>(shape, ray, face);
     return side ? *side : *detail::side_in<Dyadic>(shape, ray, face);
-}
-
-/// Returns side_of_departure() of a ray that may_start_on() a shape, if both are decided by few
-/// operations, as for most rays from spheres and from the sides of cylinders and cones. Otherwise
-/// returns 0. Uses no FMA: processors without it would call a function for each.
-template <class Shape>
-int clear_side_of_departure(const Shape& shape, const Ray<double>& ray, Face face,
-                            double share_of_size) {
-    constexpr Kind kind = kind_of<Shape>;
-    if constexpr (kind == Kind::sphere || requires { shape.axis; }) {
-        const auto product = [](const Vec3d& a, const Vec3d& b) {
-            return a.x * b.x + a.y * b.y + a.z * b.z;
-        };
-        const auto sizes = [](const Vec3d& a, const Vec3d& b) {
-            return std::abs(a.x * b.x) + std::abs(a.y * b.y) + std::abs(a.z * b.z);
-        };
-        const Vec3d& d = ray.direction;
-        Vec3d normal, offset; // offset: from the centre or the axis
-        double size = 0.0;    // that of the terms of dot(normal, d)
-        double radius = 0.0;
-        if constexpr (kind == Kind::sphere) {
-            offset = normal = ray.origin - convert<double>(shape.center);
-            size = sizes(normal, d);
-            radius = static_cast<double>(shape.radius);
-        } else {
-            const Vec3d axis = convert<double>(shape.axis);
-            const Vec3d from_base = ray.origin - convert<double>(shape.base);
-            const double axis_squared = product(axis, axis);
-            const double height = product(from_base, axis) / axis_squared;
-            if (face != body || !(height >= 0.0 && height <= 1.0)) return 0;
-            const double height_size = sizes(from_base, axis) / axis_squared;
-            offset = normal = from_base - height * axis;
-            size = sizes(from_base, d) + height_size * sizes(axis, d);
-            if constexpr (requires { shape.radius; }) {
-                radius = static_cast<double>(shape.radius);
-            } else {
-                const auto base_radius = static_cast<double>(shape.base_radius);
-                const double growth = static_cast<double>(shape.top_radius) - base_radius;
-                const double slope = growth / axis_squared;
-                radius = base_radius + height * growth;
-                normal = offset - radius * slope * axis;
-                size += (base_radius + height_size * std::abs(growth)) * std::abs(slope) *
-                        sizes(axis, d);
-            }
-        }
-        if (!(std::abs(product(offset, offset) - radius * radius) <=
-              share_of_size * (radius * radius)))
-            return 0;
-        // At most 40 roundings, each by 2^-53 of `size`. Underflow is far below that.
-        const double along = product(normal, d);
-        const double most = largest_component(d);
-        if (most > 0x1p-300 && most < 0x1p400 && size > 0x1p-600 * most &&
-            std::abs(along) > 0x1p-45 * size)
-            return along > 0.0 ? 1 : -1;
-    }
-    return 0;
 }
 
 /// Returns the side of a face to which a ray goes at an angle that rounding of its origin does not
