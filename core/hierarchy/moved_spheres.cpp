@@ -156,33 +156,47 @@ class SphereMover {
                 id != no_shape && !shapes_.solids.has(id))
                 __builtin_prefetch(at(id));
         const bool has_doubles = !blocks.doubles.empty();
-        if (has_doubles) blocks.doubles[index] = {};
         Block<Sphere> block;
+        DoubleBlock<Sphere> exact;
         Bounds moved_bounds;
+        WidenedBounds of_doubles;
         for (std::uint8_t lane = 0; lane < block_size; ++lane) {
             const Place place{index, lane};
             const ShapeId id = table_.id(place);
             if (id == no_shape) break;
-            const Bounds* const of_part = shapes_.solids.bounds_of(id);
-            if (has_doubles || of_part != nullptr || table_.is_packed()) {
-                InDouble<Sphere> sphere = table_.get(place);
-                if (of_part == nullptr) sphere = moved(id, sphere.radius);
+            if (const Bounds* const of_part = shapes_.solids.bounds_of(id); of_part != nullptr) {
+                const InDouble<Sphere> sphere = table_.get(place);
                 block.set(lane, to_floats(sphere), id);
-                if (has_doubles) blocks.doubles[index].set(lane, sphere);
-                moved_bounds.include(of_part != nullptr ? *of_part
-                                     : has_doubles      ? bounds_of(sphere)
-                                                        : bounds_of(to_floats(sphere)));
-            } else {
-                const Number* const center = at(id);
-                const Sphere sphere{{static_cast<float>(center[0]), static_cast<float>(center[1]),
-                                     static_cast<float>(center[2])},
-                                    table_.plain_blocks()[index].values[3][lane]};
-                block.set(lane, sphere, id);
-                moved_bounds.include(bounds_of(sphere));
+                exact.set(lane, sphere);
+                moved_bounds.include(*of_part);
+                continue;
             }
+            const Number* const center = at(id);
+            const InDouble<Sphere> sphere{{center[0], center[1], center[2]}, radius_at(place)};
+            const Sphere rounded{{static_cast<float>(center[0]), static_cast<float>(center[1]),
+                                  static_cast<float>(center[2])},
+                                 static_cast<float>(sphere.radius)};
+            block.set(lane, rounded, id);
+            if (has_doubles) {
+                exact.set(lane, sphere);
+                of_doubles.include(sphere.center, Vec3d(sphere.radius), absolute(sphere.center));
+            } else {
+                moved_bounds.include(bounds_of(rounded));
+            }
+        }
+        if (has_doubles) {
+            moved_bounds.include(of_doubles.rounded());
+            blocks.doubles[index] = exact;
         }
         blocks.floats[index] = block;
         bounds[index] = moved_bounds;
+    }
+
+    double radius_at(Place place) const {
+        constexpr int radius = 3;
+        if (table_.is_packed()) return table_.get(place).radius;
+        if (table_.has_doubles()) return table_.doubles()[place.block].values[radius][place.lane];
+        return static_cast<double>(table_.plain_blocks()[place.block].values[radius][place.lane]);
     }
 
     std::span<const Number> coordinates_;

@@ -6,9 +6,6 @@ namespace raylane::core {
 
 namespace {
 
-/// Twice the error of a handful of operations in double, relative to their largest operand.
-constexpr double slack = 0x1p-48;
-
 float rounded_down(double value) {
     const auto nearest = static_cast<float>(value);
     return static_cast<double>(nearest) <= value
@@ -22,14 +19,19 @@ float rounded_up(double value) {
 
 } // namespace
 
-Bounds bounds_around(const Vec3d& center, const Vec3d& extent, const Vec3d& magnitude) {
+Bounds WidenedBounds::rounded() const {
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
-        const double reach = extent[axis] + slack * (extent[axis] + magnitude[axis]);
-        bounds.lower[axis] = rounded_down(center[axis] - reach);
-        bounds.upper[axis] = rounded_up(center[axis] + reach);
+        bounds.lower[axis] = rounded_down(lower_[axis]);
+        bounds.upper[axis] = rounded_up(upper_[axis]);
     }
     return bounds;
+}
+
+Bounds bounds_around(const Vec3d& center, const Vec3d& extent, const Vec3d& magnitude) {
+    WidenedBounds bounds;
+    bounds.include(center, extent, magnitude);
+    return bounds.rounded();
 }
 
 /// Along coordinate i, the extent of a disc is radius * sin(angle between axis and i).

@@ -61,14 +61,32 @@ inline bool is_finite(const Bounds& bounds) {
     return true;
 }
 
-/// Returns [center - extent, center + extent], rounded outwards. Both may have the error of a
-/// handful of roundings in double of numbers up to `magnitude`. The bounds of all shapes are
-/// rounded outwards.
-Bounds bounds_around(const Vec3d& center, const Vec3d& extent, const Vec3d& magnitude);
-
 inline Vec3d absolute(const Vec3d& v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
+
+/// The bounds of several ranges in double, rounded outwards at the end. The bounds of all shapes
+/// are rounded outwards.
+class WidenedBounds {
+  public:
+    /// Includes [center - extent, center + extent]. Both may have the error of a handful of
+    /// roundings in double of numbers up to `magnitude`.
+    void include(const Vec3d& center, const Vec3d& extent, const Vec3d& magnitude) {
+        constexpr double slack = 0x1p-48; // twice the error, relative to the largest operand
+        for (int axis = 0; axis < 3; ++axis) {
+            const double reach = extent[axis] + slack * (extent[axis] + magnitude[axis]);
+            lower_[axis] = std::min(lower_[axis], center[axis] - reach);
+            upper_[axis] = std::max(upper_[axis], center[axis] + reach);
+        }
+    }
+    Bounds rounded() const;
+
+  private:
+    Vec3d lower_{std::numeric_limits<double>::infinity()};
+    Vec3d upper_{-std::numeric_limits<double>::infinity()};
+};
+/// Returns the WidenedBounds of one range.
+Bounds bounds_around(const Vec3d& center, const Vec3d& extent, const Vec3d& magnitude);
 
 /// Returns the bounds of the disc about base + at * axis, perpendicular to the axis.
 Bounds disc_bounds(const Vec3d& base, const Vec3d& axis, double at, double radius);
