@@ -393,9 +393,10 @@ core::Place SceneData::place_of(std::uint32_t slot) const {
     return {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)};
 }
 
-std::vector<std::uint32_t> SceneData::slots_by_id() const {
+core::BigArray<std::uint32_t> SceneData::slots_by_id() const {
     const core::MaterialIndices& ids = scene_.material_indices();
-    std::vector<std::uint32_t> slots(ids.stored_count(), no_slot);
+    core::BigArray<std::uint32_t> slots(ids.stored_count());
+    std::fill(slots.begin(), slots.end(), no_slot);
     for (const TableView& table : view_.tables)
         for (std::uint32_t i = 0; i < core::block_size * table.block_count; ++i) {
             const core::ShapeId id = find_record(table.first_slot + i).id;

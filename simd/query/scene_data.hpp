@@ -136,7 +136,7 @@ class SceneData {
     std::uint32_t slot_of(core::Kind kind, core::Place place) const;
     /// Returns the slots of all shapes but those of copies, in the order of ids. Duplicates other
     /// than the first have no_slot.
-    std::vector<std::uint32_t> slots_by_id() const;
+    core::BigArray<std::uint32_t> slots_by_id() const;
     /// Returns the slot of a shape of a copy, from that in the prototype, and makes its block.
     std::uint32_t slot_in_copy(const core::Copies::Copy& copy, std::uint32_t slot) const;
 

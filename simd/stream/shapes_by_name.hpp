@@ -41,8 +41,8 @@ class SlotsByName {
     }
 
     const SceneData& scene_;
-    std::vector<std::uint32_t> slots_;
-    std::vector<std::vector<std::uint32_t>> of_prototypes_;
+    core::BigArray<std::uint32_t> slots_;
+    std::vector<core::BigArray<std::uint32_t>> of_prototypes_;
 };
 
 /// Makes the slots by name when the first ray names a shape. Any number of threads may call it at a
