@@ -14,14 +14,19 @@ void put(float* to, const core::Vec3f& v) {
         to[axis] = v[axis];
 }
 
-/// The buffers of one geometry of `count` shapes, which Embree owns.
+/// The buffers of one geometry of `count` shapes: in huge pages, which Embree's own are not.
 template <class Shape>
 class Buffers {
   public:
-    Buffers(RTCGeometry geometry, std::size_t count) {
+    /// Adds the memory to `keeper`, which has to exist as long as the geometry.
+    Buffers(RTCGeometry geometry, std::size_t count,
+            std::vector<core::BigArray<std::byte>>& keeper) {
         const auto make = [&](RTCBufferType buffer, RTCFormat format, std::size_t stride,
-                              std::size_t items) {
-            return rtcSetNewGeometryBuffer(geometry, buffer, 0, format, stride, items);
+                              std::size_t items) -> void* {
+            constexpr std::size_t padding = 16; // Embree reads whole registers
+            std::byte* const memory = keeper.emplace_back(stride * items + padding).data();
+            rtcSetSharedGeometryBuffer(geometry, buffer, 0, format, memory, 0, stride, items);
+            return memory;
         };
         const auto vertices = [&](RTCFormat format, std::size_t stride, std::size_t items) {
             return static_cast<float*>(make(RTC_BUFFER_TYPE_VERTEX, format, stride, items));
@@ -102,11 +107,13 @@ EmbreeScene::EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFla
         if constexpr (embree_has<Shape>) {
             if (table.size() == 0) return;
             RTCGeometry geometry = rtcNewGeometry(device, geometry_type<Shape>);
-            const Buffers<Shape> buffers(geometry, table.size());
-            std::vector<core::ShapeId>& ids = ids_.emplace_back();
-            for (const auto& [id, place] : places_by_id(table)) {
-                buffers.set(static_cast<unsigned>(ids.size()), core::to_floats(table.get(place)));
-                ids.push_back(id);
+            const auto places = places_by_id(table); // none of duplicates
+            const Buffers<Shape> buffers(geometry, places.size(), buffers_);
+            core::BigArray<core::ShapeId>& ids = ids_.emplace_back(places.size());
+            unsigned primitive = 0;
+            for (const auto& [id, place] : places) {
+                ids[primitive] = id;
+                buffers.set(primitive++, core::to_floats(table.get(place)));
             }
             rtcSetGeometryBuildQuality(geometry, quality);
             rtcCommitGeometry(geometry);

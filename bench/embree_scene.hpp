@@ -2,8 +2,10 @@
 
 #include "bench/embree.hpp"
 #include "core/scene/scene.hpp"
+#include "core/shapes/big_array.hpp"
 #include "simd/isa/isa.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <pmmintrin.h>
 #include <vector>
@@ -69,7 +71,7 @@ class EmbreeScene {
     void commit() { rtcCommitScene(scene_.get()); }
 
     /// Returns the shapes of a geometry, by primitive.
-    const std::vector<core::ShapeId>& shapes(unsigned geometry) const { return ids_[geometry]; }
+    const core::BigArray<core::ShapeId>& shapes(unsigned geometry) const { return ids_[geometry]; }
     std::size_t geometry_count() const { return ids_.size(); }
     /// Returns the shape that has been hit, or no_shape.
     core::ShapeId shape(unsigned geometry, unsigned primitive) const {
@@ -80,8 +82,9 @@ class EmbreeScene {
     struct Deleter {
         void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
     };
+    std::vector<core::BigArray<std::byte>> buffers_; // of the geometries
     std::unique_ptr<std::remove_pointer_t<RTCScene>, Deleter> scene_;
-    std::vector<std::vector<core::ShapeId>> ids_; // by geometry and primitive
+    std::vector<core::BigArray<core::ShapeId>> ids_; // by geometry and primitive
 };
 
 } // namespace raylane::bench
