@@ -171,11 +171,8 @@ class SphereMover {
                 moved_bounds.include(*of_part);
                 continue;
             }
-            const Number* const center = at(id);
-            const InDouble<Sphere> sphere{{center[0], center[1], center[2]}, radius_at(place)};
-            const Sphere rounded{{static_cast<float>(center[0]), static_cast<float>(center[1]),
-                                  static_cast<float>(center[2])},
-                                 static_cast<float>(sphere.radius)};
+            const InDouble<Sphere> sphere = moved(id, radius_at(place));
+            const Sphere rounded{convert<float>(sphere.center), static_cast<float>(sphere.radius)};
             block.set(lane, rounded, id);
             if (has_doubles) {
                 exact.set(lane, sphere);

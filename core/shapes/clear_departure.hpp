@@ -101,7 +101,7 @@ inline int clear_side_of_ball(const Vec3d& offset, double radius, const Ray<doub
 /// Returns the same for the side of a cylinder or cone.
 template <class Shape>
 int clear_side_of_body(const Shape& shape, const Ray<double>& ray, double share) {
-    const Vec3d &d = ray.direction, axis = convert<double>(shape.axis);
+    const Vec3d axis = convert<double>(shape.axis);
     const Vec3d from_base = ray.origin - convert<double>(shape.base);
     const double axis_squared = product(axis, axis);
     const double height = product(from_base, axis) / axis_squared;
@@ -127,7 +127,7 @@ int clear_side_of_body(const Shape& shape, const Ray<double>& ray, double share)
     const bool is_near =
         radius_squared > 0x1p-900 &&
         std::abs(product(offset, offset) - radius_squared) <= share * radius_squared;
-    return is_near ? clear_side(normal, d) : 0;
+    return is_near ? clear_side(normal, ray.direction) : 0;
 }
 
 /// With m = to_ball(p) of ToBall, a start is near if |m|^2 is off by half a share of the squared
